@@ -139,10 +139,13 @@ inline void sum_at_next_node(const LocalSystem<Shape>& local, StepWork<Shape>& w
   add_product(sums, block(work.of_dependent), work.dependent(shape), {shape.node_sums, N, n});
 }
 
-/// Z and the next state as linear functions of (w, X, 1).
-inline void make_transition(const LocalSystem<Shape>& local, StepWork<Shape>& work) {
+/// Z and the next state as linear functions of (w, X, 1). The next state is made in the record where it stands there as
+/// it is.
+inline void make_transition(const LocalSystem<Shape>& local, StepWork<Shape>& work, Lanes* record) {
   const Shape& shape = local.shape;
   const auto [n, Z, X, w, N] = sizes_of(shape);
+  const MatrixView<Lanes> recorded = view(record, RecordBlocks<Shape>{shape}.transition());
+  work.transition = shape.global == 0 ? block(recorded) : block(work.whole_transition);
   const Lanes zero{};
   const Lanes one = Lanes::all(1.0);
   const Block dependent = work.dependent(shape);
@@ -288,6 +291,21 @@ inline void advance(const Shape& shape, const Lanes::Mask* active, StepWork<Shap
   }
 }
 
+/// w = -(gain)(X, 1, ν): L⁻ᵀ applied to what `factorise_free` left.
+inline void store_gain(const Shape& shape, StepWork<Shape>& work, const MatrixView<Lanes>& gain) {
+  const int w = free_size(shape);
+  const int columns = 2 * state_size(shape) + 1;
+  copy(&work.scaled(0, w), w * columns, gain.first);
+  solve_upper(block(work.scaled), nullptr, w, columns, block(gain));
+}
+
+inline void store_transition(const Shape& shape, const StepWork<Shape>& work, Lanes* record) {
+  const RecordBlocks<Shape> places{shape};
+  const int columns = column_count(shape);
+  if (shape.global > 0) copy_columns(work.transition, columns, view(record, places.transition()));
+  if (!shape.is_plain) copy_columns(work.next, columns, view(record, places.dependent()));
+}
+
 /// The gradient that the multipliers of the interval's equalities balance; before `advance`.
 inline void store_gradient(const LocalSystem<Shape>& local, CostToGo<Shape>& V, StepWork<Shape>& work,
                            const MatrixView<Lanes>& gradient) {
@@ -304,50 +322,6 @@ inline void store_gradient(const LocalSystem<Shape>& local, CostToGo<Shape>& V, 
   const ConstBlock of_sums = block(work.of_dependent).transposed();
   add_product(block(gradient), of_sums, block(work.costate).from(shape.node, 0), {n, N, shape.node_sums});
   add_product(block(gradient).from(0, N), of_sums, block(V.value).from(shape.node, X + 1), {n, X, shape.node_sums});
-}
-
-/// Eliminates the intervals of one step in front of the cost-to-go, and records what the forward sweep needs of them.
-/// `active`: null if all lanes have an interval; the cost-to-go of lanes that have none stays.
-inline void step_backward(const LocalSystem<Shape>& local, const Lanes::Mask* active, CostToGo<Shape>& V,
-                          StepWork<Shape>& work, Lanes* record) {
-  const Shape& shape = local.shape;
-  const auto [n, Z, X, w, N] = sizes_of(shape);
-  const RecordBlocks<Shape> places{shape};
-  const auto record_matrix = [](const ConstBlock& from, const MatrixView<Lanes>& to, int columns) {
-    for (int j = 0; j < columns; ++j) {
-      for (int i = 0; i < to.rows; ++i) to(i, j) = from(i, j);
-    }
-  };
-  const PivotSigns signs_before = V.signs;
-  const Lanes ratio_before = V.smallest_ratio;
-  // Where it stands in the record as it is, it is not copied.
-  const MatrixView<Lanes> recorded = view(record, places.transition());
-  work.transition = shape.global == 0 ? block(recorded) : block(work.whole_transition);
-  eliminate_equalities(local, V, work);
-  make_transition(local, work);
-  condense(local, active, V, work);
-  factorise_free(shape, V, work);
-  // w = -(gain)(X, 1, ν): L⁻ᵀ applied to what that left.
-  const MatrixView<Lanes> gain = view(record, places.gain());
-  copy(&work.scaled(0, w), w * (2 * X + 1), gain.first);
-  solve_upper(block(work.scaled), nullptr, w, 2 * X + 1, block(gain));
-  if (shape.global > 0) record_matrix(work.transition, recorded, N);
-  record_matrix(block(work.next), view(record, places.dependent()), shape.is_plain ? 0 : N);
-  if (has_own_rows(shape)) {
-    store_gradient(local, V, work, view(record, places.gradient()));
-    const auto factors = view(record, places.factors());
-    copy(work.equalities.data(), n * n, factors.first);
-    copy(work.reciprocals.data(), n, &factors(0, n));
-  }
-  advance(shape, active, work, V);
-  if (active != nullptr) {
-    V.signs.keep_where_inactive(*active, signs_before);
-    V.smallest_ratio = chosen(*active, V.smallest_ratio, ratio_before);
-  }
-  if (!has_own_rows(shape)) {
-    // The multipliers of the rows of a node are the derivative of the cost-to-go with respect to s.
-    record_matrix(block(V.value).from(shape.node, 0), view(record, places.multipliers()), 2 * X + 1);
-  }
 }
 
 /// One step: free unknowns, next state, dependent unknowns and multipliers from the state and ν.

@@ -60,7 +60,7 @@ DMOCBENCH_INLINE void sum_at_next_node(const LocalSystem<S>& local, int j, StepW
 
 /// Z and the next state as linear functions of (w, X, 1).
 template <class S>
-DMOCBENCH_INLINE void make_transition(const LocalSystem<S>& local, StepWork<S>& work) {
+DMOCBENCH_INLINE void make_transition(const LocalSystem<S>& local, StepWork<S>& work, Lanes* /*record*/) {
   const S& shape = local.shape;
   const auto [n, Z, X, w, N] = sizes_of(shape);
   const Lanes zero{};
@@ -141,7 +141,8 @@ DMOCBENCH_INLINE void add_direct_inequality(const LocalSystem<S>& local, int row
 
 /// The quadratic form of the interval and of the cost-to-go, in (w, X, 1).
 template <class S>
-DMOCBENCH_INLINE void condense(const LocalSystem<S>& local, CostToGo<S>& V, StepWork<S>& work) {
+DMOCBENCH_INLINE void condense(const LocalSystem<S>& local, const Lanes::Mask* /*active*/, CostToGo<S>& V,
+                               StepWork<S>& work) {
   const auto [n, Z, X, w, N] = sizes_of(local.shape);
   const auto& A = work.transition;
   differentiate_interval(local, V, work);
@@ -189,7 +190,7 @@ DMOCBENCH_INLINE void factorise_free(const S& shape, CostToGo<S>& V, StepWork<S>
 
 /// The cost-to-go with this interval in front; `put(target, value)` sets an entry of it.
 template <class S, class Put>
-DMOCBENCH_INLINE void advance(const S& shape, const StepWork<S>& work, const Put& put, CostToGo<S>& V) {
+DMOCBENCH_INLINE void advance_by(const Put& put, const S& shape, const StepWork<S>& work, CostToGo<S>& V) {
   const auto [n, Z, X, w, N] = sizes_of(shape);
   const auto& C = work.condensed;
   const auto& scaled = work.scaled;
@@ -221,6 +222,13 @@ DMOCBENCH_INLINE void advance(const S& shape, const StepWork<S>& work, const Put
   }
 }
 
+/// The same of the active lanes.
+template <class S>
+DMOCBENCH_INLINE void advance(const S& shape, const Lanes::Mask* active, const StepWork<S>& work, CostToGo<S>& V) {
+  if (active == nullptr) return advance_by([](Lanes& target, const Lanes& value) { target = value; }, shape, work, V);
+  advance_by([&](Lanes& target, const Lanes& value) { target = chosen(*active, value, target); }, shape, work, V);
+}
+
 /// w = -(gain)(X, 1, ν): L⁻ᵀ applied to what `factorise_free` left.
 template <class S>
 DMOCBENCH_INLINE void store_gain(const S& shape, const StepWork<S>& work, const MatrixView<Lanes>& gain) {
@@ -232,6 +240,11 @@ DMOCBENCH_INLINE void store_gain(const S& shape, const StepWork<S>& work, const 
       gain(p, j) = sum;
     }
   }
+}
+
+template <class S>
+DMOCBENCH_INLINE void store_transition(const S& shape, const StepWork<S>& work, Lanes* record) {
+  copy_columns(work.transition, column_count(shape), view(record, RecordBlocks<S>{shape}.transition()));
 }
 
 /// The gradient that the multipliers of the interval's equalities balance; before `advance`.
@@ -271,49 +284,6 @@ DMOCBENCH_INLINE void solve_transposed(const S& shape, const MatrixView<const La
   }
   for (int p = n - 1; p >= 0; --p) {
     for (int q = p + 1; q < n; ++q) x[p] -= E(q, p) * x[q];
-  }
-}
-
-/// Eliminates the intervals of one step in front of the cost-to-go, and records what the forward sweep needs of them.
-/// `active`: null if all lanes have an interval; the cost-to-go of lanes that have none stays.
-template <class S>
-DMOCBENCH_INLINE void step_backward(const LocalSystem<S>& local, const Lanes::Mask* active, CostToGo<S>& V,
-                                    StepWork<S>& work, Lanes* record) {
-  const S& shape = local.shape;
-  const auto [n, Z, X, w, N] = sizes_of(shape);
-  const RecordBlocks<S> places{shape};
-  const auto record_matrix = [](const auto& from, const MatrixView<Lanes>& to, int columns) {
-    for (int j = 0; j < columns; ++j) {
-      for (int i = 0; i < to.rows; ++i) to(i, j) = from(i, j);
-    }
-  };
-  const PivotSigns signs_before = V.signs;
-  const Lanes ratio_before = V.smallest_ratio;
-  eliminate_equalities(local, V, work);
-  make_transition(local, work);
-  condense(local, V, work);
-  factorise_free(shape, V, work);
-  store_gain(shape, work, view(record, places.gain()));
-  record_matrix(work.transition, view(record, places.transition()), N);
-  if (has_own_rows(shape)) {
-    store_gradient(local, V, work, view(record, places.gradient()));
-    const auto factors = view(record, places.factors());
-    copy(work.equalities.data(), n * n, factors.first);
-    for (int i = 0; i < n; ++i) factors(i, n) = work.reciprocals(i);
-  }
-  if (active == nullptr) {
-    advance(
-        shape, work, [](Lanes& target, const Lanes& value) { target = value; }, V);
-  } else {
-    const auto put_where_active = [&](Lanes& target, const Lanes& value) { target = chosen(*active, value, target); };
-    advance(shape, work, put_where_active, V);
-    V.signs.keep_where_inactive(*active, signs_before);
-    V.smallest_ratio = chosen(*active, V.smallest_ratio, ratio_before);
-  }
-  if (!has_own_rows(shape)) {
-    // The multipliers of the rows of a node are the derivative of the cost-to-go with respect to s.
-    const auto derivative = [&](int i, int j) { return V.value(shape.node + i, j); };
-    record_matrix(derivative, view(record, places.multipliers()), 2 * X + 1);
   }
 }
 

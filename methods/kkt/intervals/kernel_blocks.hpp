@@ -66,6 +66,14 @@ DMOCBENCH_INLINE MatrixView<Number> view(Number* array, const BlockPlace& place)
   return {array + place.first, place.rows};
 }
 
+/// `from` may have more rows than `to`.
+template <class Matrix>
+DMOCBENCH_INLINE void copy_columns(const Matrix& from, int columns, const MatrixView<Lanes>& to) {
+  for (int j = 0; j < columns; ++j) {
+    for (int i = 0; i < to.rows; ++i) to(i, j) = from(i, j);
+  }
+}
+
 /// Hands out memory part by part; without memory it counts only.
 struct Memory {
   Lanes* first;

@@ -134,6 +134,40 @@ inline void read_signs(const PivotSigns& signs, int state, SegmentGroup& group) 
   }
 }
 
+/// Eliminates the intervals of one step in front of the cost-to-go, and records what the forward sweep needs of them.
+/// `active`: null if all lanes have an interval; the cost-to-go of lanes that have none stays.
+template <class S>
+DMOCBENCH_INLINE void step_backward(const LocalSystem<S>& local, const Lanes::Mask* active, CostToGo<S>& V,
+                                    StepWork<S>& work, Lanes* record) {
+  const S& shape = local.shape;
+  const auto [n, Z, X, w, N] = sizes_of(shape);
+  const RecordBlocks<S> places{shape};
+  const PivotSigns signs_before = V.signs;
+  const Lanes ratio_before = V.smallest_ratio;
+  eliminate_equalities(local, V, work);
+  make_transition(local, work, record);
+  condense(local, active, V, work);
+  factorise_free(shape, V, work);
+  store_gain(shape, work, view(record, places.gain()));
+  store_transition(shape, work, record);
+  if (has_own_rows(shape)) {
+    store_gradient(local, V, work, view(record, places.gradient()));
+    const auto factors = view(record, places.factors());
+    copy(work.equalities.data(), n * n, factors.first);
+    copy(work.reciprocals.data(), n, &factors(0, n));
+  }
+  advance(shape, active, work, V);
+  if (active != nullptr) {
+    V.signs.keep_where_inactive(*active, signs_before);
+    V.smallest_ratio = chosen(*active, V.smallest_ratio, ratio_before);
+  }
+  if (!has_own_rows(shape)) {
+    // The multipliers of the rows of a node are the derivative of the cost-to-go with respect to s.
+    const auto derivative = [&](int i, int j) { return V.value(shape.node + i, j); };
+    copy_columns(derivative, 2 * X + 1, view(record, places.multipliers()));
+  }
+}
+
 /// Eliminates a chunk of all segments, last step to first, in front of `cost_to_go`, as long as it is worth while.
 /// `ahead` as in `gather`. Not inlined: both sweeps use it, and it is long.
 template <class S>
