@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/run/case_batch.hpp"
+#include "bench/run/case_list.hpp"
 #include "bench/run/json_place.hpp"
 #include "bench/run/part_file.hpp"
 #include "bench/run/result_file.hpp"
@@ -57,6 +58,36 @@ TEST(Part, FilesAreInTheOrderOfTheirNumbers) {
   for (std::size_t number = 1; number <= 100; ++number) names.push_back(Part{number, 100}.file_name());
   EXPECT_TRUE(std::ranges::is_sorted(names));
   EXPECT_EQ(names[2], "003-of-100.part");
+}
+
+TEST(Cases, AreMadeOnceForEachStart) {
+  const auto number_as_horizon = [](const Motion& chosen, std::size_t number) {
+    return Motion{chosen.at, static_cast<double>(number)};
+  };
+  const std::vector<Case> cases = from_starts(
+      cases_on(1), [](const Case& the_case) { return the_case.method == "dmoc" ? 2LL : 1LL; }, number_as_horizon);
+  ASSERT_EQ(cases.size(), 3U);
+  EXPECT_EQ(cases[1].variant, (Variant{1, "1"}));
+  EXPECT_EQ(cases[1].start({}).horizon, 1.0);
+  EXPECT_EQ(cases[2].method, "tangent");
+}
+
+TEST(Cases, AreVariedCurveByCurve) {
+  const auto labels_of = [](const Case& the_case) {
+    return the_case.method == "dmoc" ? std::vector<std::string>{"a", "b"} : std::vector<std::string>{""};
+  };
+  const std::vector<Case> cases = vary(cases_on(2), labels_of);
+  std::vector<std::string> labels;
+  for (const Case& the_case : cases) labels.push_back(the_case.variant.label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"a", "a", "b", "b", "", ""}));
+  EXPECT_EQ(cases[2].variant.index, 1U);
+}
+
+TEST(Cases, AReferenceIsSolvedFirst) {
+  std::vector<Case> curve = cases_on(3);
+  EXPECT_EQ(reference_of(curve), 0U);
+  curve[2].is_reference = true;
+  EXPECT_EQ(reference_of(curve), 2U);
 }
 
 TEST(Spans, AreCutBetweenProgramsOnly) {
