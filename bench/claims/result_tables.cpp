@@ -21,10 +21,8 @@ bool is_of_numbers(const JsonPlace& property) {
   return (has("number") || has("integer")) && !has("string");
 }
 
-/// Throws `Error` unless the table has its columns, each once, every row has a key of its own, and all numbers are
-/// finite; in the key none is missing.
-void check(const Table& table, const std::string& file, const JsonPlace& schema) {
-  const std::vector<std::string> key = schema.at("primaryKey").texts();
+/// Throws `Error` unless the table has its columns, those of its key among them, each once.
+void check_columns(const Table& table, const std::string& file, const ColumnNames& key) {
   if (key.empty()) throw Error(fmt::format("nobody has said by which columns the rows of {} are told apart", file));
   ColumnNames columns = key;
   columns.insert(columns.end(), table.columns().begin(), table.columns().end());
@@ -32,18 +30,32 @@ void check(const Table& table, const std::string& file, const JsonPlace& schema)
     const auto count = std::ranges::count(table.columns(), column);
     if (count != 1) throw Error(fmt::format("{} has {} column {}", file, count == 0 ? "no" : "more than one", column));
   }
-  std::erase_if(columns, [&](const std::string& column) { return !is_of_numbers(schema.at("properties").at(column)); });
+}
+
+/// Throws `Error` unless every row has a key of its own.
+void check_keys(const Table& table, const ColumnNames& key) {
   std::map<std::vector<std::string>, const Row*> seen;
   for (const Row& row : table.rows()) {
-    for (const std::string& column : columns) {
-      if (!row.text(column).empty() || std::ranges::count(key, column) > 0) static_cast<void>(row.needed(column));
-    }
     std::vector<std::string> fields;
     for (const std::string& column : key) fields.push_back(row.text(column));
-    const auto [first, is_new] = seen.try_emplace(fields, &row);
-    if (!is_new)
+    if (const auto [first, is_new] = seen.try_emplace(fields, &row); !is_new)
       throw Error(
           fmt::format("{} has the key of {}: {}", row.place(), first->second->place(), fmt::join(fields, ", ")));
+  }
+}
+
+/// Throws `Error` unless the table is as the JSON Schema of its rows says: its columns, a key of its own in every row,
+/// and finite numbers, of which none is missing in the key.
+void check(const Table& table, const std::string& file, const JsonPlace& schema) {
+  const ColumnNames key = schema.at("primaryKey").texts();
+  check_columns(table, file, key);
+  check_keys(table, key);
+  for (const std::string& column : table.columns()) {
+    if (!is_of_numbers(schema.at("properties").at(column))) continue;
+    const bool may_be_missing = std::ranges::count(key, column) == 0;
+    for (const Row& row : table.rows()) {
+      if (!may_be_missing || !row.text(column).empty()) static_cast<void>(row.needed(column));
+    }
   }
 }
 
