@@ -90,6 +90,7 @@ class Sweep final : public ExperimentOf<Instance> {
   [[nodiscard]] std::vector<SweptQuantity> read_instances() {
     if (over_.empty()) throw Error("a sweep needs --over NAME=LOWER:UPPER:COUNT, a parameter or an end state to vary");
     std::vector<SweptQuantity> quantities;
+    quantities.reserve(over_.size());
     for (const std::string& text : over_) quantities.push_back(parse_over(text, samples_ > 0));
     instances_ = instances_of(quantities, samples_ > 0 ? std::optional(samples_) : std::nullopt, seed_);
     return quantities;
