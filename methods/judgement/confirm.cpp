@@ -134,11 +134,14 @@ double largest_curvature(NonlinearProgram& program, const Eigen::VectorXd& at) {
 double Confirmation::factor_of_cost(double tolerance, const Eigen::VectorXd& start, const Solution& solution) {
   const double enough = confirmation_factor * tolerance;
   double size = largest_of_free(program_, memory_.gradient_of_cost);
-  if (!(size < enough)) return 1.0;
-  Eigen::VectorXd gradient(start.size());
-  program_.gradient(start, gradient);
-  size = std::max({size, largest_of_free(program_, gradient), largest_curvature(program_, solution.primal),
-                   largest_curvature(program_, start)});
+  // Second derivatives of a long horizon take time: each is evaluated only where all before it is small.
+  if (size < enough) {
+    Eigen::VectorXd gradient(start.size());
+    program_.gradient(start, gradient);
+    size = std::max(size, largest_of_free(program_, gradient));
+  }
+  if (size < enough) size = std::max(size, largest_curvature(program_, solution.primal));
+  if (size < enough) size = std::max(size, largest_curvature(program_, start));
   if (!(size < enough) || size == 0.0) return 1.0;
   constexpr int most = 1000;  // the factor stays finite
   return std::ldexp(1.0, std::min(most, -std::ilogb(size)));
