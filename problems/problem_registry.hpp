@@ -34,6 +34,8 @@ class Registry {
   /// The problem of that name with its default parameters. Throws `Error` that lists the names if there is none, or as
   /// `check_problem`.
   [[nodiscard]] std::unique_ptr<Problem> make(std::string_view name) const;
+  /// The same before `check_problem`, for callers that set parameters and then check it themselves.
+  [[nodiscard]] std::unique_ptr<Problem> make_unchecked(std::string_view name) const;
   /// Where the problem of that name comes from; empty for what was added one by one. Throws as `make`.
   [[nodiscard]] const std::string& origin(std::string_view name) const;
 

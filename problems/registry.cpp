@@ -90,10 +90,12 @@ void Registry::add_all(const Registry& others, const std::string& origin) {
 std::vector<std::string> Registry::names() const { return names_of(entries_, &Entry::name); }
 
 std::unique_ptr<Problem> Registry::make(std::string_view name) const {
-  std::unique_ptr<Problem> problem = entry(name).make();
+  std::unique_ptr<Problem> problem = make_unchecked(name);
   check_problem(*problem);
   return problem;
 }
+
+std::unique_ptr<Problem> Registry::make_unchecked(std::string_view name) const { return entry(name).make(); }
 
 const std::string& Registry::origin(std::string_view name) const { return entry(name).origin; }
 
@@ -118,5 +120,7 @@ std::vector<std::string> problem_names() { return known_problems().names(); }
 std::vector<std::string> paper_problem_names() { return {"orbital_transfer", "two_link_manipulator"}; }
 
 std::unique_ptr<Problem> make_problem(std::string_view name) { return known_problems().make(name); }
+
+std::unique_ptr<Problem> make_unchecked_problem(std::string_view name) { return known_problems().make_unchecked(name); }
 
 }  // namespace dmocbench

@@ -18,5 +18,7 @@ namespace dmocbench {
 /// The problem of that name with its default parameters. Throws `Error` that lists the names if there is none, or as
 /// `check_problem`.
 [[nodiscard]] std::unique_ptr<Problem> make_problem(std::string_view name);
+/// The same before `check_problem`, for callers that set parameters and then check it themselves.
+[[nodiscard]] std::unique_ptr<Problem> make_unchecked_problem(std::string_view name);
 
 }  // namespace dmocbench

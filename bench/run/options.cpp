@@ -261,7 +261,7 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
   const bool all = names == std::vector<std::string>{"all"};
   const std::vector<std::string> chosen = all ? problem_names() : in_order("problem", names, problem_names());
   problems.reserve(chosen.size());
-  for (const std::string& name : chosen) problems.push_back(make_problem(name));
+  for (const std::string& name : chosen) problems.push_back(make_unchecked_problem(name));
   for (const std::string& setting : settings) {
     const auto [name, text] = parse_assignment("--set", setting);
     const double value = parse_number(fmt::format("--set {}", name), text);
@@ -271,9 +271,8 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
     if (std::ranges::none_of(problems, has_parameter)) problems.back()->set_parameter(name, value);  // throws
     for (const auto& problem : problems | std::views::filter(has_parameter)) problem->set_parameter(name, value);
   }
-  if (!settings.empty()) {  // bounds and ends may have moved
-    for (const auto& problem : problems) check_problem(*problem);
-  }
+  // Not before: defaults may need a setting, and settings move bounds and ends.
+  for (const auto& problem : problems) check_problem(*problem);
   return {problems.begin(), problems.end()};
 }
 
