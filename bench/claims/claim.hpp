@@ -99,13 +99,13 @@ using Predicate = std::function<Finding(const ResultTables& tables, const std::s
 struct Claim {
   std::string id;                ///< "state_slope"; the written table puts the problem in front
   Problems problems = of_paper;  ///< the problems that it is about
-  Wording where;                 ///< section or label in the paper; for a statement of ours the place that it sharpens
-  Wording figure = "";           ///< label of the paper's figure that shows it; "" if none does
-  Whose whose = Whose::ours;     ///< who makes the statement
-  Wording states;                ///< what is stated, in the words of the source
-  Predicate judge;               ///< what decides
-  Wording condition = "";        ///< under which condition it holds; written whatever the verdict
-  Wording cause = "";            ///< why it differs; written where it does
+  Wording where;  ///< section or label in the paper; for our own statement, the place in the paper that it sharpens
+  Wording figure = "";                ///< label of the paper's figure that shows it; "" if none does
+  Whose whose = Whose::ours;          ///< who makes the statement
+  Wording states;                     ///< what is stated, in the words of the source
+  Predicate judge;                    ///< what decides
+  Wording condition = "";             ///< under which condition it holds; written whatever the verdict
+  Wording cause = "";                 ///< why it differs; written where it does
   std::vector<std::string> evidence;  ///< files of the results folder; "{}" stands for the problem
   std::string needs = {};  ///< left out where this table is not there: the experiment is not part of every run
 };

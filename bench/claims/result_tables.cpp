@@ -1,4 +1,4 @@
-// Reads the tables that claims are judged by, each with what the metadata of its run tell of it.
+// Reads the tables by which claims are judged, each with the metadata of its run.
 #include "bench/claims/result_tables.hpp"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ void refuse_parts(const std::filesystem::path& folder, const std::string& table)
   throw Error(fmt::format("{0}.csv is not there, but parts of {1} are: merge --name {1} joins them", table, run));
 }
 
-/// What the metadata of a run tell, if it came to its end with all its cases. Throws `Error` otherwise.
+/// The metadata of a run that ended with all its cases. Throws `Error` otherwise.
 nlohmann::ordered_json metadata_of_whole_run(const std::filesystem::path& folder, const std::string& file) {
   nlohmann::ordered_json metadata = nlohmann::ordered_json::parse(content_of(folder / file), nullptr, false);
   const auto complete = metadata.is_object() ? metadata.find("complete") : metadata.end();

@@ -7,8 +7,7 @@
 namespace dmocbench {
 
 /// Throws `Error` unless everything that a problem says of itself makes sense, as far as that shows before it is
-/// solved: names of q, u, parameters and of what its picture shows (`require_names`), sizes and order of bounds and
-/// ends
+/// solved: names of q, u, parameters and pictured quantities (`require_names`), sizes and order of bounds and ends
 /// (`problem_bounds`), formulas (`TracedProblem`), the guess, the scale of the cost, and the words and the certified
 /// optimum of its card, which go to terminals and pages. The sentence names the problem and the function, also where
 /// the function throws (`asked`).
