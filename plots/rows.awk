@@ -10,19 +10,42 @@
 #       the same whatever the branch, for tables that tell none
 #   awk -f rows.awk -v distinct=problem,method ... TABLE
 #       of those rows, the distinct values: words such as problem=a,method=b, which serve as `where` again
+#   awk -f rows.awk -v fields=slope,standard_error ... TABLE
+#       of the first of those rows, the fields of some columns with spaces between them
 #   awk -f rows.awk -v missing=step,state_error TABLE
 #       the first of these columns that the table lacks
+# A table may hold rows of one problem with several settings or from several libraries. They are problems of their own
+# here: the name of one with settings is followed by them, as in hovercraft_mass_2.
 BEGIN {
-  FS = ","
+  FS = OFS = ","
   conditions = split(where, condition, ",")
   keys = split(distinct, key, ",")
+  chosen = split(fields, field, ",")
+  table = ARGV[ARGC - 1]
+  while ((getline < table) > 0) {
+    clean()
+    if (!("problem" in position)) note_columns()
+    if (!("problem" in position && "settings" in position)) break
+    if (!(($position["problem"], statement()) in stated)) ++statements[$position["problem"]]
+    stated[$position["problem"], statement()] = 1
+  }
+  close(table)
 }
 
 # Words of a table become parts of commands that gnuplot gives to a shell: what means something there is no part of a name.
-{ gsub(/"[^"]*"/, ""); gsub(/[/`'$\\"();|&<>]/, "_") }
+function clean() { gsub(/"[^"]*"/, ""); gsub(/[/`'$\\"();|&<>]/, "_") }
+function note_columns(i) { for (i = 1; i <= NF; ++i) position[$i] = i }
+# The library and the settings of a row in words.
+function statement(words) {
+  words = $position["library"] ($position["library"] != "" && $position["settings"] != "" ? "_" : "") $position["settings"]
+  gsub(/[= ]/, "_", words)
+  return words
+}
+
+{ clean() }
 
 NR == 1 {
-  for (i = 1; i <= NF; ++i) position[$i] = i
+  note_columns()
   count = split(missing, wanted, ",")
   for (i = 1; i <= count; ++i) {
     if (wanted[i] in position) continue
@@ -30,8 +53,12 @@ NR == 1 {
     exit
   }
   if (missing != "") exit
-  if (distinct == "") print
+  if (distinct fields == "") print
   next
+}
+
+"settings" in position && statements[$position["problem"]] > 1 && statement() != "" {
+  $position["problem"] = $position["problem"] "_" statement()
 }
 
 {
@@ -51,6 +78,10 @@ without != "" && without in position && $position[without] != "" { next }
   for (i = 1; i <= conditions; ++i) {
     split(condition[i], side, "=")
     if (!(side[1] in position) || $position[side[1]] != side[2]) next
+  }
+  if (chosen > 0) {
+    for (i = 1; i <= chosen; ++i) printf "%s%s", $position[field[i]], i < chosen ? " " : "\n"
+    exit
   }
   if (distinct == "") {
     print

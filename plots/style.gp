@@ -51,14 +51,13 @@ number_in(text) = strlen(text) > 0 ? text + 0 : 1
 
 # Fitted slope of a curve with its standard error, as text; empty if the table lacks it or two points are no fit.
 slope_fields(name, where, quantity, fields) = exists_table(name) ? system(rows_awk(sprintf(\
-    "-v where='problem=%s,method=%s,tableau=%s,stages=%s,quantity=%s'", entry(where, "problem"),\
-    entry(where, "method"), entry(where, "tableau"), entry(where, "stages"), quantity), name).\
-    " | awk -F, 'NR == 2 { print ".fields." }'") : ""
+    "-v where='problem=%s,method=%s,tableau=%s,stages=%s,quantity=%s' -v fields=%s", entry(where, "problem"),\
+    entry(where, "method"), entry(where, "tableau"), entry(where, "stages"), quantity, fields), name)) : ""
 slope_text(fields) =\
     words(fields) < 2 ? "" : sprintf("slope %.3f ± %.3f", number(word(fields, 1)), number(word(fields, 2)))
-slope(name, where, quantity) = slope_text(slope_fields(name, where, quantity, "$6, $7"))
+slope(name, where, quantity) = slope_text(slope_fields(name, where, quantity, "slope,standard_error"))
 # The numbers of intervals that it is fitted over.
-fit_range(name, where, quantity) = fit_range_text(slope_fields(name, where, quantity, "$9, $8"))
+fit_range(name, where, quantity) = fit_range_text(slope_fields(name, where, quantity, "coarsest,finest"))
 fit_range_text(fields) = words(fields) < 2 ? "" : sprintf("N = %s to %s", word(fields, 1), word(fields, 2))
 with_slope(label, slope) = strlen(slope) == 0 ? label : label.", ".slope
 

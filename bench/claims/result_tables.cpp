@@ -2,6 +2,8 @@
 #include "bench/claims/result_tables.hpp"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -116,6 +118,21 @@ void check_run(const std::filesystem::path& folder, const std::string& name, con
   }
 }
 
+/// Claims are about problems as they are stated: of a problem with rows of several libraries or settings, only those
+/// without either.
+Table of_plain_statements(const Table& table) {
+  std::map<std::string, std::set<std::pair<std::string, std::string>>> statements;
+  const auto statement = [](const Row& row) { return std::pair(row.text("library"), row.text("settings")); };
+  for (const Row& row : table.rows()) statements[row.text("problem")].insert(statement(row));
+  Table result = table;
+  result.clear();
+  for (const Row& row : table.rows()) {
+    if (statements[row.text("problem")].size() == 1 || statement(row) == std::pair(std::string(), std::string()))
+      result.append(row);
+  }
+  return result;
+}
+
 }  // namespace
 
 ResultTables ResultTables::read(const std::filesystem::path& folder) {
@@ -138,6 +155,7 @@ ResultTables::Sought ResultTables::sought_in(const std::filesystem::path& folder
     sought.table = Table::from_csv(content);
     sought.table->name_places(file);
     check_run(folder, name, *sought.table, content);
+    sought.table = of_plain_statements(*sought.table);
   } catch (const Error& error) {
     const std::string sentence = error.what();
     const bool names_it = sentence.find(file) != std::string::npos;

@@ -81,7 +81,7 @@ int measure_all(CommandLine& line) {
   TableRun run("adaptive", line);
   const bool is_named = asked.problems != all_problems;
   Tables tables;
-  for (const std::shared_ptr<const Problem>& problem : asked.selected()) {
+  for (const std::shared_ptr<const Problem>& problem : run.selected(asked)) {
     const bool is_uneven = is_one_of(uneven, problem->name());
     if (is_quick && !is_named && !is_uneven) continue;
     run.show(problem->name() + ", certified");

@@ -35,7 +35,7 @@ int measure_all(CommandLine& line) {
   StartProvider starts({}, options);
   const std::unique_ptr<Solver> solver = make_solver("ipopt", options);
   std::vector<Curvature> rows;
-  for (const std::shared_ptr<const Problem>& problem : asked.selected()) {
+  for (const std::shared_ptr<const Problem>& problem : run.selected(asked)) {
     for (const std::string& method : paper_families()) {
       for (const long long intervals : {16, 32, 64, 128, 256, 512}) {
         const Case the_case{.problem = problem,

@@ -137,7 +137,7 @@ int run_sequences(CommandLine& line) {
   add_options(line, options);
   TableRun run("sequence", line);
   options.methods = chosen_of("--method", paper_families(), options.methods);
-  const auto problems = options.problems.selected();
+  const auto problems = run.selected(options.problems);
   for (const auto& problem : problems) static_cast<void>(homotopy_of(options, *problem));
   const SolverOptions solver_options = TableRun::solver_options();
   StartProvider starts({}, solver_options);

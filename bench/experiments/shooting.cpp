@@ -95,7 +95,7 @@ int measure_all(CommandLine& line) {
   asked.add_to(line);
   TableRun run("shooting", line);
   std::vector<Measured> rows;
-  for (const std::shared_ptr<const Problem>& problem : asked.selected()) {
+  for (const std::shared_ptr<const Problem>& problem : run.selected(asked)) {
     Programs programs(run, problem);
     for (const long long intervals : {64, 32, 16}) programs.measure(intervals);
     rows.insert(rows.end(), programs.rows().begin(), programs.rows().end());

@@ -160,13 +160,13 @@ class Smoothness {
   std::vector<MeasuredOrder> orders_;
 };
 
-std::vector<Situation> asked_situations(const ProblemOptions& asked) {
+std::vector<Situation> asked_situations(TableRun& run, const ProblemOptions& asked) {
   if (asked.problems.empty()) {
     if (!asked.settings.empty()) throw Error("--set is about a problem: name it by --problem");
     return example_situations();
   }
   std::vector<Situation> situations;
-  for (const auto& problem : asked.selected()) situations.push_back(situation_of(problem));
+  for (const auto& problem : run.selected(asked)) situations.push_back(situation_of(problem));
   return situations;
 }
 
@@ -174,7 +174,7 @@ int measure_all(CommandLine& line) {
   ProblemOptions asked;
   asked.add_to(line);
   TableRun run("smoothness", line);
-  std::vector<Situation> situations = asked_situations(asked);
+  std::vector<Situation> situations = asked_situations(run, asked);
   Smoothness smoothness(run);
   for (Situation& situation : situations) smoothness.measure(situation);
   run.add("smoothness", error_columns, smoothness.errors());

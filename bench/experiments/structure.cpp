@@ -169,7 +169,7 @@ int write_tables(CommandLine& line) {
   add_options(line, options);
   TableRun run("structure", line);
   if (!options.asked.problems.empty()) {
-    add_problems(run, options.asked.selected());
+    add_problems(run, run.selected(options.asked));
   } else {
     if (!options.asked.settings.empty()) throw Error("--set is about a problem: name it by --problem");
     add_examples(run, options);

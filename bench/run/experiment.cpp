@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "bench/run/kept_rows.hpp"
 #include "bench/run/meanings.hpp"
 
 namespace dmocbench {
@@ -13,7 +14,8 @@ SolvedCase SolveTask::by(const Solver& solver) const {
 }
 
 void FurtherOutput::write(const std::string& suffix, const Table& table) {
-  write_table(prefix.string() + suffix, table, metadata);
+  const std::filesystem::path file = prefix.string() + suffix;
+  write_table(file, kept.joined(file, with_statements(table, kept.own())), metadata);
 }
 
 Experiment::Experiment(ExperimentCard card, Columns<SolvedCase> columns)

@@ -17,6 +17,7 @@
 namespace dmocbench {
 
 class IndirectReference;
+class KeptRows;
 
 /// Which rows tell whether their answer is on the branch of their start (the column `branch`).
 enum class BranchesTold : std::uint8_t {
@@ -64,9 +65,12 @@ struct SolveTask {
 struct FurtherOutput {
   std::filesystem::path prefix;                           ///< folder and name of the table
   nlohmann::ordered_json& metadata;                       ///< of the run
+  const KeptRows& kept;                                   ///< rows of earlier runs about other problems
   std::vector<std::filesystem::path> named_by_user = {};  ///< tables in that folder whose names are the user's
 
-  /// Writes one of the card's further files, and to the metadata what its columns mean. Throws `Error` as `write_file`.
+  /// Writes one of the card's further files, and to the metadata what its columns mean. Rows of a problem get its
+  /// library and settings, and follow the rows of other problems that earlier runs have left in the file. Throws
+  /// `Error` as `write_file`.
   void write(const std::string& suffix, const Table& table);
 };
 
@@ -157,7 +161,8 @@ class ExperimentOf : public Experiment {
 /// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it
 /// keeps its row), 2 on bad input or if a file cannot be written (one line on standard error), 130 if interrupted
 /// (finished rows are kept). One part of a run (--part) is 0 as soon as its file is there, which has no rows of an
-/// interrupted one. Nothing of an earlier run of that name is touched before the first row is there; from then
+/// interrupted one. The table of an earlier run keeps its rows of other problems, libraries and settings; a table with
+/// other columns is refused. Nothing of an earlier run of that name is touched before the first row is there; from then
 /// on until all files are written, the metadata say `"complete": false`. Two runs never write one table at a time.
 int run_experiment(Experiment&& experiment, int argc, char** argv);
 

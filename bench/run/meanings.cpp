@@ -168,6 +168,15 @@ nlohmann::ordered_json metadata_schema() {
                         {"schema", of_type("object")}}},
                       {"required", {"columns", "rows", "crc32", "schema"}},
                       {"additionalProperties", false}};
+  const Json statements = {{"type", "array"},
+                           {"items",
+                            {{"type", "object"},
+                             {"properties", {{"problem", text}, {"library", text}, {"settings", text}}},
+                             {"required", {"problem", "library", "settings"}},
+                             {"additionalProperties", false}}}};
+  const Json earlier = {{"type", "object"},
+                        {"properties", {{"statements", statements}, {"complete", of_type("boolean")}}},
+                        {"required", {"statements", "complete"}}};
   const Json properties = {{"command_line", texts},
                            {"utc_time", {{"type", "string"}, {"pattern", "^[0-9-]+T[0-9:]+Z$"}}},
                            {"wall_seconds", {{"type", "number"}, {"minimum", 0}}},
@@ -183,6 +192,9 @@ nlohmann::ordered_json metadata_schema() {
                            {"operating_system", text},
                            {"libraries", of_type("object")},
                            {"solvers", by_name},
+                           {"statements", statements},
+                           {"earlier_runs", {{"type", "array"}, {"items", earlier}}},
+                           {"run_complete", of_type("boolean")},
                            {"complete", of_type("boolean")},
                            {"cases", count},
                            {"rows", count},

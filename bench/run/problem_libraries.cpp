@@ -76,6 +76,15 @@ std::vector<std::string> parse_with_libraries(CommandLine& line) {
   return command_line;
 }
 
+std::string library_of(const std::string& problem) {
+  for (const nlohmann::ordered_json& library : loaded_libraries()) {
+    const auto problems = library.at("problems").get<std::vector<std::string>>();
+    if (std::ranges::find(problems, problem) != problems.end())
+      return std::filesystem::path(library.at("path").get<std::string>()).filename().string();
+  }
+  return "";
+}
+
 nlohmann::ordered_json describe_problem_libraries() { return loaded_libraries(); }
 
 }  // namespace dmocbench

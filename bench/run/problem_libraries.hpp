@@ -22,6 +22,9 @@ void load_problem_libraries(const std::vector<std::string>& libraries);
 /// Registers --library behind all other options, parses, and loads the libraries; the program and its arguments.
 std::vector<std::string> parse_with_libraries(CommandLine& line);
 
+/// The file that a problem was loaded from, without its folder; empty for a problem of the suite.
+[[nodiscard]] std::string library_of(const std::string& problem);
+
 /// The libraries that were loaded, for metadata: an object for each with its "path", its checksum "crc32" (eight
 /// hexadecimal digits) and its "problems"; null if there are none.
 [[nodiscard]] nlohmann::ordered_json describe_problem_libraries();

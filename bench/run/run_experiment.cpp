@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "bench/run/case_batch.hpp"
 #include "bench/run/case_list.hpp"
 #include "bench/run/experiment.hpp"
+#include "bench/run/kept_rows.hpp"
 #include "bench/run/meanings.hpp"
 #include "bench/run/metadata.hpp"
 #include "bench/run/outcome.hpp"
@@ -40,6 +42,17 @@ Columns<MeasuredCase> columns_of(const ExperimentCard& card, const OwnColumns& o
   Columns<MeasuredCase> columns = columns_through<MeasuredCase>(solved, core_columns()) + own.columns;
   std::ranges::find(columns, "tolerance", &Column<MeasuredCase>::name)->is_key = !card.options.tolerances.empty();
   return card.takes_turns ? columns + columns_through<MeasuredCase>(rounds, round_columns()) : columns;
+}
+
+/// The problems that a run is about. Instances count as the problem whose values they vary.
+std::set<Statement> statements_of(const std::vector<Case>& cases) {
+  std::set<Statement> statements;
+  for (const Case& one : cases) statements.insert(statement_of(one.nominal ? *one.nominal : *one.problem));
+  return statements;
+}
+
+bool has_instances(const std::vector<Case>& cases) {
+  return std::ranges::any_of(cases, [](const Case& one) { return one.nominal != nullptr; });
 }
 
 /// One run of an experiment: its cases, its table, its files.
@@ -88,6 +101,7 @@ class Run {
     const OutputFolder folder(options_.out);
     const ResultLock lock(prefix_);
     require_writable(table_file());
+    read_kept_rows();
     if (options_.join.empty()) {
       solve_all();
     } else {
@@ -95,28 +109,52 @@ class Run {
       replace_earlier_files();
     }
     const bool complete = !interrupt_requested();
-    Table table = write_table();
-    if (table.rows().empty()) throw_if_interrupted();
-    FurtherOutput output{prefix_, metadata_};
-    if (complete || experiment_.card().finishes_interrupted) experiment_.finish(table, output);
-    if (complete) write_file(table_file(), table.csv());
-    const Outcome outcome = outcome_of(table);
-    metadata_["complete"] = complete;
-    metadata_["cases"] = cases_.size();
+    Table own = own_rows();
+    if (own.rows().empty()) throw_if_interrupted();
+    FurtherOutput output{.prefix = prefix_, .metadata = metadata_, .kept = kept_};
+    if (complete || experiment_.card().finishes_interrupted) experiment_.finish(own, output);
+    const Table table = kept_.joined(table_file(), own);
+    if (!own.rows().empty()) write_file(table_file(), table.csv());
+    kept_.describe_end(complete, metadata_);
+    metadata_["cases"] = cases_.size() + kept_.count(table_file());
     metadata_["rows"] = table.rows().size();
-    describe(outcome, metadata_);
-    describe_tables_of_run(files_of_run(output.named_by_user), table_of(columns_, {}), metadata_);
+    describe(outcome_of(table), metadata_);
+    const std::vector<std::filesystem::path> files = files_of_run(output.named_by_user);
+    describe_tables_of_run(files, table_of(columns_, {}), metadata_);
+    kept_.describe_files(names_of_files(files), metadata_);
     write_metadata(prefix_.string() + ".json", metadata_);
+    return report(outcome_of(own), own.rows().size(), complete);
+  }
+
+ private:
+  /// Prints how the run ended; returns the exit code.
+  [[nodiscard]] int report(const Outcome& outcome, std::size_t rows, bool complete) const {
+    const std::size_t kept = kept_.count(table_file());
     fmt::print(
-        "{}: {}{}, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
+        "{}: {}{}, {} not solved, {} on another branch{}: {}{}\n", experiment_.card().name,
         complete ? "" : fmt::format("interrupted before {} complete: ", counted(cases_.size(), "row was", "rows were")),
-        counted(table.rows().size(), "row"), outcome.failures, outcome.other_branch, outcome.coarse_by_method,
-        table_file().string());
+        counted(rows, "row"), outcome.failures, outcome.other_branch, outcome.coarse_by_method, table_file().string(),
+        kept == 0 ? "" : fmt::format(" (and {} of other problems or settings)", counted(kept, "earlier row")));
     if (!complete) return 130;
     return outcome.failures > 0 ? 1 : 0;
   }
 
- private:
+  /// What stays of earlier runs in the tables that this one writes.
+  void read_kept_rows() {
+    kept_ = KeptRows(prefix_, statements_of(cases_), has_instances(cases_));
+    kept_.require_columns(table_file(), names_);
+    for (const std::filesystem::path& file : files_of_run({})) {
+      if (file.extension() == ".csv") kept_.read(file);
+    }
+    kept_.describe_runs(metadata_);
+  }
+
+  [[nodiscard]] static std::set<std::string> names_of_files(const std::vector<std::filesystem::path>& files) {
+    std::set<std::string> names;
+    for (const std::filesystem::path& file : files) names.insert(file.filename().string());
+    return names;
+  }
+
   [[nodiscard]] std::filesystem::path table_file() const {
     return is_child() ? table_of_child_ : std::filesystem::path(prefix_.string() + ".csv");
   }
@@ -167,24 +205,30 @@ class Run {
     return files;
   }
 
-  /// The files of an earlier run make room for this one's. One that the run starts from is kept.
+  /// The files of an earlier run make room for this one's, except for rows that stay. One that the run starts from is
+  /// kept.
   void replace_earlier_files() {
-    metadata_["complete"] = false;
-    write_metadata(prefix_.string() + ".json", metadata_);
+    nlohmann::ordered_json unfinished = metadata_;
+    kept_.describe_end(false, unfinished);
+    kept_.describe_files(names_of_files(files_of_run({})), unfinished);
+    write_metadata(prefix_.string() + ".json", unfinished);
     for (const std::string& suffix : experiment_.card().further_files) {
       const std::string file = prefix_.string() + suffix;
       std::error_code none;  // it need not exist
-      if (!is_file_of_motion(file, options_.start)) std::filesystem::remove(file, none);
+      if (kept_.count(file) > 0) {
+        write_file(file, kept_.alone(file).csv());
+      } else if (!is_file_of_motion(file, options_.start)) {
+        std::filesystem::remove(file, none);
+      }
     }
   }
 
-  /// Writes and returns all rows so far in the order of the cases.
-  [[nodiscard]] Table write_table() const {
+  /// All rows so far in the order of the cases.
+  [[nodiscard]] Table own_rows() const {
     Table table(names_);
     for (const auto& row : rows_) {
       if (row) table.append(*row);
     }
-    if (!table.rows().empty()) write_file(table_file(), table.csv());
     return table;
   }
 
@@ -315,7 +359,7 @@ class Run {
       append_to_file(table_file(), line);
     } else {
       if (!is_child()) replace_earlier_files();
-      static_cast<void>(write_table());
+      write_file(table_file(), kept_.joined(table_file(), own_rows()).csv());
     }
   }
 
@@ -334,7 +378,7 @@ class Run {
       rows_.assign(cases_.size(), std::nullopt);  // those of other problems are the parent's
       write_file(files[i], Table(names_).csv());
       solve_span(spans[i].first, spans[i].end);
-      static_cast<void>(write_table());
+      write_file(files[i], own_rows().csv());
     };
     const auto collect = [&](std::size_t i) {
       const std::filesystem::path& file = files[i];
@@ -365,6 +409,7 @@ class Run {
   Columns<MeasuredCase> columns_;
   std::vector<std::string> names_;
   RowsOfCases rows_;
+  KeptRows kept_;
   nlohmann::ordered_json metadata_;
   PartsOfRun parts_;
   std::vector<bool> is_own_;              ///< for every case whether this run works on it, and not another part

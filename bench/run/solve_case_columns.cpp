@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/run/problem_libraries.hpp"
 #include "bench/run/solve_case.hpp"
 
 namespace dmocbench {
@@ -62,8 +63,10 @@ const Columns<SolvedCase>& core_columns() {
       {"intervals", "", "number of intervals N", from(&SolvedCase::the_case, &Case::intervals), in_key},
       {"step", "time", "largest step of the start, in the problem's unit of time", largest_step},
       {"horizon", "time", "T of the answer, or the guessed one, in the problem's unit of time", horizon_of},
+      {"library", "", "file of the problem's library; empty for problems of the suite",
+       [](const SolvedCase& s) { return library_of(s.the_case.problem->name()); }, in_key},
       {"settings", "", "parameters that differ from their defaults, with spaces between them: mass=2 length=0.5",
-       [](const SolvedCase& s) { return s.the_case.problem->settings(); }},
+       [](const SolvedCase& s) { return s.the_case.problem->settings(); }, in_key},
       {"variables", "", "unknowns of the program", count([](P p) { return p.variable_count(); })},
       {"free_variables", "", "those not fixed by their bounds", count([](P p) { return free_variable_count(p); })},
       {"constraints", "", "constraints of the program", count([](P p) { return p.constraint_count(); })},

@@ -25,15 +25,20 @@ std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out) {
 }  // namespace
 
 void write_tables(const std::vector<TableFile>& tables, const std::filesystem::path& metadata_file,
-                  const std::vector<std::string>& command_line) {
+                  const std::vector<std::string>& command_line, const KeptRows& kept) {
   nlohmann::ordered_json metadata = describe_run(command_line);
+  kept.describe_runs(metadata);
+  std::vector<std::filesystem::path> files;
+  std::set<std::string> names;
+  for (const TableFile& table : tables) names.insert(files.emplace_back(table.file).filename().string());
   const auto write_as = [&](bool is_complete) {
-    metadata["complete"] = is_complete;
-    write_metadata(metadata_file, metadata);
+    nlohmann::ordered_json described = metadata;
+    kept.describe_end(is_complete, described);
+    kept.describe_files(names, described);
+    write_metadata(metadata_file, described);
   };
   write_as(false);
-  std::vector<std::filesystem::path> files;
-  for (const TableFile& table : tables) write_file(files.emplace_back(table.file), table.table.csv());
+  for (const TableFile& table : tables) write_file(table.file, kept.joined(table.file, table.table).csv());
   for (const TableFile& table : tables) add_meanings(metadata, table.file, table.table);
   describe_tables_of_run(files, tables.empty() ? Table() : tables.front().table, metadata);
   write_as(true);
@@ -54,6 +59,12 @@ SolverOptions TableRun::solver_options() {
   return options;
 }
 
+std::vector<std::shared_ptr<const Problem>> TableRun::selected(const ProblemOptions& asked) {
+  std::vector<std::shared_ptr<const Problem>> problems = asked.selected();
+  for (const auto& problem : problems) statements_.insert(statement_of(*problem));
+  return problems;
+}
+
 void TableRun::show(const std::string& activity) const {
   throw_if_interrupted();
   progress_.show(activity);
@@ -61,14 +72,21 @@ void TableRun::show(const std::string& activity) const {
 
 void TableRun::add(const std::string& file, const Table& table, std::ptrdiff_t not_measured) {
   const std::string gaps = not_measured > 0 ? fmt::format(", {} not measured", not_measured) : "";
-  tables_.push_back({out_ / (file + ".csv"), table});
+  tables_.push_back({out_ / (file + ".csv"), with_statements(table, statements_)});
   rows_of_tables_.push_back(counted(table.rows().size(), "row") + gaps);
   not_measured_ += not_measured;
 }
 
 int TableRun::write() const {
   throw_if_interrupted();
-  write_tables(tables_, out_ / (name_ + ".json"), command_line_);
+  std::set<Statement> own = statements_;
+  for (const TableFile& table : tables_) {
+    for (const Row& row : table.table.rows())
+      own.insert({row.text("problem"), row.text("library"), row.text("settings")});
+  }
+  KeptRows kept(out_ / name_, std::move(own));
+  for (const TableFile& table : tables_) kept.read(table.file);
+  write_tables(tables_, out_ / (name_ + ".json"), command_line_, kept);
   for (std::size_t i = 0; i < tables_.size(); ++i) {
     fmt::print("{}: {}: {}\n", name_, rows_of_tables_[i], tables_[i].file.string());
   }

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -10,6 +12,8 @@
 
 #include "bench/run/column.hpp"
 #include "bench/run/command_line.hpp"
+#include "bench/run/kept_rows.hpp"
+#include "bench/run/options.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -24,10 +28,11 @@ struct TableFile {
 };
 
 /// Writes tables, and beside them the metadata of their run with the JSON Schema of their rows. Columns that a table
-/// leaves unexplained mean what the first table says. The metadata say `"complete": false` until all tables are there.
+/// leaves unexplained mean what the first table says. Rows that are kept of earlier runs stand before the others. The
+/// metadata say `"complete": false` until all tables are there.
 /// Throws `Error` if a file cannot be written.
 void write_tables(const std::vector<TableFile>& tables, const std::filesystem::path& metadata_file,
-                  const std::vector<std::string>& command_line);
+                  const std::vector<std::string>& command_line, const KeptRows& kept = {});
 
 /// A run of an experiment without cases (those have experiment.hpp): whole tables, written when all of them are there.
 /// As long as it exists, an interrupt ends what this thread computes (`StopScope`).
@@ -39,6 +44,9 @@ class TableRun {
 
   /// Options for solvers, which stop if the run is to stop.
   [[nodiscard]] static SolverOptions solver_options();
+  /// The problems that a user chose; their libraries and settings are written to the rows. Throws `Error` as
+  /// `ProblemOptions::selected`.
+  [[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected(const ProblemOptions& asked);
   /// Says on a terminal what is being measured. Throws `Interrupted` if the run is to stop.
   void show(const std::string& activity) const;
   /// Adds the table of a file, named without folder and ending. `not_measured`: rows that say why they lack a number.
@@ -49,8 +57,9 @@ class TableRun {
            std::ptrdiff_t not_measured = 0) {
     add(file, table_of(columns, records), not_measured);
   }
-  /// Writes all tables and their metadata, NAME.json, which say `"complete": false` meanwhile. Returns the exit code: 1
-  /// if a row was not measured. Throws `Error` if a file cannot be written.
+  /// Writes all tables and their metadata, NAME.json, which say `"complete": false` meanwhile. Rows of a problem get
+  /// its library and settings, and follow the rows of other problems that earlier runs have left in the file. Returns
+  /// the exit code: 1 if a row was not measured. Throws `Error` if a file cannot be written.
   [[nodiscard]] int write() const;
 
  private:
@@ -61,6 +70,7 @@ class TableRun {
   ResultLock lock_;
   ProgressLine progress_;
   StopScope scope_;
+  std::set<Statement> statements_;
   std::vector<TableFile> tables_;
   std::vector<std::string> rows_of_tables_;  ///< how many each has, in words
   std::ptrdiff_t not_measured_ = 0;          ///< rows of all tables

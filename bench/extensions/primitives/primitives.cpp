@@ -123,7 +123,7 @@ int measure_all(CommandLine& line) {
   PrimitivesOptions options;
   add_options(line, options);
   TableRun run("primitives", line);
-  const auto problems = options.asked.selected();
+  const auto problems = run.selected(options.asked);
   if (problems.size() != 1 && !(options.roadmap.empty() && options.store.empty())) {
     throw Error("--roadmap and --store are about the roadmap of one problem: name it by --problem");
   }
