@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace dmocbench {
@@ -20,8 +23,44 @@ struct FittedOrder {
   int points = 0;               ///< how many it was fitted through
 };
 
-/// The order by least squares: the slope of log(error) over log(step). Points whose error is not positive and finite
-/// are left out; nothing is returned if fewer than two points remain.
-[[nodiscard]] std::optional<FittedOrder> fit_order(const std::vector<GridError>& points);
+/// The order p by least squares: the slope of log(error) over log(step). Where errors were measured against a grid of
+/// step `reference`, finer than all others, they fall like c (h^p - reference^p), and the order is that of the
+/// difference; 0 stands for an exact reference. Points whose error is not positive and finite, and those not coarser
+/// than the reference, are left out; nothing is returned if fewer than two points remain.
+[[nodiscard]] std::optional<FittedOrder> fit_order(const std::vector<GridError>& points, double reference = 0.0);
+
+/// The orders between neighbouring points, one fewer than the points; not a number where one has no positive error.
+[[nodiscard]] std::vector<double> neighbouring_orders(const std::vector<GridError>& points, double reference = 0.0);
+
+/// Why a range of grids ends where it does.
+enum class RangeEnd : std::uint8_t {
+  grids,   ///< there is no further grid
+  floor,   ///< the error on the next grid is too close to rounding
+  orders,  ///< the orders with the next grid would differ by more than `largest_spread`
+};
+
+/// "grids", "floor" or "orders".
+[[nodiscard]] std::string_view name_of(RangeEnd end) noexcept;
+
+/// Grids on which errors fall as one power of the step: those of number `first` up to `end`, which is not one of them.
+struct AsymptoticRange {
+  std::size_t first = 0;
+  std::size_t end = 0;
+  RangeEnd coarse_end = RangeEnd::grids;  ///< why no coarser grid belongs to it
+  RangeEnd fine_end = RangeEnd::grids;    ///< why no finer grid belongs to it
+};
+
+/// So many grids make an order.
+inline constexpr std::size_t fewest_grids = 4;
+/// The orders between the neighbouring grids of a range differ by at most this much. An error c h^p (1 + a h) then
+/// gives a fitted order within `largest_spread` of p on grids whose steps span a factor of 4, because its local order
+/// p + a h + O(h^2) exceeds p on the coarsest grid by 4/3 of the spread.
+inline constexpr double largest_spread = 0.2;
+
+/// The longest range of at least `fewest_grids` neighbouring points, coarsest first, whose errors exceed `least` and
+/// whose neighbouring orders differ by at most `largest_spread`; of equally long ranges the finest. None if there is no
+/// such range. Points behind the first one that does not exceed `least` are noise and belong to no range.
+[[nodiscard]] std::optional<AsymptoticRange> asymptotic_range(const std::vector<GridError>& points, double least,
+                                                              double reference = 0.0);
 
 }  // namespace dmocbench

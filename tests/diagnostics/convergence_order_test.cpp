@@ -1,7 +1,10 @@
 #include "methods/diagnostics/convergence_order.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +66,101 @@ TEST(FitOrder, HasNoStandardErrorWithTwoPointsAndNoSlopeWithFewer) {
   EXPECT_FALSE(fit_order({}).has_value());
   EXPECT_FALSE(fit_order({{0.1, 1.0}}).has_value());
   EXPECT_FALSE(fit_order({{0.1, 1.0}, {0.1, 2.0}}).has_value()) << "one step, no slope";
+}
+
+/// 1/N for the default grids of a quick run.
+const std::vector<double> quick_steps{1.0 / 16, 1.0 / 24, 1.0 / 32, 1.0 / 48, 1.0 / 64, 1.0 / 96, 1.0 / 128};
+
+std::vector<GridError> errors_on(const std::vector<double>& steps, const std::function<double(double)>& error) {
+  std::vector<GridError> points;
+  for (const double step : steps) points.push_back({step, error(step)});
+  return points;
+}
+
+std::optional<FittedOrder> fitted_in_range(const std::vector<GridError>& points, double least = 0.0) {
+  const auto range = asymptotic_range(points, least);
+  if (!range) return std::nullopt;
+  const auto at = [&](std::size_t i) { return points.begin() + static_cast<std::ptrdiff_t>(i); };
+  return fit_order({at(range->first), at(range->end)});
+}
+
+TEST(FitOrder, AgainstAFinerGridIsThatOfTheDifference) {
+  constexpr double reference = 1.0 / 256;
+  for (const double order : {1.0, 2.0, 3.0, 4.0, 8.0}) {
+    const auto points =
+        errors_on(quick_steps, [&](double h) { return std::pow(h, order) - std::pow(reference, order); });
+    EXPECT_NEAR(tests::value_of(fit_order(points, reference)).order, order, 1e-9);
+    for (const double local : neighbouring_orders(points, reference)) EXPECT_NEAR(local, order, 1e-8);
+  }
+  EXPECT_GT(fit_order(errors_on({1.0 / 64, 1.0 / 128}, [&](double h) { return h * h - reference * reference; }))->order,
+            2.2);
+}
+
+TEST(AsymptoticRange, OfAPowerIsEveryGridWhateverTheOrder) {
+  for (const double order : {1.0, 2.0, 3.0, 8.0}) {
+    const auto range = tests::value_of(asymptotic_range(powers(order, 5.0, quick_steps), 0.0));
+    EXPECT_EQ(range.first, 0U);
+    EXPECT_EQ(range.end, quick_steps.size());
+    EXPECT_EQ(range.coarse_end, RangeEnd::grids);
+    EXPECT_EQ(range.fine_end, RangeEnd::grids);
+  }
+}
+
+TEST(AsymptoticRange, GivesAnOrderNearTheOneOfTheLeadingTerm) {
+  for (const double order : {2.0, 4.0, 6.0}) {
+    for (const double a : {-4.0, -2.0, 2.0, 4.0, 8.0}) {
+      const auto error = [&](double h) { return std::abs(std::pow(h, order) * (1.0 + a * h)); };
+      const auto fitted = fitted_in_range(errors_on(quick_steps, error));
+      ASSERT_TRUE(fitted.has_value()) << a;
+      EXPECT_NEAR(fitted->order, order, largest_spread) << "order " << order << ", a = " << a;
+    }
+  }
+}
+
+TEST(AsymptoticRange, LeavesOutCoarseGridsOnWhichErrorsFallFaster) {
+  const auto error = [](double h) { return h * h * (1.0 + std::pow(15.0 * h, 4.0)); };
+  const auto points = errors_on(quick_steps, error);
+  const auto range = tests::value_of(asymptotic_range(points, 0.0));
+  EXPECT_GT(range.first, 0U);
+  EXPECT_EQ(range.coarse_end, RangeEnd::orders);
+  EXPECT_EQ(range.end, quick_steps.size());
+}
+
+TEST(AsymptoticRange, EndsAtTheFloor) {
+  const auto points = errors_on(quick_steps, [](double h) { return 1e4 * std::pow(h, 8.0) + 1e-13; });
+  const auto range = tests::value_of(asymptotic_range(points, 1e-11));
+  EXPECT_EQ(range.fine_end, RangeEnd::floor);
+  EXPECT_NEAR(fitted_in_range(points, 1e-11)->order, 8.0, 0.1);
+  // What lies behind the first grid at the floor is noise, even where it seems to fall again.
+  auto risen = points;
+  risen.back().error = 1e-5;
+  EXPECT_EQ(tests::value_of(asymptotic_range(risen, 1e-11)).end, range.end);
+}
+
+TEST(AsymptoticRange, NeedsFourGrids) {
+  EXPECT_FALSE(asymptotic_range(powers(2.0, 1.0, {0.1, 0.05, 0.025}), 0.0).has_value());
+  EXPECT_FALSE(asymptotic_range(powers(2.0, 1.0, {0.1, 0.05, 0.025, 0.0125}), 0.0002).has_value());
+  EXPECT_TRUE(asymptotic_range(powers(2.0, 1.0, {0.1, 0.05, 0.025, 0.0125}), 0.0).has_value());
+  EXPECT_FALSE(asymptotic_range(powers(0.0, 0.0, quick_steps), 0.0).has_value()) << "no error at all";
+}
+
+/// The fitted orders of errors h^2 exp(noise g) with normally distributed g, by 200 seeds.
+std::vector<double> orders_under_noise(double noise) {
+  std::vector<double> orders;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 engine(seed);
+    std::normal_distribution<double> normal;
+    const auto points = errors_on(quick_steps, [&](double h) { return h * h * std::exp(noise * normal(engine)); });
+    if (const auto fitted = fitted_in_range(points)) orders.push_back(fitted->order);
+  }
+  return orders;
+}
+
+TEST(AsymptoticRange, IsFoundUnderSmallNoiseAndSeldomUnderLargeNoise) {
+  const std::vector<double> quiet = orders_under_noise(0.01);
+  EXPECT_GT(quiet.size(), 190U);
+  for (const double order : quiet) EXPECT_NEAR(order, 2.0, largest_spread);
+  EXPECT_LT(orders_under_noise(0.5).size(), 10U);
 }
 
 }  // namespace
