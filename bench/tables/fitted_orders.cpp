@@ -2,24 +2,25 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
+#include <span>
 #include <utility>
 
 #include "bench/run/column.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/numerics/median.hpp"
+#include "methods/runtime/counted.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-constexpr long long reference_factor = 4;
 /// Smaller errors come from the solver's tolerance (1e-10) and rounding, not from the grid; relative to the cost for
-/// errors of the cost. Used against a finer grid, where no floor can be measured.
+/// errors of the cost. Used in a range of the user's.
 constexpr double rounding_level = 1e-11;
-/// Against an exact solution: how far above the floor an error shows the order, and how many such grids make a fit.
+/// How far above the floor an error shows the order.
 constexpr double above_floor = 100.0;
-constexpr std::size_t fewest_grids = 4;
+/// So few grids make an order in a range of the user's.
+constexpr std::size_t fewest_in_range = 3;
 
 constexpr std::array fitted_quantities{"state",
                                        "control",
@@ -37,21 +38,9 @@ const ColumnNames scheme_names{"problem", "method", "tableau", "stages"};
 /// Rows that agree in these differ in their grid only.
 const ColumnNames curve_columns{"problem", "method", "tableau", "stages", "solver", "derivatives"};
 
-/// The number of intervals from which errors fall as their order says. It was found by trial: for the two-link
-/// manipulator it grows with the order.
-double asymptotic_from(const Row& head) {
-  if (head.text("problem") == "orbital_transfer") return 16.0;
-  if (head.text("stages") == "1") return 32.0;
-  return head.text("tableau") == "gauss" && head.text("stages") == "4" ? 96.0 : 64.0;
-}
-
-/// The usable rows with an error on grids of so many intervals.
-Selection with_error(const Selection& curve, const std::string& column, double coarsest,
-                     double finest = std::numeric_limits<double>::infinity()) {
-  return curve.usable().with_number(column).where([&](const Row& row) {
-    const double intervals = row.number("intervals", 0.0);
-    return intervals >= coarsest && intervals <= finest;
-  });
+/// The usable rows with an error, coarsest first.
+Selection with_error(const Selection& curve, const std::string& column) {
+  return curve.usable().with_number(column).sorted_by("intervals");
 }
 
 std::vector<GridError> errors_of(const Selection& rows, const std::string& column) {
@@ -62,12 +51,9 @@ std::vector<GridError> errors_of(const Selection& rows, const std::string& colum
 
 /// The median of the errors on the finest grids, where they fall from grid to grid with less than half the upper
 /// quartile of all such orders; none if they fall to the end.
-std::optional<double> measured_floor(const std::vector<GridError>& errors) {
+std::optional<double> measured_floor(const std::vector<GridError>& errors, double reference) {
   if (errors.size() < fewest_grids) return std::nullopt;
-  std::vector<double> orders;
-  for (std::size_t i = 1; i < errors.size(); ++i) {
-    orders.push_back(std::log(errors[i - 1].error / errors[i].error) / std::log(errors[i - 1].step / errors[i].step));
-  }
+  const std::vector<double> orders = neighbouring_orders(errors, reference);
   std::vector<double> sorted = orders;
   const auto quartile = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 3 / 4);
   std::ranges::nth_element(sorted, quartile);
@@ -78,11 +64,12 @@ std::optional<double> measured_floor(const std::vector<GridError>& errors) {
   return flat.empty() ? std::nullopt : std::optional(median(flat));
 }
 
-/// The smallest measured floor of some curves.
-std::optional<double> smallest_floor(const std::vector<Selection>& curves, const std::string& column) {
+/// The smallest measured floor of some curves; `reference` is the step that their errors are measured against.
+std::optional<double> smallest_floor(const std::vector<Selection>& curves, const std::string& column,
+                                     double reference = 0.0) {
   std::optional<double> smallest;
   for (const Selection& curve : curves) {
-    const auto floor = measured_floor(errors_of(with_error(curve, column, asymptotic_from(curve.front())), column));
+    const auto floor = measured_floor(errors_of(with_error(curve, column), column), reference);
     if (floor) smallest = std::min(*floor, smallest.value_or(*floor));
   }
   return smallest;
@@ -90,46 +77,63 @@ std::optional<double> smallest_floor(const std::vector<Selection>& curves, const
 
 /// The grids that are fitted, coarsest first.
 struct Fit {
-  Selection grids;
+  Selection grids = {};
   std::optional<double> floor = std::nullopt;
   std::string verdict = "slope";
+  double reference = 0.0;            ///< the step that errors are measured against; 0 for an exact solution
+  std::string coarse_end = "range";  ///< why no coarser grid is fitted
+  std::string fine_end = "range";    ///< why no finer grid is fitted
 };
 
-Fit above_the_floor(const Selection& curve, const std::string& column, const std::optional<double>& floor) {
-  const Selection asymptotic = with_error(curve, column, asymptotic_from(curve.front()));
-  const double limit = above_floor * floor.value_or(0.0);
+/// The asymptotic range of a curve (`asymptotic_range`) above its floor.
+Fit above_the_floor(const Selection& curve, const std::string& column, const std::optional<double>& floor,
+                    double reference = 0.0) {
+  const Selection grids = with_error(curve, column);
+  const double least = above_floor * floor.value_or(0.0);
+  Fit fit{.floor = floor, .reference = reference};
+  if (const auto range = asymptotic_range(errors_of(grids, column), least, reference)) {
+    for (std::size_t i = range->first; i < range->end; ++i)
+      fit.grids.append(*(grids.begin() + static_cast<std::ptrdiff_t>(i)));
+    fit.coarse_end = name_of(range->coarse_end);
+    fit.fine_end = name_of(range->fine_end);
+    return fit;
+  }
   bool is_above = true;  // errors behind the first grid at the floor are noise
-  Fit fit{.grids = asymptotic.where([&](const Row& row) {
-            is_above = is_above && row.number(column, 0.0) > limit;
-            return is_above;
-          }),
-          .floor = floor};
-  if (fit.grids.size() < fewest_grids) fit.verdict = fit.grids.size() < asymptotic.size() ? "floor" : "few grids";
+  fit.grids = grids.where([&](const Row& row) {
+    is_above = is_above && row.number(column, 0.0) > least;
+    return is_above;
+  });
+  fit.verdict = "unsteady";
+  if (fit.grids.size() < fewest_grids) fit.verdict = fit.grids.size() < grids.size() ? "floor" : "few grids";
   return fit;
 }
 
+/// The grids of a range of the user's.
 Fit in_range(const Selection& curve, const std::string& column, const FitRange& range) {
-  const auto coarsest = static_cast<double>(range.coarsest);
-  const auto finest = static_cast<double>(range.finest);
-  return {.grids = with_error(curve, column, coarsest, finest).where([&](const Row& row) {
+  Fit fit;
+  fit.grids = with_error(curve, column).where([&](const Row& row) {
     const double scale = column == "objective_error" ? std::abs(row.number("objective", 0.0)) : 1.0;
-    return row.number(column, 0.0) >= rounding_level * scale;
-  })};
+    const double intervals = row.number("intervals", 0.0);
+    return intervals >= static_cast<double>(range.coarsest) && intervals <= static_cast<double>(range.finest) &&
+           row.number(column, 0.0) >= rounding_level * scale;
+  });
+  if (fit.grids.size() < fewest_in_range) fit.verdict = "few grids";
+  return fit;
 }
 
 long long intervals_of(const Row& grid) { return static_cast<long long>(grid.number("intervals", 0.0)); }
 long long finest_of(const Selection& grids) { return intervals_of(grids.back()); }
 long long coarsest_of(const Selection& grids) { return intervals_of(grids.front()); }
 
-/// A curve with the order of one of its quantities; none at the floor.
+/// A curve with the order of one of its quantities; none unless the verdict is "slope".
 struct FittedCurve {
   Row head;
   std::string quantity;
   Fit fit;
   std::optional<FittedOrder> order = std::nullopt;
 
-  /// The grids, if an order was fitted to them.
-  [[nodiscard]] const Selection* fitted_grids() const { return order ? &fit.grids : nullptr; }
+  /// The fit, if there is an order.
+  [[nodiscard]] const Fit* fitted() const { return order ? &fit : nullptr; }
 };
 
 Columns<FittedCurve> order_columns() {
@@ -140,49 +144,48 @@ Columns<FittedCurve> order_columns() {
               &Curve::quantity, in_key},
              {"slope", "", "fitted order; empty where the verdict is not \"slope\"",
               from(&Curve::order, &FittedOrder::order)},
-             {"standard_error", "", "of the order; empty with two points", from(&Curve::order, standard_error_of)},
-             {"finest", "", "largest number of intervals used", from(&Curve::fitted_grids, finest_of)},
-             {"coarsest", "", "smallest number of intervals used", from(&Curve::fitted_grids, coarsest_of)},
+             {"standard_error", "", "of the order", from(&Curve::order, standard_error_of)},
+             {"finest", "", "largest number of intervals used", from(&Curve::fitted, &Fit::grids, finest_of)},
+             {"coarsest", "", "smallest number of intervals used", from(&Curve::fitted, &Fit::grids, coarsest_of)},
+             {"coarse_end", "",
+              "why no coarser grid is used: grids (there is none), orders (they differ by more than 0.2), range "
+              "(--fit)",
+              from(&Curve::fitted, &Fit::coarse_end)},
+             {"fine_end", "", "why no finer grid is used: the same, or floor", from(&Curve::fitted, &Fit::fine_end)},
              {"points", "", "number of grids used", from(&Curve::fit, &Fit::grids, &Selection::size)},
              {"floor", "", "error at which rounding begins; empty where none was measured",
               from(&Curve::fit, &Fit::floor)},
-             {"verdict", "", "slope, floor (rounding leaves too few grids) or few grids",
+             {"verdict", "",
+              "slope; floor (rounding leaves too few grids), few grids, or unsteady (no four grids agree)",
               from(&Curve::fit, &Fit::verdict)}};
 }
 
-/// Appends a fit, unless there is nothing to say.
+/// Appends a fit, unless the quantity has no error on any grid.
 void append_fit(std::vector<FittedCurve>& curves, const std::string& quantity, const std::string& column,
-                const Fit& fit, const Row& head) {
-  FittedCurve curve{.head = head, .quantity = quantity, .fit = fit};
-  if (fit.verdict != "floor") curve.order = fit_order(errors_of(fit.grids, column));
-  if (curve.order || fit.verdict == "floor") curves.push_back(std::move(curve));
+                const Fit& fit, const Selection& curve) {
+  if (with_error(curve, column).empty()) return;
+  FittedCurve& fitted = curves.emplace_back(FittedCurve{.head = curve.front(), .quantity = quantity, .fit = fit});
+  if (fit.verdict == "slope") fitted.order = fit_order(errors_of(fit.grids, column), fit.reference);
 }
 
-/// The range against a finer grid, with a note where it goes too far.
-FitRange range_against_grid(const Selection& curve, const std::optional<FitRange>& range, long long reference,
-                            std::vector<std::string>& notes) {
-  const Row& head = curve.front();
-  const auto finest = static_cast<long long>(curve.sorted_by("intervals").back().number("intervals", 0.0));
-  const long long reference_intervals = reference > 0 ? reference : finest;
-  if (range && range->finest * reference_factor > reference_intervals) {
-    notes.push_back(
-        fmt::format("{} {} {} {}: slopes are fitted up to N = {}, less than {} times coarser than the reference N = "
-                    "{}: they are too large",
-                    head.text("problem"), head.text("method"), head.text("tableau"), head.text("stages"), range->finest,
-                    reference_factor, reference_intervals));
-  }
-  return range.value_or(FitRange{head.text("stages") == "1" ? 32 : 64, reference_intervals / reference_factor});
+/// The step of the grid that a curve's errors are measured against.
+double step_of_reference(const Selection& curve, long long reference) {
+  const Selection grids = curve.sorted_by("intervals");
+  const Selection named = curve.where("intervals", std::to_string(reference));
+  return (named.empty() ? grids.back() : named.front()).number("step", 0.0);
 }
 
 /// Why a curve has no order at all, if it has errors that one could be fitted to.
-void note_missing_orders(const Selection& curve, const FitRange& range, std::vector<std::string>& notes) {
-  const Row& head = curve.front();
-  if (curve.with_number("state_error").empty()) return;
-  notes.push_back(fmt::format(
-      "{} {} {} {}: no order is fitted, which takes two grids from N = {} to {}; solve on more grids or say "
-      "--fit a:b",
-      head.text("problem"), head.text("method"), head.text("tableau"), head.text("stages"), range.coarsest,
-      range.finest));
+std::optional<std::string> note_on_missing_orders(std::span<const FittedCurve> fits) {
+  const bool has_order = std::ranges::any_of(fits, [](const FittedCurve& fit) { return fit.order.has_value(); });
+  if (fits.empty() || has_order) return std::nullopt;
+  const Row& head = fits.front().head;
+  const Fit& fit = fits.front().fit;
+  const bool has_few = fit.verdict == "few grids";
+  return fmt::format("{} {} {} {}: no order is fitted ({}: {} above rounding){}", head.text("problem"),
+                     head.text("method"), head.text("tableau"), head.text("stages"), fit.verdict,
+                     counted(fit.grids.size(), "grid"),
+                     has_few ? "; solve on more grids, four besides the reference at least" : "");
 }
 
 /// The orders of a curve's largest jump and of its state error on the same grids.
@@ -233,20 +236,18 @@ Columns<JumpsOfCurve> jump_columns() {
 FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range, long long reference) {
   std::vector<FittedCurve> curves;
   std::vector<std::string> notes;
-  const bool is_exact = reference == exact_reference;
   for (const Selection& curve : convergence.group_by(curve_columns)) {
-    const Row& head = curve.front();
-    const auto of_the_method = convergence.matching(head, {"problem", "method"}).group_by(curve_columns);
-    const FitRange fitted = is_exact ? range.value_or(FitRange()) : range_against_grid(curve, range, reference, notes);
+    const auto of_the_method = convergence.matching(curve.front(), {"problem", "method"}).group_by(curve_columns);
+    const double step = reference == exact_reference ? 0.0 : step_of_reference(curve, reference);
     const std::size_t fits_before = curves.size();
     for (const std::string quantity : fitted_quantities) {
       const std::string column = quantity + "_error";
-      const Fit fit = is_exact && !range ? above_the_floor(curve, column, smallest_floor(of_the_method, column))
-                                         : in_range(curve, column, fitted);
-      append_fit(curves, quantity, column, fit, head);
+      Fit fit = range ? in_range(curve, column, *range)
+                      : above_the_floor(curve, column, smallest_floor(of_the_method, column, step), step);
+      fit.reference = step;
+      append_fit(curves, quantity, column, fit, curve);
     }
-    const bool has_range = !is_exact || range.has_value();
-    if (has_range && curves.size() == fits_before) note_missing_orders(curve, fitted, notes);
+    if (const auto note = note_on_missing_orders(std::span(curves).subspan(fits_before))) notes.push_back(*note);
   }
   return {.table = table_of(order_columns(), curves), .notes = std::move(notes)};
 }
@@ -276,7 +277,7 @@ Table fit_differences(const Selection& equivalence, const std::string& column) {
     const Selection hamiltonian = equivalence.matching(curve.front(), {"problem"}).where("method", "hamiltonian");
     const Selection rounded = hamiltonian.usable().with_number(column);
     if (rounded.empty()) continue;
-    append_fit(curves, column, column, above_the_floor(curve, column, rounded.max(column)), curve.front());
+    append_fit(curves, column, column, above_the_floor(curve, column, rounded.max(column)), curve);
   }
   return table_of(order_columns(), curves);
 }

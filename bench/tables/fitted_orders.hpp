@@ -19,24 +19,21 @@ constexpr long long exact_reference = -1;
 
 /// Fitted orders of convergence, with notes for the reader.
 struct FittedOrders {
-  /// `verdict` is "slope", "floor" where too few grids lie above the floor (such a row has no order), or "few grids"
-  /// where there are too few of them anyway.
+  /// `verdict` is "slope", or the reason why there is no order: "floor" where too few grids lie above the floor, "few
+  /// grids" where there are too few of them anyway, "unsteady" where no four neighbouring grids agree.
   Table table;
   std::vector<std::string> notes;
 };
 
 /// Orders, the slopes of log(error) over log(step), for every curve and every error of a convergence table.
 ///
-/// Against a finer grid: without a range, grids from N = 32 (64 with more than one stage) to a quarter of the reference
-/// are used. Against a reference of N_ref intervals an error of order 2 is proportional to h² - h_ref², which makes the
-/// order of finer grids too large; a range that goes beyond gets a note, as does a curve without any order. Errors at
-/// the level of rounding are left out. `reference` is the reference's number of intervals, 0 for the finest grid of a
-/// curve.
+/// They are fitted on the asymptotic range (`asymptotic_range`) of the grids whose error is above 100 times the floor.
+/// The floor is measured: it is the median of the errors on a curve's finest grids where they fall with less than half
+/// the order seen before; the smallest floor among the curves of a problem and method holds for all of them. With a
+/// range of the user's every error in it is used, at least three, except for those at the level of rounding.
 ///
-/// Against an `exact_reference` grids are used from the start of the asymptotic range (`asymptotic_from`) as long as
-/// the error is above 100 times the floor, and there must be four of them. The floor is measured: it is the median of
-/// the errors on a curve's finest grids where they fall with less than half the order seen before; the smallest floor
-/// among the curves of a problem and method holds for all of them. With a range, every error in it is used.
+/// `reference` is the number of intervals of the reference, 0 for the finest grid of a curve, or `exact_reference`.
+/// Against a grid of step r an error of order p is proportional to h^p - r^p, which the fit takes into account.
 [[nodiscard]] FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range,
                                       long long reference);
 

@@ -71,22 +71,23 @@ std::optional<AsymptoticRange> asymptotic_range(const std::vector<GridError>& po
   const auto at_floor = std::ranges::find_if(points, [&](const GridError& point) { return !(point.error > least); });
   const auto above = static_cast<std::size_t>(at_floor - points.begin());
   const std::vector<double> orders = neighbouring_orders(points, reference);
-  std::optional<AsymptoticRange> longest;
-  for (std::size_t first = 0; first + fewest_grids <= above; ++first) {
-    double lowest = orders[first];
-    double highest = orders[first];
-    std::size_t end = first + 1;
-    while (end < above) {
-      lowest = std::min(lowest, orders[end - 1]);
-      highest = std::max(highest, orders[end - 1]);
-      if (!(highest - lowest <= largest_spread) || !std::isfinite(orders[end - 1])) break;
-      ++end;
+  for (std::size_t end = above; end >= fewest_grids; --end) {
+    double lowest = orders[end - 2];
+    double highest = lowest;
+    std::size_t first = end - 1;
+    while (first > 0 && std::isfinite(orders[first - 1])) {
+      lowest = std::min(lowest, orders[first - 1]);
+      highest = std::max(highest, orders[first - 1]);
+      if (!(highest - lowest <= largest_spread)) break;
+      --first;
     }
-    if (end - first < fewest_grids || (longest && end - first < longest->end - longest->first)) continue;
-    longest = {.first = first, .end = end, .coarse_end = first == 0 ? RangeEnd::grids : RangeEnd::orders};
-    if (end < points.size()) longest->fine_end = end < above ? RangeEnd::orders : RangeEnd::floor;
+    if (end - first < fewest_grids) continue;
+    AsymptoticRange range{.first = first, .end = end};
+    if (first > 0) range.coarse_end = RangeEnd::orders;
+    if (end < points.size()) range.fine_end = end < above ? RangeEnd::orders : RangeEnd::floor;
+    return range;
   }
-  return longest;
+  return std::nullopt;
 }
 
 }  // namespace dmocbench

@@ -57,8 +57,9 @@ inline constexpr std::size_t fewest_grids = 4;
 /// p + a h + O(h^2) exceeds p on the coarsest grid by 4/3 of the spread.
 inline constexpr double largest_spread = 0.2;
 
-/// The longest range of at least `fewest_grids` neighbouring points, coarsest first, whose errors exceed `least` and
-/// whose neighbouring orders differ by at most `largest_spread`; of equally long ranges the finest. None if there is no
+/// The range of at least `fewest_grids` neighbouring points, coarsest first, whose errors exceed `least` and whose
+/// neighbouring orders differ by at most `largest_spread`: the finest such range, from as coarse a grid as possible.
+/// Not the longest, because errors of higher order can hide the leading one on many coarse grids. None if there is no
 /// such range. Points behind the first one that does not exceed `least` are noise and belong to no range.
 [[nodiscard]] std::optional<AsymptoticRange> asymptotic_range(const std::vector<GridError>& points, double least,
                                                               double reference = 0.0);

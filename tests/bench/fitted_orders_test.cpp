@@ -32,57 +32,62 @@ Table with_field(const Table& table, long long intervals, const std::string& col
   return result;
 }
 
+/// c (h^p - r^p) on N intervals, as errors against a grid of step r fall.
+std::function<double(double)> against_step(double c, double p, double r) {
+  return [=](double n) { return c * (std::pow(n, -p) - std::pow(r, p)); };
+}
+
 TEST(FittedOrders, APowerLawGivesItsExponentWithoutAnError) {
   for (const double order : {1.0, 2.0, 3.5}) {
     const Table table = convergence_of({{.error = power_law(7.0, order)}}, sixteen_to_1024);
-    const Row row = slope_of(fit_orders(table, std::nullopt, 0), "state");
+    const Row row = slope_of(fit_orders(table, std::nullopt, exact_reference), "state");
     EXPECT_NEAR(row.number("slope").value_or(0.0), order, 1e-12);
     EXPECT_NEAR(row.number("standard_error").value_or(1.0), 0.0, 1e-12);
+    EXPECT_EQ(row.text("coarsest"), "16");
+    EXPECT_EQ(row.text("finest"), "1024");
+    EXPECT_EQ(row.text("points"), "7");
+    EXPECT_EQ(row.text("fine_end"), "grids");
   }
 }
 
-TEST(FittedOrders, AreFittedFrom32ToAQuarterOfTheReference) {
-  const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
-  const Row row = slope_of(fit_orders(table, std::nullopt, 0), "control");
-  EXPECT_EQ(row.text("coarsest"), "32");
-  EXPECT_EQ(row.text("finest"), "256");
-  EXPECT_EQ(row.text("points"), "4");
-  const Row against_512 = slope_of(fit_orders(table, std::nullopt, 512), "control");
-  EXPECT_EQ(against_512.text("finest"), "128");
+TEST(FittedOrders, AgainstAFinerGridAreThoseOfTheDifference) {
+  for (const double order : {1.0, 2.0, 4.0}) {
+    const Table table = convergence_of({{.error = against_step(7.0, order, 1.0 / 1024)}}, sixteen_to_1024);
+    for (const long long reference : {0LL, 1024LL}) {
+      const Row row = slope_of(fit_orders(table, std::nullopt, reference), "control");
+      EXPECT_NEAR(row.number("slope").value_or(0.0), order, 1e-6);
+      EXPECT_EQ(row.text("finest"), "512");
+    }
+    // Of a reference that is finer than the one named the order is too low.
+    EXPECT_LT(slope_of(fit_orders(table, FitRange{16, 256}, 512), "control").needed("slope"), order - 0.01);
+  }
 }
 
-TEST(FittedOrders, StartAt64WithSeveralStages) {
-  const Table table = convergence_of({{.stages = "2", .error = power_law(1.0, 2.0)}}, sixteen_to_1024);
-  EXPECT_EQ(slope_of(fit_orders(table, std::nullopt, 0), "state").text("coarsest"), "64");
-}
-
-TEST(FittedOrders, ARangeBeyondAQuarterOfTheReferenceGetsANote) {
-  const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
-  EXPECT_TRUE(fit_orders(table, FitRange{32, 256}, 1024).notes.empty());
-  const FittedOrders bent = fit_orders(table, FitRange{32, 256}, 512);
-  ASSERT_EQ(bent.notes.size(), 1U);
-  EXPECT_NE(bent.notes[0].find("N = 256"), std::string::npos) << bent.notes[0];
-  EXPECT_EQ(slope_of(bent, "state").text("finest"), "256");
-}
-
-TEST(FittedOrders, OfACurveWithTooFewGridsGetANote) {
-  const FittedOrders none =
-      fit_orders(convergence_of({{.error = power_law(1.0, 2.0)}}, {16, 32, 64, 128}), std::nullopt, 0);
-  EXPECT_TRUE(none.table.rows().empty());
-  ASSERT_EQ(none.notes.size(), 1U);
-  EXPECT_NE(none.notes[0].find("no order is fitted, which takes two grids from N = 32 to 32"), std::string::npos)
-      << none.notes[0];
-  EXPECT_TRUE(
-      fit_orders(convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024), std::nullopt, 0).notes.empty());
-}
-
-TEST(FittedOrders, GoToTheFinestGridAgainstAnExactReference) {
-  const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
+TEST(FittedOrders, BeginWhereNeighbouringGridsAgree) {
+  const auto bent = [](double n) { return std::pow(n, -2.0) * (1.0 + std::pow(100.0 / n, 4.0)); };
+  const Table table = convergence_of({{.error = bent}}, {16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512});
   const Row row = slope_of(fit_orders(table, std::nullopt, exact_reference), "state");
-  EXPECT_EQ(row.text("coarsest"), "32");
-  EXPECT_EQ(row.text("finest"), "1024");
-  EXPECT_EQ(row.text("points"), "6");
-  EXPECT_TRUE(fit_orders(table, FitRange{32, 1024}, exact_reference).notes.empty());
+  EXPECT_EQ(row.text("coarse_end"), "orders");
+  EXPECT_GT(row.needed("coarsest"), 96.0);
+  EXPECT_NEAR(row.needed("slope"), 2.0, 0.1);
+}
+
+TEST(FittedOrders, OfACurveWithoutFourGridsAreNoneAndGetANote) {
+  const FittedOrders none =
+      fit_orders(convergence_of({{.error = power_law(1.0, 2.0)}}, {16, 32, 64}), std::nullopt, exact_reference);
+  EXPECT_EQ(slope_of(none, "state").text("verdict"), "few grids");
+  EXPECT_EQ(slope_of(none, "state").text("slope"), "");
+  ASSERT_EQ(none.notes.size(), 1U);
+  EXPECT_NE(none.notes[0].find("no order is fitted (few grids: 3 grids"), std::string::npos) << none.notes[0];
+}
+
+TEST(FittedOrders, OfGridsThatDisagreeAreNone) {
+  const auto jumping = [](double n) { return std::pow(n, -2.0) * (std::fmod(std::log2(n), 2.0) < 0.5 ? 1.0 : 1.4); };
+  const FittedOrders none =
+      fit_orders(convergence_of({{.error = jumping}}, sixteen_to_1024), std::nullopt, exact_reference);
+  EXPECT_EQ(slope_of(none, "state").text("verdict"), "unsteady");
+  EXPECT_EQ(slope_of(none, "state").text("slope"), "");
+  EXPECT_EQ(none.notes.size(), 1U);
 }
 
 /// Grids off the powers of two: enough of them above a floor.
@@ -96,9 +101,10 @@ TEST(FittedOrders, EndAHundredTimesAboveTheMeasuredFloorAgainstAnExactReference)
       fit_orders(convergence_of({{.error = with_floor}}, dense_grids), std::nullopt, exact_reference);
   const Row row = slope_of(slopes, "state");
   EXPECT_EQ(row.text("verdict"), "slope");
-  EXPECT_EQ(row.text("coarsest"), "32");
+  EXPECT_EQ(row.text("coarsest"), "16");
   EXPECT_EQ(row.text("finest"), "128");  // 2.3e-10; 192 has 2.1e-11
-  EXPECT_EQ(row.text("points"), "7");
+  EXPECT_EQ(row.text("fine_end"), "floor");
+  EXPECT_EQ(row.text("points"), "8");
   EXPECT_NEAR(row.number("floor").value_or(0.0), 1e-12, 5e-14);
   EXPECT_NEAR(row.number("slope").value_or(0.0), 6.0, 0.01);
   const Table same = convergence_of({{.error = with_floor}}, dense_grids);
@@ -106,7 +112,7 @@ TEST(FittedOrders, EndAHundredTimesAboveTheMeasuredFloorAgainstAnExactReference)
 }
 
 TEST(FittedOrders, ThroughFewerThanFourGridsAboveTheFloorAreNone) {
-  const std::vector<long long> powers_of_two{16, 32, 64, 128, 256, 512, 1024};
+  const std::vector<long long> powers_of_two{32, 64, 128, 256, 512, 1024};
   const Row row = slope_of(
       fit_orders(convergence_of({{.error = with_floor}}, powers_of_two), std::nullopt, exact_reference), "state");
   EXPECT_EQ(row.text("verdict"), "floor");
@@ -157,32 +163,35 @@ TEST(FittedOrders, OfDifferencesEndAboveThoseOfHamiltonianCollocation) {
 TEST(FittedOrders, UnsolvedRowsAndOtherBranchesAreLeftOut) {
   const Table good = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
   const Table wrong = with_field(good, 64, "state_error", Cell(1.0));
-  EXPECT_GT(std::abs(slope_of(fit_orders(wrong, std::nullopt, 0), "state").needed("slope") - 2.0), 0.5);
+  const FitRange all{16, 1024};
+  EXPECT_GT(std::abs(slope_of(fit_orders(wrong, all, exact_reference), "state").needed("slope") - 2.0), 0.05);
+  EXPECT_EQ(slope_of(fit_orders(wrong, std::nullopt, exact_reference), "state").text("coarsest"), "128");
   for (const auto& [column, value] : {std::pair{"status", "iteration limit"}, std::pair{"branch", "other"}}) {
     const Table marked = with_field(wrong, 64, column, Cell(std::string(value)));
-    const Row row = slope_of(fit_orders(marked, std::nullopt, 0), "state");
+    const Row row = slope_of(fit_orders(marked, std::nullopt, exact_reference), "state");
     EXPECT_NEAR(row.number("slope").value_or(0.0), 2.0, 1e-12) << column;
-    EXPECT_EQ(row.text("points"), "3");
+    EXPECT_EQ(row.text("points"), "6");
   }
 }
 
-TEST(FittedOrders, ErrorsAtTheLevelOfRoundingAreLeftOut) {
+TEST(FittedOrders, InARangeOfTheUsersLeaveOutRounding) {
   const auto floor = [](double n) { return std::max(1e3 * std::pow(n, -6.0), 1e-13); };
   const Table table = convergence_of({{.error = floor}}, sixteen_to_1024);
-  const Row row = slope_of(fit_orders(table, FitRange{16, 256}, 1024), "state");
+  const Row row = slope_of(fit_orders(table, FitRange{16, 256}, exact_reference), "state");
   EXPECT_NEAR(row.number("slope").value_or(0.0), 6.0, 1e-9);
+  EXPECT_EQ(row.text("fine_end"), "range");
 }
 
-TEST(FittedOrders, TwoPointsHaveNoStandardErrorAndOnePointNoSlope) {
+TEST(FittedOrders, TwoGridsMakeNone) {
   const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
-  EXPECT_EQ(slope_of(fit_orders(table, FitRange{32, 64}, 1024), "state").text("standard_error"), "");
-  EXPECT_TRUE(fit_orders(table, FitRange{32, 32}, 1024).table.rows().empty());
+  EXPECT_EQ(slope_of(fit_orders(table, FitRange{32, 64}, exact_reference), "state").text("slope"), "");
+  EXPECT_NE(slope_of(fit_orders(table, FitRange{32, 128}, exact_reference), "state").text("slope"), "");
 }
 
 TEST(FittedOrders, EveryCurveHasItsOwn) {
   const Table table = convergence_of(
       {{.error = power_law(1.0, 2.0)}, {.name = "tangent", .error = power_law(3.0, 1.0)}}, sixteen_to_1024);
-  const FittedOrders slopes = fit_orders(table, std::nullopt, 0);
+  const FittedOrders slopes = fit_orders(table, std::nullopt, exact_reference);
   EXPECT_NEAR(slope_of(slopes, "state", "dmoc").number("slope").value_or(0.0), 2.0, 1e-12);
   EXPECT_NEAR(slope_of(slopes, "state", "tangent").number("slope").value_or(0.0), 1.0, 1e-12);
 }

@@ -126,6 +126,16 @@ TEST(AsymptoticRange, LeavesOutCoarseGridsOnWhichErrorsFallFaster) {
   EXPECT_EQ(range.end, quick_steps.size());
 }
 
+TEST(AsymptoticRange, IsTheFinestEvenWhereMoreCoarseGridsAgreeOnAnotherOrder) {
+  std::vector<double> steps{1.0 / 4, 1.0 / 6, 1.0 / 8, 1.0 / 12};
+  steps.insert(steps.end(), quick_steps.begin(), quick_steps.end());
+  for (const double more : {192.0, 256.0, 384.0, 512.0}) steps.push_back(1.0 / more);
+  const auto fitted =
+      fitted_in_range(errors_on(steps, [](double h) { return h * h * (1.0 + std::pow(60.0 * h, 4.0)); }));
+  ASSERT_TRUE(fitted.has_value());
+  EXPECT_NEAR(fitted->order, 2.0, 0.1);
+}
+
 TEST(AsymptoticRange, EndsAtTheFloor) {
   const auto points = errors_on(quick_steps, [](double h) { return 1e4 * std::pow(h, 8.0) + 1e-13; });
   const auto range = tests::value_of(asymptotic_range(points, 1e-11));
