@@ -49,19 +49,23 @@ std::vector<GridError> errors_of(const Selection& rows, const std::string& colum
   return errors;
 }
 
-/// The median of the errors on the finest grids, where they fall from grid to grid with less than half the upper
-/// quartile of all such orders; none if they fall to the end.
+/// The median of the errors on the finest grids, where they fall with less than order 1/2 on the whole; none if there
+/// are no two such grids.
 std::optional<double> measured_floor(const std::vector<GridError>& errors, double reference) {
-  if (errors.size() < fewest_grids) return std::nullopt;
+  constexpr double order_of_noise = 0.5;
   const std::vector<double> orders = neighbouring_orders(errors, reference);
-  std::vector<double> sorted = orders;
-  const auto quartile = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 3 / 4);
-  std::ranges::nth_element(sorted, quartile);
-  std::vector<double> flat;
-  for (std::size_t i = orders.size(); i > 0 && !(orders[i - 1] >= *quartile / 2.0); --i) {
-    flat.push_back(errors[i].error);
+  double fall = 0.0;
+  double span = 0.0;
+  std::vector<double> behind;  // the errors on all grids so far but the coarsest
+  std::optional<double> floor;
+  for (std::size_t i = orders.size(); i > 0 && std::isfinite(orders[i - 1]); --i) {
+    const double step = std::log(errors[i - 1].step / errors[i].step);
+    fall += orders[i - 1] * step;
+    span += step;
+    behind.push_back(errors[i].error);
+    if (fall < order_of_noise * span) floor = median(behind);
   }
-  return flat.empty() ? std::nullopt : std::optional(median(flat));
+  return floor;
 }
 
 /// The smallest measured floor of some curves; `reference` is the step that their errors are measured against.

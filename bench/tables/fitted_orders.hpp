@@ -28,8 +28,8 @@ struct FittedOrders {
 /// Orders, the slopes of log(error) over log(step), for every curve and every error of a convergence table.
 ///
 /// They are fitted on the asymptotic range (`asymptotic_range`) of the grids whose error is above 100 times the floor.
-/// The floor is measured: it is the median of the errors on a curve's finest grids where they fall with less than half
-/// the order seen before; the smallest floor among the curves of a problem and method holds for all of them. With a
+/// The floor is measured: it is the median of the errors on a curve's finest grids where they fall with less than order
+/// 1/2 on the whole; the smallest floor among the curves of a problem and method holds for all of them. With a
 /// range of the user's every error in it is used, at least three, except for those at the level of rounding.
 ///
 /// `reference` is the number of intervals of the reference, 0 for the finest grid of a curve, or `exact_reference`.
