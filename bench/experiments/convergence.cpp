@@ -80,8 +80,8 @@ class Convergence final : public ExperimentOf<Measured> {
               "tighten answers by Newton steps, so that errors are those of the method and not of the solver");
     line.option(
         "--fit", fit_,
-        "slopes are fitted from N = a to b, written a:b; default: 32 (64 with more than one stage) to a quarter of "
-        "the reference, or to the finest grid against the indirect solution");
+        "slopes are fitted from N = a to b, written a:b; default: the finest four or more grids above rounding whose "
+        "neighbouring slopes differ by at most 0.2");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

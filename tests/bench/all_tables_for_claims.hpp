@@ -263,10 +263,7 @@ inline void add_rows_of(Rows& rows, const char* problem, const std::function<boo
 inline std::map<std::string, Rows> all_rows() {
   std::map<std::string, Rows> rows = rows_of_tables();
   rows["convergence_512_slopes"] = rows["convergence_slopes"];
-  for (Row& row : rows["convergence_512_slopes"]) {
-    row.set("problem", two_link);
-    row.set("slope", 2.13);
-  }
+  for (Row& row : rows["convergence_512_slopes"]) row.set("problem", two_link);
   add_rows_of(rows["convergence_indirect_slopes"], two_link,
               [](const Row& row) { return row.text("method") == "dmoc" && row.text("quantity") == "control"; });
   for (Row& row : rows["equivalence"]) {

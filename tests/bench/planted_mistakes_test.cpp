@@ -68,8 +68,8 @@ std::vector<Mistake> mistakes_about_solutions() {
          set(every_row, "slope", 2.6)(rows);
          set(every_row, "standard_error", 2.0)(rows);
        },
-       on_orbit("control_slope")},
-      {"a slope that is too good for its reference", "convergence_512_slopes", set(every_row, "slope", 2.0),
+       on_orbit("control_slope"), ClaimVerdict::undecided},
+      {"a slope that the reference has not been taken out of", "convergence_512_slopes", set(every_row, "slope", 2.13),
        "two_link_manipulator/state_slope_against_512"},
       {"a cost of DMOC that is nearer to the optimum than it is", "objective",
        set([](const Row& row) { return row.text("method") != "tangent"; }, "objective", 4e-5 * (1.0 + 1e-7)),
