@@ -44,8 +44,8 @@ enum class RangeEnd : std::uint8_t {
 
 /// Grids on which errors fall as one power of the step: those of number `first` up to `end`, which is not one of them.
 struct AsymptoticRange {
-  std::size_t first = 0;
-  std::size_t end = 0;
+  std::size_t first = 0;                  ///< number of the coarsest grid
+  std::size_t end = 0;                    ///< number behind the finest grid
   RangeEnd coarse_end = RangeEnd::grids;  ///< why no coarser grid belongs to it
   RangeEnd fine_end = RangeEnd::grids;    ///< why no finer grid belongs to it
 };
