@@ -43,7 +43,7 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
     set multiplot layout 1, words(methods) title title_text(problem_label(problem).": where the starts of a plane end",\
         sprintf("Cold starts by %s: the guess with bulges sin({/Symbol p}t/T) in q_1 and q_2; N = %s, %d × %d starts per method.",\
         solver_label(entry(word(distinct(basins, "solver", group, ""), 1), "solver")), entry(group, "intervals"), places, places),\
-        "Dark: not solved, or too coarse. Grey: an answer whose intervals, replayed one by one, do not join.")\
+        "Dark: not solved, or no motion. Grey: an answer whose intervals, replayed one by one, do not join.")\
         offset 0, -0.4 margins 0.07, 0.985, 0.24, 0.76 spacing 0.045
     set xrange [B_min - half:B_max + half]
     set yrange [B_min - half:B_max + half]

@@ -68,7 +68,7 @@ do for [name in "convergence convergence_512"] {
              for [k = 1:words(coarse_curves)] coarse_rows(name, word(coarse_curves, k), error)\
              using (column("step")):(column(error))\
              with points linetype method_style(entry(word(coarse_curves, k), "method")) pointtype 6 notitle,\
-             keyentry with points linetype 8 pointtype 6 title (strlen(coarse_curves) > 0 ? "too coarse to be a motion" : ""),\
+             keyentry with points linetype 8 pointtype 6 title (strlen(coarse_curves) > 0 ? "no motion: too coarse, or violates between stages" : ""),\
              for [k = 1:one_stage] y_guide * (x / x_guide)**2 with lines linetype 8 title "C h²",\
              for [k = 1:(one_stage && h_ref > 0)] x > h_ref\
              ? y_guide * (x**2 - h_ref**2) / (x_guide**2 - h_ref**2) : NaN with lines linetype 9\

@@ -65,7 +65,7 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     do for [i = 1:drawn] {
       set xtics add (minimum_tic(group.",minimum=".word(numbers, i), i == 1) i)
     }
-    set xtics add ("un-\nconfirmed" drawn + 1, "not solved,\nor too coarse" drawn + 2)
+    set xtics add ("un-\nconfirmed" drawn + 1, "not solved,\nor no motion" drawn + 2)
     set arrow 1 from first drawn + 0.5, graph 0 to first drawn + 0.5, graph 1 nohead linecolor rgb grey dashtype (4, 4)
     if (highest < 10) { set ytics nomirror 1 } else { set ytics nomirror autofreq }
     set grid noxtics ytics

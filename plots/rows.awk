@@ -5,7 +5,8 @@
 #   awk -f rows.awk -v take=unsolved ... TABLE       (or take=all)
 #       the same of the rows that were tried and not solved, or of both
 #   awk -f rows.awk -v take=coarse ... TABLE         (or take=drawn)
-#       the same of the rows whose answer is too coarse to be a motion, or of the solved rows and these
+#       the same of the rows whose answer is no motion (too coarse, or violating constraints between stages), or of the
+#       solved rows and these
 #   awk -f rows.awk -v branches=any ... TABLE
 #       the same whatever the branch, for tables that tell none
 #   awk -f rows.awk -v distinct=problem,method ... TABLE
@@ -62,7 +63,7 @@ NR == 1 {
 }
 
 {
-  coarse = "status" in position && $position["status"] == "too coarse"
+  coarse = "status" in position && ($position["status"] == "too coarse" || $position["status"] == "violates between stages")
   solved = !("status" in position) || $position["status"] == "solved"
   same = branches == "any" || !("branch" in position) || $position["branch"] == "same" || $position["branch"] == ""
 }

@@ -23,7 +23,7 @@ require(name, columns) = sprintf(\
 
 # Rows that may be drawn, as a data file; `where` is problem=a,method=b,..., `need` a column with a value above zero.
 rows(name, where, need) = "< ".rows_awk("-v where='".where."' -v need=".need, name)
-# The same of answers that are too coarse to be motions: drawn hollow, and used by no fit.
+# The same of answers that are no motions (too coarse, or violating constraints between stages): drawn hollow, and used by no fit.
 coarse_rows(name, where, need) = "< ".rows_awk("-v take=coarse -v where='".where."' -v need=".need, name)
 drawn_rows(name, where, need) = "< ".rows_awk("-v take=drawn -v where='".where."' -v need=".need, name)
 has_coarse(name, where) = system(rows_awk("-v take=coarse -v distinct=method -v where='".where."'", name)) ne ""

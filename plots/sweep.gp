@@ -12,7 +12,8 @@ y = word(quantities, 2)
 tried(where) = "< ".rows_awk("-v take=all -v branches=any -v where='".where."'", "sweep")
 answers(where) = "< ".rows_awk("-v take=drawn -v branches=any -v where='".where."'", "sweep")
 is(wanted) = stringcolumn("status") eq wanted ? column(y) : NaN
-other(height) = (stringcolumn("status") eq "solved") || (stringcolumn("status") eq "too coarse") ? NaN : height
+is_no_motion(word) = word eq "too coarse" || word eq "violates between stages"
+other(height) = (stringcolumn("status") eq "solved") || is_no_motion(stringcolumn("status")) ? NaN : height
 # Squares that touch where there are few values.
 size_of(where) = 16.0 / (1.5 + words(distinct("sweep", y, where, "")))
 
@@ -37,8 +38,8 @@ do for [where in system(rows_awk("-v take=all -v branches=any -v distinct=proble
     set title "status"
     set key at screen 0.835, 0.02 center bottom maxrows 1
     plot tried(where) using x:(is("solved")) with points pointtype 5 pointsize 1 linecolor rgb blue title "solved",\
-         tried(where) using x:(is("too coarse")) with points pointtype 4 pointsize 1 linecolor rgb green\
-           title "too coarse",\
+         tried(where) using x:(is_no_motion(stringcolumn("status")) ? column(y) : NaN) with points pointtype 4 pointsize 1 linecolor rgb green\
+           title "no motion",\
          tried(where) using x:(other(column(y))) with points pointtype 2 pointsize 1 linecolor rgb vermilion\
            title "not solved"
     unset multiplot

@@ -37,7 +37,10 @@ std::string add_ratio(TimedRatios& ratios, const Selection& rows, const char* sl
 }
 
 /// A solver that ends at an optimum of the discrete program has done its work, motion or not.
-bool reaches_an_optimum(const Row& row) { return row.text("status") == "solved" || row.text("status") == "too coarse"; }
+bool reaches_an_optimum(const Row& row) {
+  const Status status = status_named(row.text("status"));
+  return is_solved(status) || is_no_motion(status);
+}
 
 /// How many solves from the guess reach an optimum with one back end.
 struct ColdSolves {

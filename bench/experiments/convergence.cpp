@@ -111,7 +111,7 @@ class Convergence final : public ExperimentOf<Measured> {
     measured.round_seconds = seconds_of_rounds(solved);
     if (!solved.trajectory) return;
     measured.replay = replay(solved);
-    // The error of an answer that is too coarse is drawn, hollow, but nothing is fitted to it or measured by it.
+    // The error of an answer that is no motion is drawn, hollow, but nothing is fitted to it or measured by it.
     if (!is_discrete_optimum(solved)) return;
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& trajectory = *solved.trajectory;

@@ -32,6 +32,7 @@ class Solve final : public ExperimentOf<Measured> {
                           "of motions whose NAME is motion_PROBLEM.",
                       .options = {.intervals = "128", .start = "guess"},
                       .finishes_interrupted = true,
+                      .wants_motions = true,
                       .takes_parts = false}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return columns_through<Measured>(&Measured::checks, check_columns()) +
@@ -76,7 +77,7 @@ class Solve final : public ExperimentOf<Measured> {
     }
     if (!solved.trajectory) return;
     measured.checks = check_independently(solved);
-    if (!is_solved(solved.solution.status)) return;
+    if (!is_solved(solved.solution.status) && !is_no_motion(solved.solution.status)) return;
     motions_.push_back(solved);
     motions_.back().program.reset();  // it is large
   }
@@ -91,7 +92,21 @@ class Solve final : public ExperimentOf<Measured> {
       fmt::print("solve: {}: {}_nodes.csv\n", solved.the_case.label(), file);
       fmt::print("solve: {}: intervals join to {:.1e} of the range, worst is interval {}\n", solved.the_case.label(),
                  solved.accuracy->relative_jump, solved.accuracy->interval);
+      print_excess(solved);
     }
+  }
+
+  /// The excess of a control is there wherever it switches, also where the motion misses little by it.
+  static void print_excess(const SolvedCase& solved) {
+    if (!is_solved(solved.solution.status) || !solved.between_stages ||
+        solved.between_stages->control.constraint.empty())
+      return;
+    const MotionViolation& control = solved.between_stages->control;
+    fmt::print(
+        "solve: {}: {} is exceeded between stages by {:.2g} at t = {:.4g}; with clipped controls the motion misses "
+        "{:.1e} of its range\n",
+        solved.the_case.label(), control.constraint, control.size,
+        solved.the_case.problem->card().time_unit.factor * control.time, control.share);
   }
 
  private:

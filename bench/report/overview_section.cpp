@@ -58,11 +58,14 @@ std::string unsolved_html(const ResultsFolder& results) {
   for (const ReportedRun& run : results.runs) {
     const long long failed = count_of(run, "not_solved");
     const long long coarse = count_of(run, "too_coarse");
-    if (failed + coarse == 0) continue;
-    unsolved += failed + coarse;
-    runs.push_back(fmt::format("<li><a href=\"#{}\">{}</a>: {} of {} not solved, {} too coarse to be motions</li>",
-                               anchor("table", run.name + ".csv"), escaped(run.name), failed,
-                               counted(count_of(run, "rows"), "row"), coarse));
+    const long long violating = count_of(run, "violates_between_stages");
+    if (failed + coarse + violating == 0) continue;
+    unsolved += failed + coarse + violating;
+    runs.push_back(
+        fmt::format("<li><a href=\"#{}\">{}</a>: {} of {} not solved, {} too coarse to be motions, {} violating "
+                    "constraints between stages</li>",
+                    anchor("table", run.name + ".csv"), escaped(run.name), failed,
+                    counted(count_of(run, "rows"), "row"), coarse, violating));
   }
   if (runs.empty()) return "";
   return fmt::format(

@@ -44,6 +44,7 @@ struct ExperimentCard {
   bool takes_batches = false;         ///< cases of one program may be solved side by side, without times and without
                                       ///< `solve`: --batch is offered
   bool finishes_interrupted = false;  ///< `finish` is called too where a stop was asked for behind the first row
+  bool wants_motions = false;         ///< an answer that is no motion (`is_no_motion`) makes the exit code 1 too
   bool takes_parts = true;            ///< --part is offered: `finish` needs nothing of solves but rows and `indirect`
 };
 

@@ -200,6 +200,7 @@ nlohmann::ordered_json metadata_schema() {
                            {"rows", count},
                            {"not_solved", count},
                            {"too_coarse", count},
+                           {"violates_between_stages", count},
                            {"on_another_branch", count},
                            {"tables", {{"type", "object"}, {"additionalProperties", table}}}};
   return {

@@ -11,30 +11,47 @@
 
 namespace dmocbench {
 
+namespace {
+
+/// ", 3 too coarse (dmoc 1, tangent 2)"; nothing where there are none.
+std::string counted_by_method(Status status, const std::map<std::string, std::ptrdiff_t>& by_method) {
+  std::ptrdiff_t all = 0;
+  std::vector<std::string> counts;
+  for (const auto& [method, count] : by_method) {
+    all += count;
+    counts.push_back(fmt::format("{} {}", method, count));
+  }
+  return all == 0 ? "" : fmt::format(", {} {} ({})", all, name_of(status), fmt::join(counts, ", "));
+}
+
+}  // namespace
+
 Outcome outcome_of(const Table& table) {
   Outcome outcome;
-  std::map<std::string, int> coarse;
+  std::map<std::string, std::ptrdiff_t> coarse;
+  std::map<std::string, std::ptrdiff_t> violating;
   for (const Row& row : table.rows()) {
     const std::string& status = row.text("status");
-    const bool is_coarse = status == name_of(Status::too_coarse);
-    if (is_coarse) {
+    if (status == name_of(Status::too_coarse)) {
       ++outcome.too_coarse;
       ++coarse[row.text("method")];
+    } else if (status == name_of(Status::violates_between_stages)) {
+      ++outcome.violating;
+      ++violating[row.text("method")];
+    } else if (status != name_of(Status::solved)) {
+      ++outcome.failures;
     }
-    if (!is_coarse && status != name_of(Status::solved)) ++outcome.failures;
     if (row.text("branch") == "other") ++outcome.other_branch;
   }
-  if (outcome.too_coarse == 0) return outcome;
-  std::vector<std::string> counts;
-  counts.reserve(coarse.size());
-  for (const auto& [method, count] : coarse) counts.push_back(fmt::format("{} {}", method, count));
-  outcome.coarse_by_method = fmt::format(", {} too coarse ({})", outcome.too_coarse, fmt::join(counts, ", "));
+  outcome.no_motions_by_method =
+      counted_by_method(Status::too_coarse, coarse) + counted_by_method(Status::violates_between_stages, violating);
   return outcome;
 }
 
 void describe(const Outcome& outcome, nlohmann::ordered_json& metadata) {
   metadata["not_solved"] = outcome.failures;
   metadata["too_coarse"] = outcome.too_coarse;
+  metadata["violates_between_stages"] = outcome.violating;
   metadata["on_another_branch"] = outcome.other_branch;
 }
 

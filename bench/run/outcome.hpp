@@ -11,10 +11,13 @@ namespace dmocbench {
 
 /// How the solves of an experiment's table ended.
 struct Outcome {
-  std::ptrdiff_t failures = 0;      ///< neither solved nor too coarse
-  std::ptrdiff_t too_coarse = 0;    ///< rows whose answers are no motions
+  std::ptrdiff_t failures = 0;      ///< neither solved nor no motions (`is_no_motion`)
+  std::ptrdiff_t too_coarse = 0;    ///< rows whose intervals do not join
+  std::ptrdiff_t violating = 0;     ///< rows whose motions violate constraints between stages
   std::ptrdiff_t other_branch = 0;  ///< rows whose answers are on another branch than their start
-  std::string coarse_by_method;     ///< ", 3 too coarse (dmoc 1, tangent 2)"; nothing where no answer is
+  /// ", 3 too coarse (dmoc 1, tangent 2)", and the same of those that violate between stages; nothing where no answer
+  /// is.
+  std::string no_motions_by_method;
 };
 
 /// How the rows of a table ended, by their columns `status` and `branch`.

@@ -133,10 +133,11 @@ class Run {
     fmt::print(
         "{}: {}{}, {} not solved, {} on another branch{}: {}{}\n", experiment_.card().name,
         complete ? "" : fmt::format("interrupted before {} complete: ", counted(cases_.size(), "row was", "rows were")),
-        counted(rows, "row"), outcome.failures, outcome.other_branch, outcome.coarse_by_method, table_file().string(),
+        counted(rows, "row"), outcome.failures, outcome.other_branch, outcome.no_motions_by_method, table_file().string(),
         kept == 0 ? "" : fmt::format(" (and {} of other problems or settings)", counted(kept, "earlier row")));
     if (!complete) return 130;
-    return outcome.failures > 0 ? 1 : 0;
+    const bool lacks_motion = experiment_.card().wants_motions && outcome.too_coarse + outcome.violating > 0;
+    return outcome.failures > 0 || lacks_motion ? 1 : 0;
   }
 
   /// What stays of earlier runs in the tables that this one writes.

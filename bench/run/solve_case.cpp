@@ -9,7 +9,7 @@
 
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/undefined_point.hpp"
-#include "methods/diagnostics/violation_between_nodes.hpp"
+#include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/polish.hpp"
@@ -78,6 +78,17 @@ int settle_exactly(Case the_case, Transcription& program, double tolerance, Solu
   return settle(*exact, tolerance, solution);
 }
 
+/// Measures what the motion violates between stages; one that leaves its constraints there is not solved.
+void judge_between_stages(SolvedCase& solved, const Trajectory& motion) {
+  const Problem& problem = *solved.the_case.problem;
+  const ViolationBetweenStages found = violation_between_stages(problem, solved.program->traced_problem(), motion);
+  solved.between_stages = found;
+  if (!is_solved(solved.solution.status) || found.is_motion()) return;
+  solved.solution.status = Status::violates_between_stages;
+  solved.solution.message =
+      std::string(sentence_of(solved.solution.status)) + found.words(motion, problem.card().time_unit.factor);
+}
+
 /// Replays the intervals of a solved case one by one; an answer that is no motion is not solved but too coarse.
 void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   const Accuracy found = accuracy(solved.program->traced_problem(), motion);
@@ -129,6 +140,7 @@ void judge_in_time(SolvedCase& solved, const Trajectory& motion, const TimeOfCas
   try {
     const StopScope scope = time.scope();
     judge_accuracy(solved, motion);
+    judge_between_stages(solved, motion);
     note_cost_scale(solved, motion.cost);
     note_variable_sizes(solved, motion);
   } catch (const Stopped&) {
@@ -287,6 +299,7 @@ void take_judgement(SolvedCase& solved, const Start& start, std::shared_ptr<Judg
   solved.trajectory = judged.trajectory;
   if (solved.trajectory) solved.trajectory->cost = solved.solution.objective / solved.program->cost_scale();
   solved.accuracy = judged.accuracy;
+  solved.between_stages = judged.between_stages;
   solved.solution.status = judged.solution.status;
   solved.solution.message = judged.solution.message;
   solved.answer = std::move(answer);
@@ -310,7 +323,7 @@ bool is_usable(const SolvedCase& solved) {
 }
 
 bool is_discrete_optimum(const SolvedCase& solved) {
-  return is_usable(solved) || (solved.solution.status == Status::too_coarse && is_wanted_branch(solved.branch));
+  return is_usable(solved) || (is_no_motion(solved.solution.status) && is_wanted_branch(solved.branch));
 }
 
 bool is_usable(const Row& row) { return row.text("status") == "solved" && is_wanted_branch(row.text("branch")); }
@@ -335,7 +348,7 @@ std::optional<ReplayError> replay(SolvedCase& solved) {
 namespace {
 
 /// True of answers that a solver found, motions or not.
-bool is_judged(Status status) { return is_solved(status) || status == Status::too_coarse; }
+bool is_judged(Status status) { return is_solved(status) || is_no_motion(status); }
 
 /// Those of the answer, found out once for all cases that end at it.
 IndependentChecks shared_checks(SolvedCase& solved) {
@@ -360,9 +373,11 @@ IndependentChecks check_independently(SolvedCase& solved) {
     solved.solution.status = Status::evaluation_failed;
     solved.solution.message = undefined->words();
   }
-  IndependentChecks checks{.replay = replay(solved),
-                           .violation_between_nodes = violation_between_nodes(problem, trajectory),
-                           .free_horizon_residual = {}};
+  IndependentChecks checks{.replay = replay(solved), .violation_between_nodes = {}, .free_horizon_residual = {}};
+  if (!solved.between_stages) {
+    solved.between_stages = violation_between_stages(problem, solved.program->traced_problem(), trajectory);
+  }
+  checks.violation_between_nodes = solved.between_stages->largest;
   if (problem.bounds().horizon.is_free() && trajectory.has_costates()) {
     checks.free_horizon_residual = free_horizon_residual(problem, trajectory);
   }

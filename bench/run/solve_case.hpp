@@ -9,6 +9,7 @@
 #include "bench/run/column.hpp"
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/diagnostics/replay_error.hpp"
+#include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/solvers/solver.hpp"
@@ -86,6 +87,8 @@ struct SolvedCase {
   Eigen::VectorXd start = {};                           ///< the point it began at; empty if there was none
   std::optional<Trajectory> trajectory = std::nullopt;  ///< none if there is no point, or one without momenta
   std::optional<Accuracy> accuracy = std::nullopt;      ///< of a solved case: whether its intervals join
+  /// Of a solved case: what its motion violates between stages.
+  std::optional<ViolationBetweenStages> between_stages = std::nullopt;
   /// "same" or "other" than that of the start; "unknown" if no common start was found, empty if none was looked for.
   std::string branch = {};
   std::optional<double> setup_seconds = std::nullopt;  ///< of the transcription, s; none in a batch
@@ -170,7 +173,7 @@ void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 /// True of solves that ended on the wanted branch, or on any where none is wanted (`--start guess`); curves, orders and
 /// claims use only these.
 [[nodiscard]] bool is_usable(const SolvedCase& solved);
-/// True of these and of answers that are too coarse: optima of the discrete program, whatever they are as motions.
+/// True of these and of answers that are no motions (`is_no_motion`): optima of the discrete program all the same.
 [[nodiscard]] bool is_discrete_optimum(const SolvedCase& solved);
 /// True if the row has an answer that may be compared and drawn: solved, and on the wanted branch.
 [[nodiscard]] bool is_usable(const Row& row);

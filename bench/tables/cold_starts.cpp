@@ -8,6 +8,7 @@
 #include "bench/run/column.hpp"
 #include "bench/tables/share_interval.hpp"
 #include "methods/numerics/quantile.hpp"
+#include "methods/program/status.hpp"
 
 namespace dmocbench {
 
@@ -18,7 +19,7 @@ const ColumnNames columns_of_competitors{"method", "tableau", "stages", "solver"
 const ColumnNames cell_columns{"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals"};
 
 bool was_confirmed(const Row& row) { return row.text("status") == "solved"; }
-bool was_too_coarse(const Row& row) { return row.text("status") == "too coarse"; }
+bool was_no_motion(const Row& row) { return is_no_motion(status_named(row.text("status"))); }
 
 /// The cost that tells which answers are the best.
 struct BestCost {
@@ -134,7 +135,7 @@ EndsOfCell ends_of(const Selection& cell, const BestCost& reference, double tole
   const Selection confirmed = cell.where(was_confirmed);
   const Selection best = confirmed.where([&](const Row& row) { return reference.excess(row) <= tolerance; });
   const Selection below = best.where([&](const Row& row) { return reference.excess(row) < -tolerance; });
-  const Selection lost = cell.where([](const Row& row) { return !was_confirmed(row) && !was_too_coarse(row); });
+  const Selection lost = cell.where([](const Row& row) { return !was_confirmed(row) && !was_no_motion(row); });
   EndsOfCell ends{.head = cell.front(),
                   .solved = {.hits = starts - lost.size(), .trials = starts},
                   .confirmed = {.hits = confirmed.size(), .trials = starts},

@@ -11,6 +11,7 @@
 
 #include "methods/adaptive/graded_grid.hpp"
 #include "methods/choose.hpp"
+#include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -47,8 +48,17 @@ class AdaptiveRun {
       const bool is_solved_here = attempt();
       if (on_grid) on_grid(answer_.grids.back());
       if (!is_solved_here) return end(AdaptiveOutcome::not_solved, failure());
+      if (!between_.is_motion()) {
+        refine_where_violated();
+        continue;
+      }
       if (has_ended()) return std::move(answer_);
       if (!choose_next()) return std::move(answer_);
+    }
+    if (!between_.is_motion()) {
+      return end(AdaptiveOutcome::not_solved,
+                 fmt::format("After {} grids the motion still violates its constraints between stages:{}",
+                             options_.most_grids, between_.words(answer_.trajectory, 1.0)));
     }
     return end(AdaptiveOutcome::too_many,
                fmt::format("After {} grids the estimated error is still {:.1e}, not {:g}.", options_.most_grids,
@@ -82,9 +92,14 @@ class AdaptiveRun {
                        .iterations = solution.major_iterations.value_or(0)};
     if (is_solved(solution.status)) {
       answer_.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
-      answer_.estimate = estimator_->estimate(program, solution.primal, solution.multipliers, answer_.trajectory);
-      record.relative = answer_.estimate.relative;
-      record.floor = answer_.estimate.floor;
+      between_ = violation_between_stages(*task_.problem, program.traced_problem(), answer_.trajectory);
+      if (between_.is_motion()) {
+        answer_.estimate = estimator_->estimate(program, solution.primal, solution.multipliers, answer_.trajectory);
+        record.relative = answer_.estimate.relative;
+        record.floor = answer_.estimate.floor;
+      } else {
+        record.status = Status::violates_between_stages;
+      }
     }
     record.seconds = seconds_since(begin);
     answer_.grids.push_back(record);
@@ -128,6 +143,16 @@ class AdaptiveRun {
     return true;
   }
 
+  /// The next grid where the motion leaves its constraints between stages: finer there, the same elsewhere.
+  void refine_where_violated() {
+    constexpr double narrower = 0.25;
+    Eigen::VectorXd widths = grid_.relative_widths();
+    const bool is_state = !(between_.state.share <= largest_violation_of_a_motion);
+    const Eigen::Index k = is_state ? between_.state.interval : between_.control.interval;
+    widths[k] = std::max(narrower * widths[k], Grid::narrowest);
+    grid_ = graded_grid(grid_, widths, options_.largest_ratio);
+  }
+
   /// The next grid and number of stages; false if there is none.
   bool choose_next() {
     const ErrorEstimate& estimate = answer_.estimate;
@@ -163,6 +188,7 @@ class AdaptiveRun {
   Grid grid_;
   int stages_;
   std::optional<ErrorEstimator> estimator_;
+  ViolationBetweenStages between_;  // of the last grid
   AdaptiveAnswer answer_;
 };
 

@@ -52,7 +52,7 @@ struct AdaptiveOptions {
 struct GridAttempt {
   Eigen::Index intervals = 0;       ///< N
   Eigen::Index stages = 0;          ///< s
-  Status status = Status::not_run;  ///< how the solve ended
+  Status status = Status::not_run;  ///< how the solve ended, and whether its motion keeps its constraints
   std::string message;              ///< of the solver
   double relative = 0.0;            ///< `ErrorEstimate::relative`, infinite where there is none
   double floor = 0.0;               ///< `ErrorEstimate::floor`
@@ -98,6 +98,9 @@ struct AdaptiveTask {
 /// to its costates (`sample_multipliers`), and without these where that fails. With `Refinement::hp`, while there are
 /// fewer than three stages and the next grid would have more than twice as many intervals, the number of stages grows
 /// by one instead, on as many intervals as before.
+///
+/// A motion that leaves its constraints between stages (`violation_between_stages`) has no estimate, whatever is asked
+/// for: the next grid is four times as fine where it leaves them farthest, and the same elsewhere.
 ///
 /// It ends as `rounding` where the floor of an estimate is above the accuracy, or the next grid's would be. It stops
 /// where a program is not solved (`solution` says why). `on_grid` is told of every grid. Throws `Stopped` where a

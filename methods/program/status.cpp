@@ -33,6 +33,8 @@ constexpr auto entries = std::to_array<Entry>({
     {Status::solver_error, "solver error", "The solver reported an internal error."},
     {Status::too_coarse, "too coarse",
      "The discrete program is solved, but its answer is no motion: the grid is too coarse for it."},
+    {Status::violates_between_stages, "violates between stages",
+     "The discrete program is solved, but its motion leaves a bound or path constraint between the stages."},
     {Status::not_confirmed, "not confirmed",
      "The solver says it is solved, but the residual computed from our derivatives does not confirm it."},
 });

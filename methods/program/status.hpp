@@ -7,22 +7,23 @@ namespace dmocbench {
 
 /// How a solve ended. Only `solved` is an answer that our own residual confirms.
 enum class Status : std::uint8_t {
-  not_run,            ///< no solver has been called
-  solved,             ///< KKT residual and constraint violation are below the tolerance, or rounding (`StopRule`)
-  acceptable,         ///< the solver stopped short of the tolerance, but within a hundred times of it
-  infeasible,         ///< converged to a point of least constraint violation
-  diverged,           ///< iterates grew without bound
-  step_failed,        ///< no further step could be computed (line search, restoration, too small a step)
-  evaluation_failed,  ///< a formula gave NaN or infinity
-  iteration_limit,    ///< the largest allowed number of iterations was reached
-  time_limit,         ///< the allowed time was used up
-  interrupted,        ///< stopped from outside
-  too_large,          ///< the solver refuses a program of this size
-  invalid_program,    ///< the solver refuses the program: too few degrees of freedom, a bad option or number
-  out_of_memory,      ///< the solver could not allocate what it needs
-  solver_error,       ///< the solver reported an internal error
-  too_coarse,         ///< solved, but the answer is no motion: its intervals do not join (`accuracy`)
-  not_confirmed,      ///< the solver says it is solved, but our residual does not confirm it
+  not_run,                  ///< no solver has been called
+  solved,                   ///< KKT residual and constraint violation are below the tolerance, or rounding (`StopRule`)
+  acceptable,               ///< the solver stopped short of the tolerance, but within a hundred times of it
+  infeasible,               ///< converged to a point of least constraint violation
+  diverged,                 ///< iterates grew without bound
+  step_failed,              ///< no further step could be computed (line search, restoration, too small a step)
+  evaluation_failed,        ///< a formula gave NaN or infinity
+  iteration_limit,          ///< the largest allowed number of iterations was reached
+  time_limit,               ///< the allowed time was used up
+  interrupted,              ///< stopped from outside
+  too_large,                ///< the solver refuses a program of this size
+  invalid_program,          ///< the solver refuses the program: too few degrees of freedom, a bad option or number
+  out_of_memory,            ///< the solver could not allocate what it needs
+  solver_error,             ///< the solver reported an internal error
+  too_coarse,               ///< solved, but the answer is no motion: its intervals do not join (`accuracy`)
+  violates_between_stages,  ///< solved, but the motion leaves its bounds between stages (`violation_between_stages`)
+  not_confirmed,            ///< the solver says it is solved, but our residual does not confirm it
 };
 
 /// The name that tables use: "solved", "iteration limit", ...
@@ -36,5 +37,11 @@ enum class Status : std::uint8_t {
 
 /// True for `solved` only: an answer that figures and claims may use.
 [[nodiscard]] constexpr bool is_solved(Status status) noexcept { return status == Status::solved; }
+
+/// True for answers of the discrete program that are no motions: figures draw them hollow, and nothing is fitted to
+/// them.
+[[nodiscard]] constexpr bool is_no_motion(Status status) noexcept {
+  return status == Status::too_coarse || status == Status::violates_between_stages;
+}
 
 }  // namespace dmocbench

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/conserved_quantities.hpp"
-#include "methods/diagnostics/violation_between_nodes.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -93,24 +92,6 @@ TEST(ControlHamiltonian, NeedsCostates) {
   trajectory.psi_q.resize(0, 0);
   tests::expect_error_naming({"costates"},
                              [&] { static_cast<void>(control_hamiltonian(tests::DoubleIntegrator(), trajectory)); });
-}
-
-TEST(ViolationBetweenNodes, IsWhatAMotionDoesBetweenThePointsWhereItIsBounded) {
-  const tests::DoubleIntegrator base;
-  const Trajectory trajectory = solved_on_uniform_grid(base, {"dmoc", 2}, 8);
-  const auto violation = [&](const std::function<void(Statement&)>& state) {
-    return violation_between_nodes(Restated(base, state), trajectory);
-  };
-  // v = 6t(1 - t) reaches 1.5 at t = ½ (its lines between stages 1/64 more), u = 6 - 12t reaches 6 at the ends, where
-  // no stage lies.
-  EXPECT_EQ(violation([](Statement&) {}), 0.0);
-  EXPECT_NEAR(violation([](Statement& s) { s.v = tests::all_between(1, -1.0, 1.25); }), 0.25, 0.02);
-  EXPECT_NEAR(violation([](Statement& s) { s.u = tests::all_between(1, -5.0, 9.0); }), 1.0, 1e-6);
-  EXPECT_NEAR(violation([](Statement& s) {
-                s.path = [](const ControlledState& x) { return ExpressionVector::Constant(1, 0.75 - x.q[0]); };
-              }),
-              0.25, 1e-9);
-  EXPECT_EQ(violation([](Statement& s) { s.q = tests::all_between(1, -1.0, 1.5); }), 0.0);
 }
 
 }  // namespace

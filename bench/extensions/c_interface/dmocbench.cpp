@@ -14,6 +14,7 @@
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/adaptive/error_estimate.hpp"
 #include "methods/diagnostics/accuracy.hpp"
+#include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/polish.hpp"
 #include "methods/mechanics/problem.hpp"
@@ -112,8 +113,8 @@ void keep_arrays(dmocbench_solution& result, const Trajectory& motion) {
   result.numbers["cost"] = motion.cost;
 }
 
-/// Reads the motion and judges it: an answer whose intervals do not join is too coarse.
-void read_motion(dmocbench_solution& result) {
+/// Reads the motion and judges it: its intervals must join, and its constraints hold between stages.
+void read_motion(dmocbench_solution& result, const Problem& problem) {
   Solution& solution = result.solution;
   if (solution.primal.size() == 0 || !solution.primal.allFinite()) return;
   result.motion = read_trajectory(*result.program, solution.primal, solution.multipliers);
@@ -121,14 +122,21 @@ void read_motion(dmocbench_solution& result) {
   if (!is_solved(solution.status)) return;
   const Accuracy joined = accuracy(result.program->traced_problem(), *result.motion);
   result.numbers["relative_jump"] = joined.relative_jump;
-  if (joined.relative_jump <= largest_jump_of_a_motion) return;
-  solution.status = Status::too_coarse;
-  solution.message = sentence_of(solution.status);
+  const ViolationBetweenStages between =
+      violation_between_stages(problem, result.program->traced_problem(), *result.motion);
+  result.numbers["violation_between_stages"] = between.largest;
+  if (joined.relative_jump > largest_jump_of_a_motion) {
+    solution.status = Status::too_coarse;
+    solution.message = sentence_of(solution.status);
+  } else if (!between.is_motion()) {
+    solution.status = Status::violates_between_stages;
+    solution.message = std::string(sentence_of(solution.status)) + between.words(*result.motion, 1.0);
+  }
 }
 
 /// Reads, judges and keeps what the handle's program and solution tell.
-std::unique_ptr<dmocbench_solution> told(std::unique_ptr<dmocbench_solution> result) {
-  read_motion(*result);
+std::unique_ptr<dmocbench_solution> told(std::unique_ptr<dmocbench_solution> result, const Problem& problem) {
+  read_motion(*result, problem);
   keep_numbers(*result);
   result->numbers["intervals"] = static_cast<double>(result->program->grid().intervals());
   result->numbers["stages"] = static_cast<double>(result->program->tableau().stages());
@@ -161,7 +169,7 @@ std::unique_ptr<dmocbench_solution> solved(const Problem& problem, const dmocben
   const auto solver = make_solver(&required(options.solver, "the solver"), solver_options_of(options));
   result->solution = solver->solve(*result->program, sample(*result->program, start));
   result->numbers["settling_steps"] = settle(*result->program, options.tolerance, result->solution);
-  return told(std::move(result));
+  return told(std::move(result), problem);
 }
 
 /// The motion of a solution, to start from. Throws `Error` if it has none, or not of a problem like this one.
@@ -196,7 +204,7 @@ std::unique_ptr<dmocbench_solution> solved_accurately(const Problem& problem, co
   if (!is_reached && is_solved(result->solution.status)) result->solution.status = Status::not_confirmed;
   result->solution.message = answer.message;
   if (is_reached) result->numbers["estimated_error"] = answer.estimate.relative;
-  return told(std::move(result));
+  return told(std::move(result), problem);
 }
 
 double estimated_error(dmocbench_solution& solution) {

@@ -88,7 +88,7 @@ DMOCBENCH_API void dmocbench_free_solution(dmocbench_solution* solution);
 /* 1 if the answer is solved: confirmed by residuals of our own, and a motion (each interval, replayed alone, meets the
  * next node). Only then are its arrays results. */
 DMOCBENCH_API int dmocbench_is_solved(const dmocbench_solution* solution);
-/* "solved", "iteration limit", "too coarse", ..., and the same in a sentence. */
+/* "solved", "iteration limit", "too coarse", "violates between stages", ..., and the same in a sentence. */
 DMOCBENCH_API const char* dmocbench_status(const dmocbench_solution* solution);
 /* What happened, in a sentence. */
 DMOCBENCH_API const char* dmocbench_message(const dmocbench_solution* solution);

@@ -49,10 +49,9 @@ class ReadSol final : public ExperimentOf<IndependentChecks> {
     solved_ = solved;
   }
   void finish(Table& /*table*/, FurtherOutput& output) override {
-    if (!is_solved(solved_->solution.status) || !solved_->accuracy) {
-      fmt::print("read-sol: {}: {}\n", name_of(solved_->solution.status), solved_->solution.message);
-      return;
-    }
+    const Status status = solved_->solution.status;
+    if (!is_solved(status)) fmt::print("read-sol: {}: {}\n", name_of(status), solved_->solution.message);
+    if ((!is_solved(status) && !is_no_motion(status)) || !solved_->accuracy) return;
     write_motion(output.prefix, *solved_, output.metadata);
     fmt::print("read-sol: {}: {}_nodes.csv\n", solved_->the_case.label(), output.prefix.string());
   }

@@ -11,7 +11,7 @@
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
-#include "methods/diagnostics/violation_between_nodes.hpp"
+#include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/linear_solve.hpp"

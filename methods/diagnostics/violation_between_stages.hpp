@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+
+#include "methods/mechanics/problem.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
+
+namespace dmocbench {
+
+/// Where a motion leaves a bound or a path constraint farthest, relative to its scale.
+struct MotionViolation {
+  double share = 0.0;      ///< relative to the constraint's scale; infinite where h is not a number
+  double size = 0.0;       ///< the same in the unit of the constraint
+  std::string constraint;  ///< "path_constraints[0]", "bounds().v: the velocity of q[1] (y)"; empty without violation
+  Eigen::Index interval = 0;  ///< k
+  double time = 0.0;          ///< in [t_k, t_{k+1}]
+};
+
+/// What a motion does between the points of a transcription, which imposes bounds on q at nodes and bounds on q̇ and u
+/// and h >= 0 at stages only.
+struct ViolationBetweenStages {
+  MotionViolation state;    ///< of the bounds on q and q̇ and of h >= 0
+  MotionViolation control;  ///< of the bounds on u: `share` is what the motion misses with clipped controls
+  double largest = 0.0;     ///< the largest size of all violations, each in its own unit
+
+  /// False where the share of `state` is above `largest_violation_of_a_motion`, or that of `control` above
+  /// `largest_miss_of_clipped_controls`.
+  [[nodiscard]] bool is_motion() const;
+  /// Sentences for an answer that is no motion: which constraint it leaves, by how much, when (in units of time as
+  /// shown, `time_unit` of those of the motion), and what can be done.
+  [[nodiscard]] std::string words(const Trajectory& trajectory, double time_unit) const;
+};
+
+/// Measures the element's polynomial of q with its time derivative, and the stage polynomial of u, at 17 points per
+/// interval, both ends among them. Violations up to 1e-8 of the range, or of 1 if that is more, count as rounding.
+///
+/// The scale of a bound is the range of its component along the motion; that of all components of q, or of q̇, where it
+/// is constant. The share of a path constraint is δ |h_i| / D_i at its least value, where D_i adds up by how much h_i
+/// changes at most when each entry of (q, q̇, u) moves by ± δ of its range, δ = `largest_violation_of_a_motion`: the
+/// share is above δ exactly where such displacements do not make up for the violation, also where ∂h_i vanishes.
+///
+/// A polynomial through the stages overshoots the bounds of u wherever a control switches. Each interval where it does
+/// is replayed with the control clipped to its bounds, to first order in what is clipped:
+/// δq̇ = ∫ L_vv⁻¹ (f(u) - f(clipped u)) dt, δq = ∫ (t_{k+1} - t) L_vv⁻¹ (f(u) - f(clipped u)) dt. The share of the
+/// control is what all these intervals miss together, relative to the ranges of q and q̇ (`Accuracy`).
+[[nodiscard]] ViolationBetweenStages violation_between_stages(const Problem& problem, const TracedProblem& traced,
+                                                              const Trajectory& trajectory);
+
+/// The largest share of its scale by which a motion may leave a bound on q or q̇, or a path constraint. Above it the
+/// discrete program is solved, but its answer is no trustworthy motion: `Status::violates_between_stages`.
+inline constexpr double largest_violation_of_a_motion = 0.005;
+
+/// The same of what all intervals miss together when controls are clipped to their bounds. It is small because an
+/// optimum makes use of every excess, which then acts on the motion until its end.
+inline constexpr double largest_miss_of_clipped_controls = 3e-5;
+
+}  // namespace dmocbench

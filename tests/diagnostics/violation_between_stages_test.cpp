@@ -1,0 +1,107 @@
+#include "methods/diagnostics/violation_between_stages.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/restated_problems.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Restated;
+using tests::Scheme;
+using Statement = Restated::Statement;
+
+ViolationBetweenStages violation_of(const Problem& problem, const Trajectory& motion) {
+  return violation_between_stages(problem, TracedProblem(problem), motion);
+}
+
+Trajectory solved_on(const Problem& problem, const Scheme& scheme, Eigen::Index intervals) {
+  return tests::solve(problem, scheme, Grid::uniform(intervals), guessed_motion(problem)).trajectory;
+}
+
+/// What the optimum of the double integrator, q = 3t² - 2t³ by two Gauss stages on 8 intervals, violates of a
+/// statement.
+class OptimumOfDoubleIntegrator : public testing::Test {
+ protected:
+  [[nodiscard]] ViolationBetweenStages violating(const std::function<void(Statement&)>& state) const {
+    return violation_of(Restated(base_, state), motion_);
+  }
+  const tests::DoubleIntegrator base_;
+  const Trajectory motion_ = solved_on(base_, {"dmoc", 2}, 8);
+};
+
+TEST_F(OptimumOfDoubleIntegrator, ViolatesNothingWhereNothingIsBounded) {
+  const ViolationBetweenStages none = violating([](Statement&) {});
+  EXPECT_EQ(none.largest, 0.0);
+  EXPECT_TRUE(none.is_motion());
+  EXPECT_EQ(violating([](Statement& s) { s.q = tests::all_between(1, -1.0, 1.5); }).largest, 0.0);
+}
+
+TEST_F(OptimumOfDoubleIntegrator, IsMeasuredBetweenThePointsWhereItIsBounded) {
+  // v = 6t(1 - t) reaches 1.5 at t = ½ (its lines between stages 1/64 more); the nodes reach from 0 to 1.5.
+  const ViolationBetweenStages fast = violating([](Statement& s) { s.v = tests::all_between(1, -1.0, 1.25); });
+  EXPECT_NEAR(fast.state.size, 0.25, 0.02);
+  EXPECT_NEAR(fast.state.share, fast.state.size / 1.5, 1e-9);
+  EXPECT_NEAR(fast.state.time, 0.5, 1e-9);
+  EXPECT_EQ(fast.state.constraint, "bounds().v: the velocity of q[0] (q1)");
+  EXPECT_FALSE(fast.is_motion());
+}
+
+TEST_F(OptimumOfDoubleIntegrator, LeavesAPathConstraintByWhatADisplacementWouldRepair) {
+  // h = 0.75 - q = -0.25 at the end: q, whose range is 1, is a quarter of it too large.
+  const ViolationBetweenStages low = violating([](Statement& s) {
+    s.path = [](const ControlledState& x) { return ExpressionVector::Constant(1, 0.75 - x.q[0]); };
+  });
+  EXPECT_NEAR(low.state.share, 0.25, 1e-6);
+  EXPECT_EQ(low.state.interval, 7);
+  EXPECT_EQ(low.state.constraint, "path_constraints[0]");
+  // Its unit does not matter, nor does a derivative that vanishes: at q = ½, h = (q - ½)² - 0.01² is least.
+  const auto around = [&](double unit) {
+    return violating([unit](Statement& s) {
+             s.path = [unit](const ControlledState& x) {
+               const Expression d = x.q[0] - 0.5;
+               return ExpressionVector::Constant(1, unit * (d * d - 1e-4));
+             };
+           })
+        .state.share;
+  };
+  EXPECT_NEAR(around(1.0), 1e-4 / largest_violation_of_a_motion, 1e-6);
+  EXPECT_NEAR(around(1e3), around(1.0), 1e-9);
+}
+
+TEST_F(OptimumOfDoubleIntegrator, IsNoMotionWhereAConstraintIsNotANumber) {
+  const ViolationBetweenStages undefined = violating([](Statement& s) {
+    s.path = [](const ControlledState& x) { return ExpressionVector::Constant(1, log(0.9 - x.q[0]) + 5.0); };
+  });
+  EXPECT_TRUE(std::isinf(undefined.largest));
+  EXPECT_FALSE(undefined.is_motion());
+}
+
+TEST_F(OptimumOfDoubleIntegrator, MissesByTheImpulseThatClippingTakesAway) {
+  // u = 6 - 12t is above 5 until t = 1/12, in the first interval: ∫(u - 5) dt = 1/24, of the range 1.5 of v; below -5
+  // in the last one by as much.
+  const ViolationBetweenStages strong = violating([](Statement& s) { s.u = tests::all_between(1, -5.0, 5.0); });
+  EXPECT_NEAR(strong.control.size, 1.0, 1e-6);
+  EXPECT_EQ(strong.control.constraint, "bounds().u: u[0] (u1)");
+  EXPECT_NEAR(strong.control.share, 2.0 / 24.0 / 1.5, 1e-3);
+  EXPECT_EQ(strong.state.share, 0.0);
+  EXPECT_FALSE(strong.is_motion());
+}
+
+TEST(ViolationBetweenStages, OfASmoothMotionAlongAConstraintFallsWithTheSquareOfTheStep) {
+  const tests::DoubleIntegrator base;
+  const Restated slow(base, [](Statement& s) {
+    s.path = [](const ControlledState& x) { return ExpressionVector::Constant(1, 1.25 - x.v[0] - 0.2 * x.q[0]); };
+  });
+  const auto share = [&](Eigen::Index intervals) {
+    return violation_of(slow, solved_on(slow, {"tangent", 2}, intervals)).state.share;
+  };
+  EXPECT_LE(share(64), largest_violation_of_a_motion);
+  EXPECT_LT(share(128), 0.5 * share(32));
+}
+
+}  // namespace
+}  // namespace dmocbench
