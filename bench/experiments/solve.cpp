@@ -106,7 +106,7 @@ class Solve final : public ExperimentOf<Measured> {
         "solve: {}: {} is exceeded between stages by {:.2g} at t = {:.4g}; with clipped controls the motion misses "
         "{:.1e} of its range\n",
         solved.the_case.label(), control.constraint, control.size,
-        solved.the_case.problem->card().time_unit.factor * control.time, control.share);
+        solved.the_case.problem->card().time_unit.factor * control.time, solved.between_stages->missed);
   }
 
  private:

@@ -147,8 +147,7 @@ class AdaptiveRun {
   void refine_where_violated() {
     constexpr double narrower = 0.25;
     Eigen::VectorXd widths = grid_.relative_widths();
-    const bool is_state = !(between_.state.share <= largest_violation_of_a_motion);
-    const Eigen::Index k = is_state ? between_.state.interval : between_.control.interval;
+    const Eigen::Index k = between_.keeps_state() ? between_.control.interval : between_.state.interval;
     widths[k] = std::max(narrower * widths[k], Grid::narrowest);
     grid_ = graded_grid(grid_, widths, options_.largest_ratio);
   }

@@ -8,28 +8,36 @@
 
 #include <fmt/format.h>
 
-#include "methods/expression/tape.hpp"
+#include "methods/mechanics/path_constraints.hpp"
 #include "methods/numerics/dense_solve.hpp"
 #include "methods/numerics/lagrange_basis.hpp"
-#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-constexpr Eigen::Index points = 17;             // of an interval, both ends among them
-constexpr Eigen::Index intervals_at_once = 32;  // their points stay in the cache
+constexpr Eigen::Index points = 9;              // of an interval, both ends among them
+constexpr Eigen::Index intervals_at_once = 64;  // their points stay in the cache
 constexpr double rounding = 1e-8;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double tau_of(Eigen::Index point) { return static_cast<double>(point) / static_cast<double>(points - 1); }
 
-/// A polynomial basis of the stage times at the points of an interval: a row per point, a column per stage.
-Eigen::MatrixXd at_points(const Eigen::VectorXd& c, Eigen::VectorXd (*basis)(const Eigen::VectorXd&, double)) {
-  Eigen::MatrixXd rows(points, c.size());
-  for (Eigen::Index i = 0; i < points; ++i) rows.row(i) = basis(c, tau_of(i)).transpose();
-  return rows;
-}
+/// The Lagrange polynomials of the stage times at the points of an interval, a row per point, and their integrals from
+/// its beginning, by Simpson's rule, which is exact for up to four stages.
+struct PolynomialsAtPoints {
+  explicit PolynomialsAtPoints(const Eigen::VectorXd& c)
+      : value(points, c.size()), integral(Eigen::MatrixXd::Zero(points, c.size())) {
+    for (Eigen::Index i = 0; i < points; ++i) value.row(i) = lagrange_basis(c, tau_of(i)).transpose();
+    for (Eigen::Index i = 1; i < points; ++i) {
+      const double width = tau_of(i) - tau_of(i - 1);
+      const Eigen::RowVectorXd middle = lagrange_basis(c, tau_of(i) - 0.5 * width).transpose();
+      integral.row(i) = integral.row(i - 1) + width / 6.0 * (value.row(i - 1) + 4.0 * middle + value.row(i));
+    }
+  }
+  Eigen::MatrixXd value;
+  Eigen::MatrixXd integral;
+};
 
 /// The ranges of all components, and the norm of these. A component that is constant to rounding has the norm, and
 /// where all of them are, all are 1.
@@ -55,38 +63,6 @@ Eigen::VectorXd joined(const ProblemBounds& bounds, Eigen::VectorXd Bounds::*sid
   return all;
 }
 
-/// The formulas h at many points.
-class PathConstraints {
- public:
-  explicit PathConstraints(const TracedProblem& traced)
-      : tape_(trace(traced)), workspace_(tape_), values_(points * intervals_at_once, traced.path_constraint_count()) {}
-
-  [[nodiscard]] Eigen::Index count() const { return values_.cols(); }
-  /// h, a column per entry, at the first `count` rows of (q, v, u, t).
-  [[nodiscard]] Eigen::Ref<const Eigen::MatrixXd> at(const Eigen::MatrixXd& rows, Eigen::Index count) {
-    std::vector<Tape::Input> inputs;
-    std::vector<double*> outputs;
-    for (const auto& column : rows.colwise()) inputs.push_back({column.data(), false});
-    for (auto column : values_.colwise()) outputs.push_back(column.data());
-    tape_.evaluate(static_cast<std::size_t>(count), inputs, outputs, workspace_);
-    return values_.topRows(count);
-  }
-
- private:
-  static Tape trace(const TracedProblem& traced) {
-    InputCounter inputs;
-    const Eigen::Index n = traced.configuration_size();
-    const ExpressionVector q = inputs.take(n);
-    const ExpressionVector v = inputs.take(n);
-    const ExpressionVector u = inputs.take(traced.control_size());
-    return Tape(Schedule(traced.at(ControlledState{q, v, u, inputs.take()}).path_constraints));
-  }
-
-  Tape tape_;
-  Tape::Workspace workspace_;
-  Eigen::MatrixXd values_;
-};
-
 /// The largest amount by which something is violated, and where.
 struct Worst {
   double amount = 0.0;
@@ -98,34 +74,35 @@ struct Worst {
 /// Goes along a motion, some intervals at a time.
 class Measurement {
  public:
-  Measurement(const Problem& problem, const TracedProblem& traced, const Trajectory& trajectory)
+  Measurement(const Problem& problem, const ProblemBounds& bounds, const TracedProblem& traced,
+              const Trajectory& trajectory)
       : problem_(problem),
         traced_(traced),
         trajectory_(trajectory),
         n_(trajectory.q.cols()),
         m_(trajectory.stage_u.cols()),
-        integral_(at_points(trajectory.tableau.c, lagrange_integral)),
-        basis_(at_points(trajectory.tableau.c, lagrange_basis)),
+        basis_(trajectory.tableau.c),
         rows_(Eigen::MatrixXd::Zero(points * intervals_at_once, 2 * n_ + m_ + 1)),
         scales_(2 * n_ + m_),
         range_of_q_(trajectory.q),
         range_of_v_(trajectory.v),
         outside_(static_cast<std::size_t>(2 * n_ + m_)) {
-    const ProblemBounds bounds = problem.bounds();
     lower_ = joined(bounds, &Bounds::lower, n_, m_, -infinite);
     upper_ = joined(bounds, &Bounds::upper, n_, m_, infinite);
     scales_ << range_of_q_.each, range_of_v_.each, Ranges(trajectory.stage_u).each;
     if (traced.path_constraint_count() == 0) return;
-    path_.emplace(traced);
+    path_.emplace(traced, std::max(points * intervals_at_once, 2 * scales_.size()));
     violated_.resize(static_cast<std::size_t>(path_->count()));
   }
 
   [[nodiscard]] ViolationBetweenStages measured() {
-    if (!path_ && !(lower_.array() > -infinite || upper_.array() < infinite).any()) return {};
     for (Eigen::Index k = 0; k < trajectory_.intervals(); k += intervals_at_once) {
       first_ = k;
       count_ = std::min(intervals_at_once, trajectory_.intervals() - k);
-      read();
+      for (Eigen::Index j = 0; j < scales_.size(); ++j) {
+        if (path_ || is_bounded(j)) read(j);
+      }
+      read_times();
       compare_with_bounds();
       if (path_) evaluate_path_constraints();
     }
@@ -141,28 +118,24 @@ class Measurement {
     return {table.col(i).data() + first_ * s, s, count_};
   }
 
-  void read() {
-    for (Eigen::Index i = 0; i < n_; ++i) {
-      if (path_ || is_bounded(i)) read_configuration(i);
-      if (path_ || is_bounded(n_ + i)) block(n_ + i) = basis_.lazyProduct(stages(trajectory_.stage_v, i));
+  void read(Eigen::Index j) {
+    auto values = block(j);
+    if (j >= 2 * n_) values = basis_.value.lazyProduct(stages(trajectory_.stage_u, j - 2 * n_));
+    if (j >= n_ && j < 2 * n_) values = basis_.value.lazyProduct(stages(trajectory_.stage_v, j - n_));
+    if (j >= n_) return;
+    values = basis_.integral.lazyProduct(stages(trajectory_.stage_v, j));
+    for (Eigen::Index k = 0; k < count_; ++k) {
+      values.col(k) = trajectory_.q(first_ + k, j) + trajectory_.step(first_ + k) * values.col(k).array();
     }
-    for (Eigen::Index i = 0; i < m_; ++i) {
-      if (path_ || is_bounded(2 * n_ + i)) block(2 * n_ + i) = basis_.lazyProduct(stages(trajectory_.stage_u, i));
-    }
+    values.bottomRows(1) = trajectory_.q.col(j).segment(first_ + 1, count_).transpose();
+  }
+  void read_times() {
     auto times = block(2 * n_ + m_);
     for (Eigen::Index k = 0; k < count_; ++k) {
       for (Eigen::Index i = 0; i < points; ++i) {
         times(i, k) = trajectory_.node_times[first_ + k] + tau_of(i) * trajectory_.step(first_ + k);
       }
     }
-  }
-  void read_configuration(Eigen::Index i) {
-    auto q = block(i);
-    q = integral_.lazyProduct(stages(trajectory_.stage_v, i));
-    for (Eigen::Index k = 0; k < count_; ++k) {
-      q.col(k) = trajectory_.q(first_ + k, i) + trajectory_.step(first_ + k) * q.col(k).array();
-    }
-    q.bottomRows(1) = trajectory_.q.col(i).segment(first_ + 1, count_).transpose();
   }
 
   void keep(Worst& worst, double amount, Eigen::Index row) const {
@@ -203,53 +176,57 @@ class Measurement {
     }
   }
 
+  /// Whether a control is beyond its bounds at a point.
+  [[nodiscard]] bool is_clipped(Eigen::Index row) const {
+    for (Eigen::Index j = 2 * n_; j < 2 * n_ + m_; ++j) {
+      if (std::max(lower_[j] - rows_(row, j), rows_(row, j) - upper_[j]) > tolerated(scales_[j])) return true;
+    }
+    return false;
+  }
+
   /// What the present intervals miss where their controls are clipped.
   void replay_clipped() {
-    const Eigen::VectorXd lower = lower_.tail(m_);
-    const Eigen::VectorXd upper = upper_.tail(m_);
-    std::vector<MotionPoint> pairs;  // with the control, and with the clipped one
+    for (Eigen::Index j = 0; j < scales_.size(); ++j) read(j);
     std::vector<Eigen::Index> rows;
     for (Eigen::Index row = 0; row < points * count_; ++row) {
-      const Eigen::VectorXd u = rows_.row(row).segment(2 * n_, m_).transpose();
-      const Eigen::VectorXd clipped = u.cwiseMax(lower).cwiseMin(upper);
-      if (((u - clipped).array().abs() <= scales_.tail(m_).array().unaryExpr(&tolerated)).all()) continue;
-      const double t = rows_(row, 2 * n_ + m_);
-      pairs.push_back(
-          {configuration_at(trajectory_, t), velocity_on_interval(trajectory_, first_ + row / points, t), u});
-      pairs.push_back(pairs.back());
-      pairs.back().u = clipped;
-      rows.push_back(row);
+      if (is_clipped(row)) rows.push_back(row);
     }
-    const Eigen::MatrixXd missed = missed_by(pairs, rows);
+    const Eigen::MatrixXd missed = missed_at(rows);
     for (Eigen::Index k = 0; k < count_; ++k) {
       missed_ +=
           std::max(missed.col(k).head(n_).norm() / range_of_q_.all, missed.col(k).tail(n_).norm() / range_of_v_.all);
     }
   }
 
-  /// (δq, δq̇) of every interval, a column each, by the trapezoidal rule on the points in `rows`.
-  [[nodiscard]] Eigen::MatrixXd missed_by(const std::vector<MotionPoint>& pairs,
-                                          const std::vector<Eigen::Index>& rows) const {
-    Eigen::VectorXd times(static_cast<Eigen::Index>(pairs.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      times.segment(static_cast<Eigen::Index>(2 * i), 2).setConstant(rows_(rows[i], 2 * n_ + m_));
+  /// (δq, δq̇) of every interval, a column each, by the trapezoidal rule on these points.
+  [[nodiscard]] Eigen::MatrixXd missed_at(const std::vector<Eigen::Index>& rows) {
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd pairs(2 * count, rows_.cols());  // with the controls, and with the clipped ones
+    pairs << rows_(rows, Eigen::all), rows_(rows, Eigen::all);
+    for (Eigen::Index j = 2 * n_; j < 2 * n_ + m_; ++j) {
+      pairs.col(j).tail(count) = pairs.col(j).head(count).cwiseMax(lower_[j]).cwiseMin(upper_[j]);
     }
-    const Eigen::MatrixXd table = traced_.table(pairs, times);
+    const Eigen::MatrixXd table = traced_.table(pairs);
     Eigen::MatrixXd missed = Eigen::MatrixXd::Zero(2 * n_, count_);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(2 * i);
-      const Eigen::Index point = rows[i] % points;
-      const Eigen::Index k = rows[i] / points;
-      const Eigen::VectorXd force = (table.row(at) - table.row(at + 1)).segment(2 * n_, n_).transpose();
+    Eigen::MatrixXd cut = Eigen::MatrixXd::Zero(m_, count_);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+      const Eigen::Index point = row % points;
+      const Eigen::Index k = row / points;
+      const Eigen::VectorXd force = (table.row(i) - table.row(count + i)).segment(2 * n_, n_).transpose();
       const Eigen::MatrixXd mass =
-          table.row(at).segment(3 * n_ + 1 + traced_.path_constraint_count(), n_ * n_).reshaped(n_, n_);
+          table.row(i).segment(3 * n_ + 1 + traced_.path_constraint_count(), n_ * n_).reshaped(n_, n_);
       const double h = trajectory_.step(first_ + k);
       const bool is_end = point == 0 || point == points - 1;
-      const double weight = h / static_cast<double>(points - 1) * (is_end ? 0.5 : 1.0);
-      const Eigen::VectorXd impulse = weight * solve_square<double, 1>(mass, force);
+      const double weight = (is_end ? 0.5 : 1.0) / static_cast<double>(points - 1);
+      cut.col(k) += weight * ((pairs.row(i) - pairs.row(count + i)).segment(2 * n_, m_).transpose().array().abs() /
+                              scales_.tail(m_).array())
+                                 .matrix();
+      const Eigen::VectorXd impulse = h * weight * solve_square<double, 1>(mass, force);
       missed.col(k).tail(n_) += impulse;
       missed.col(k).head(n_) += h * (1.0 - tau_of(point)) * impulse;
     }
+    clipped_share_ = std::max(clipped_share_, cut.maxCoeff());
     return missed;
   }
 
@@ -295,7 +272,8 @@ class Measurement {
       if (worst.amount <= tolerated(scales_[j])) continue;
       take(j < 2 * n_ ? found.state : found.control, worst.amount / scales_[j], worst, name_of_bound(j));
     }
-    found.control.share = missed_;
+    found.control.share = clipped_share_;
+    found.missed = missed_;
     for (Eigen::Index i = 0; i < std::ssize(violated_); ++i) {
       const Worst& worst = violated_[static_cast<std::size_t>(i)];
       found.largest = std::max(found.largest, worst.amount);
@@ -309,8 +287,7 @@ class Measurement {
   const Trajectory& trajectory_;
   Eigen::Index n_;
   Eigen::Index m_;
-  Eigen::MatrixXd integral_;
-  Eigen::MatrixXd basis_;
+  PolynomialsAtPoints basis_;
   Eigen::MatrixXd rows_;   // (q, v, u, t) at the points of the present intervals
   Eigen::VectorXd lower_;  // of (q, v, u)
   Eigen::VectorXd upper_;
@@ -323,13 +300,16 @@ class Measurement {
   Eigen::Index first_ = 0;
   Eigen::Index count_ = 0;
   bool has_excess_ = false;
+  double clipped_share_ = 0.0;
   double missed_ = 0.0;
 };
 
 }  // namespace
 
-bool ViolationBetweenStages::is_motion() const {
-  return state.share <= largest_violation_of_a_motion && control.share <= largest_miss_of_clipped_controls;
+bool ViolationBetweenStages::keeps_state() const { return state.share <= largest_violation_of_a_motion; }
+
+bool ViolationBetweenStages::keeps_controls() const {
+  return control.share <= largest_violation_of_a_motion || missed <= smallest_miss;
 }
 
 std::string ViolationBetweenStages::words(const Trajectory& trajectory, double time_unit) const {
@@ -338,22 +318,25 @@ std::string ViolationBetweenStages::words(const Trajectory& trajectory, double t
     text += fmt::format(" {} is violated by {:.2g} at t = {:.4g} (interval {}){}.", worst.constraint, worst.size,
                         time_unit * worst.time, worst.interval, size);
   };
-  const bool leaves_state = !(state.share <= largest_violation_of_a_motion);
-  const bool leaves_controls = !(control.share <= largest_miss_of_clipped_controls);
-  if (leaves_state)
+  if (!keeps_state())
     add(state, state.share > 1.0 ? ", more than its scale" : fmt::format(", {:.2g} of its scale", state.share));
-  if (leaves_controls)
-    add(control, fmt::format("; with clipped controls the motion misses {:.1e} of its range", control.share));
+  if (!keeps_controls())
+    add(control, fmt::format("; with clipped controls the motion misses {:.1e} of its range", missed));
   const Eigen::VectorXd& c = trajectory.tableau.c;
   const bool are_stages_inside = c.minCoeff() > 0.0 || c.maxCoeff() < 1.0;
-  const bool helps_one_stage = trajectory.stages() > 1 && (!leaves_state || state.constraint.starts_with("bounds()"));
+  const bool helps_one_stage = trajectory.stages() > 1 && (keeps_state() || state.constraint.starts_with("bounds()"));
   return fmt::format("{} Take more intervals{}{}.", text, helps_one_stage ? ", --stages 1" : "",
                      are_stages_inside ? ", or --tableau lobatto" : "");
 }
 
 ViolationBetweenStages violation_between_stages(const Problem& problem, const TracedProblem& traced,
                                                 const Trajectory& trajectory) {
-  return Measurement(problem, traced, trajectory).measured();
+  const ProblemBounds bounds = problem.bounds();
+  const bool is_bounded = bounds.q.any() || bounds.v.any() || bounds.u.any();
+  // With one stage q̇ and u are constant in an interval, and q is linear.
+  const bool may_leave_bounds = is_bounded && trajectory.stages() > 1;
+  if (!may_leave_bounds && traced.path_constraint_count() == 0) return {};
+  return Measurement(problem, bounds, traced, trajectory).measured();
 }
 
 }  // namespace dmocbench

@@ -21,18 +21,22 @@ struct MotionViolation {
 /// and h >= 0 at stages only.
 struct ViolationBetweenStages {
   MotionViolation state;    ///< of the bounds on q and q̇ and of h >= 0
-  MotionViolation control;  ///< of the bounds on u: `share` is what the motion misses with clipped controls
+  MotionViolation control;  ///< of the bounds on u
+  double missed = 0.0;      ///< by the motion whose controls are clipped to their bounds, relative to its range
   double largest = 0.0;     ///< the largest size of all violations, each in its own unit
 
-  /// False where the share of `state` is above `largest_violation_of_a_motion`, or that of `control` above
-  /// `largest_miss_of_clipped_controls`.
-  [[nodiscard]] bool is_motion() const;
+  /// Whether q, q̇ and h leave their bounds by no more than `largest_violation_of_a_motion`.
+  [[nodiscard]] bool keeps_state() const;
+  /// Whether u does, or the motion misses no more than `smallest_miss` without the excess.
+  [[nodiscard]] bool keeps_controls() const;
+  /// Whether both hold.
+  [[nodiscard]] bool is_motion() const { return keeps_state() && keeps_controls(); }
   /// Sentences for an answer that is no motion: which constraint it leaves, by how much, when (in units of time as
   /// shown, `time_unit` of those of the motion), and what can be done.
   [[nodiscard]] std::string words(const Trajectory& trajectory, double time_unit) const;
 };
 
-/// Measures the element's polynomial of q with its time derivative, and the stage polynomial of u, at 17 points per
+/// Measures the element's polynomial of q with its time derivative, and the stage polynomial of u, at nine points per
 /// interval, both ends among them. Violations up to 1e-8 of the range, or of 1 if that is more, count as rounding.
 ///
 /// The scale of a bound is the range of its component along the motion; that of all components of q, or of q̇, where it
@@ -40,19 +44,21 @@ struct ViolationBetweenStages {
 /// changes at most when each entry of (q, q̇, u) moves by ± δ of its range, δ = `largest_violation_of_a_motion`: the
 /// share is above δ exactly where such displacements do not make up for the violation, also where ∂h_i vanishes.
 ///
-/// A polynomial through the stages overshoots the bounds of u wherever a control switches. Each interval where it does
-/// is replayed with the control clipped to its bounds, to first order in what is clipped:
-/// δq̇ = ∫ L_vv⁻¹ (f(u) - f(clipped u)) dt, δq = ∫ (t_{k+1} - t) L_vv⁻¹ (f(u) - f(clipped u)) dt. The share of the
-/// control is what all these intervals miss together, relative to the ranges of q and q̇ (`Accuracy`).
+/// A polynomial through the stages overshoots the bounds of u wherever a control switches or has a kink. The share of
+/// the controls is the largest mean excess |u - clipped u| of a component in an interval, relative to its range: a
+/// kink's falls with the step, that of a jump does not. Every interval with an excess is replayed with the clipped
+/// control, to first order in what is clipped: δq̇ = ∫ L_vv⁻¹ (f(u) - f(clipped u)) dt,
+/// δq = ∫ (t_{k+1} - t) L_vv⁻¹ (f(u) - f(clipped u)) dt. `missed` is the sum of their misses, each the larger one of
+/// |δq| and |δq̇|, relative to the ranges of q and q̇ (`Accuracy`); it falls with the step.
 [[nodiscard]] ViolationBetweenStages violation_between_stages(const Problem& problem, const TracedProblem& traced,
                                                               const Trajectory& trajectory);
 
-/// The largest share of its scale by which a motion may leave a bound on q or q̇, or a path constraint. Above it the
-/// discrete program is solved, but its answer is no trustworthy motion: `Status::violates_between_stages`.
+/// The largest share of its scale by which a motion may leave a bound or path constraint. Above it the discrete program
+/// is solved, but its answer is no trustworthy motion: `Status::violates_between_stages`.
 inline constexpr double largest_violation_of_a_motion = 0.005;
 
-/// The same of what all intervals miss together when controls are clipped to their bounds. It is small because an
-/// optimum makes use of every excess, which then acts on the motion until its end.
-inline constexpr double largest_miss_of_clipped_controls = 3e-5;
+/// What a motion may miss by clipped controls, however far they exceed their bounds. It is small because an optimum
+/// makes use of every excess, which then acts on the motion until its end.
+inline constexpr double smallest_miss = 3e-5;
 
 }  // namespace dmocbench

@@ -172,19 +172,23 @@ ExpressionVector TracedProblem::parameters() const {
 }
 
 Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const {
-  Eigen::MatrixXd inputs(times.size(), 2 * n_ + m_ + 1);
+  Eigen::MatrixXd rows(times.size(), 2 * n_ + m_ + 1);
   for (Eigen::Index i = 0; i < times.size(); ++i) {
     const MotionPoint& point = points[static_cast<std::size_t>(i)];
-    inputs.row(i) << point.q.transpose(), point.v.transpose(), point.u.transpose(), times[i];
+    rows.row(i) << point.q.transpose(), point.v.transpose(), point.u.transpose(), times[i];
   }
-  Eigen::MatrixXd values(times.size(), static_cast<Eigen::Index>(tape_.output_count()));
+  return table(rows);
+}
+
+Eigen::MatrixXd TracedProblem::table(const Eigen::MatrixXd& rows) const {
+  Eigen::MatrixXd values(rows.rows(), static_cast<Eigen::Index>(tape_.output_count()));
   std::vector<Tape::Input> columns;
   std::vector<double*> results;
   for (const double& value : open_values_) columns.push_back({&value, true});
-  for (const auto& column : inputs.colwise()) columns.push_back({column.data(), false});
+  for (const auto& column : rows.colwise()) columns.push_back({column.data(), false});
   for (auto column : values.colwise()) results.push_back(column.data());
   Tape::Workspace workspace(tape_);
-  tape_.evaluate(points.size(), columns, results, workspace);
+  tape_.evaluate(static_cast<std::size_t>(rows.rows()), columns, results, workspace);
   return values;
 }
 

@@ -79,6 +79,8 @@ class TracedProblem {
   /// The formulas at many points, in numbers: row i belongs to points[i] at time times[i]. The columns hold p, L_q and
   /// f (n each), C, h, then L_vv column by column; further columns are not for callers.
   [[nodiscard]] Eigen::MatrixXd table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const;
+  /// The same of points (q, v, u, t), one in each row.
+  [[nodiscard]] Eigen::MatrixXd table(const Eigen::MatrixXd& rows) const;
 
   /// All formulas with the given point substituted.
   [[nodiscard]] Values at(const ControlledState& point) const;

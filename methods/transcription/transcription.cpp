@@ -12,6 +12,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/transcription/derivatives/part_places.hpp"
+#include "methods/transcription/motions/constraint_windows.hpp"
 #include "methods/transcription/motions/guess_check.hpp"
 #include "methods/transcription/program_floors.hpp"
 
@@ -77,6 +78,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
           jacobian_entries(functions_, layout_.row_places(), layout_.unknown_places(), grid.intervals()))),
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
   require_enough_intervals(problem, element);
+  check_constraint_windows(problem, traced_, tableau_, grid);
   // The ends extend the patterns, which must be complete before the arrays of the intervals are allocated.
   std::vector<SeriesPlace> end_jacobian;
   std::vector<SeriesPlace> end_hessian;

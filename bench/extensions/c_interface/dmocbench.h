@@ -99,7 +99,8 @@ DMOCBENCH_API const char* dmocbench_message(const dmocbench_solution* solution);
 DMOCBENCH_API int dmocbench_estimate_error(dmocbench_solution* solution, double* relative);
 
 /* A number of a solution: "cost", "kkt_residual", "constraint_violation", "relative_jump" (by how much of the motion's
- * range an interval, replayed alone, misses the next node), "iterations", "seconds", "settling_steps" (Newton steps behind
+ * range an interval, replayed alone, misses the next node), "violation_between_stages" (the largest amount by which the
+ * motion leaves a bound or path constraint), "iterations", "seconds", "settling_steps" (Newton steps behind
  * the solver), "intervals", "stages", "estimated_error" once it is known. Returns 0; another number if there is none of
  * that name, or it is not known of this solution. */
 DMOCBENCH_API int dmocbench_number(const dmocbench_solution* solution, const char* name, double* value);

@@ -22,6 +22,16 @@ Eigen::Index interval_of(const Eigen::VectorXd& times, double t) {
   return std::clamp<Eigen::Index>(above - times.begin() - 1, 0, times.size() - 2);
 }
 
+/// ∫₀^τ of the Lagrange polynomials of c, by Gauss quadrature that is exact for their degree.
+Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
+  const Tableau quadrature = gauss_tableau(static_cast<int>(std::min<Eigen::Index>((c.size() + 2) / 2, 3)));
+  Eigen::VectorXd integral = Eigen::VectorXd::Zero(c.size());
+  for (Eigen::Index i = 0; i < quadrature.stages(); ++i) {
+    integral += tau * quadrature.b[i] * lagrange_basis(c, tau * quadrature.c[i]);
+  }
+  return integral;
+}
+
 /// The polynomial through the stages of an interval, from their table.
 Eigen::VectorXd stage_polynomial(const Trajectory& trajectory, const Eigen::MatrixXd& stages, Eigen::Index interval,
                                  double t) {
@@ -38,16 +48,6 @@ std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t) {
   const auto above = std::lower_bound(times.begin(), times.end(), t - rounding_of_times * span);
   if (above == times.end() || std::abs(*above - t) > rounding_of_times * span) return std::nullopt;
   return above - times.begin();
-}
-
-Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
-  // Exact for their degree.
-  const Tableau quadrature = gauss_tableau(static_cast<int>(std::min<Eigen::Index>((c.size() + 2) / 2, 3)));
-  Eigen::VectorXd integral = Eigen::VectorXd::Zero(c.size());
-  for (Eigen::Index i = 0; i < quadrature.stages(); ++i) {
-    integral += tau * quadrature.b[i] * lagrange_basis(c, tau * quadrature.c[i]);
-  }
-  return integral;
 }
 
 Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t) {

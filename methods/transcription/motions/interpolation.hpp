@@ -18,9 +18,6 @@ struct Motion {
 /// The node of ascending `times` at time t, up to rounding; none if there is no such node.
 [[nodiscard]] std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t);
 
-/// ∫₀^τ ℓ_j of the Lagrange polynomials of the stage times c; as many entries as c.
-[[nodiscard]] Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau);
-
 /// The element's polynomial of the configuration at time t: q(t_k + τh) = q_k + h Σ_j Q̇_j ∫₀^τ ℓ_j, n entries.
 /// Times outside the horizon are moved to its ends.
 [[nodiscard]] Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t);
