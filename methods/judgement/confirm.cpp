@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "methods/judgement/stop_rule.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
 
@@ -68,14 +69,23 @@ double Confirmation::scaled_residual(double tolerance, const Solution& solution)
                      allowed.share_of_violation(entries_.rows), entries_.bounds / allowed.violation()});
 }
 
+/// The length of the Newton step; none where it cannot be computed.
+std::optional<double> Confirmation::newton_length(const Solution& solution) {
+  if (!corrections_) corrections_.emplace(program_);
+  const std::optional<double> length = corrections_->length_at(solution.primal, solution.multipliers, memory_);
+  if (length && *length <= settled) return length;
+  // A long step may be an inaccurate one: elimination by intervals does not pivot across them.
+  return NewtonCorrections(program_, NewtonCorrections::Factorisation::sparse)
+      .length_at(solution.primal, solution.multipliers, memory_);
+}
+
 /// Takes "solved" back from an answer that a Newton step would move.
 void Confirmation::require_settled(Solution& solution) {
-  if (!corrections_) corrections_.emplace(program_);
-  std::optional<double> length = corrections_->length_at(solution.primal, solution.multipliers, memory_);
-  // A long step may be an inaccurate one: elimination by intervals does not pivot across them.
-  if (!length || *length > settled) {
-    length = NewtonCorrections(program_, NewtonCorrections::Factorisation::sparse)
-                 .length_at(solution.primal, solution.multipliers, memory_);
+  std::optional<double> length;
+  try {
+    length = newton_length(solution);
+  } catch (const Stopped&) {
+    return tell_of_stop(solution);
   }
   if (!length) return;
   solution.correction = *length;
@@ -145,6 +155,23 @@ double Confirmation::factor_of_cost(double tolerance, const Eigen::VectorXd& sta
   if (!(size < enough) || size == 0.0) return 1.0;
   constexpr int most = 1000;  // the factor stays finite
   return std::ldexp(1.0, std::min(most, -std::ilogb(size)));
+}
+
+void tell_of_stop(Solution& solution) {
+  solution.status = seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
+  solution.message = fmt::format(
+      "{} The residuals are below the tolerance; whether Newton steps would settle the answer is not known.",
+      sentence_of(solution.status));
+}
+
+void refuse_small_cost(double factor, Solution& solution) {
+  solution.status = Status::not_confirmed;
+  // No Newton step may settle it either: its matrix holds the cost's curvature next to entries that round it away.
+  solution.correction.reset();
+  solution.message = fmt::format(
+      "The derivatives of the cost are below the tolerance, so that every feasible point passes for an optimum; "
+      "multiply the cost by about {:.0e} (`cost_scale` of a problem does so).",
+      factor);
 }
 
 void judge_residuals(NonlinearProgram& program, Solution& solution) { Confirmation(program).judge_residuals(solution); }

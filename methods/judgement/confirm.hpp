@@ -39,6 +39,7 @@ class Confirmation {
   /// "Solved" asks for a settled answer besides: a Newton step from it moves no unknown by more than `settled` of its
   /// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are; `polish`
   /// may settle it. Where the step cannot be computed the residuals alone decide, and where `asks_newton` is false.
+  /// Where the `StopScope` of the thread ends its computation, see `tell_of_stop`.
   void judge(double tolerance, Solution& solution, bool asks_newton = true);
 
   /// The power of two by which the cost has to be multiplied before the tolerance can tell an optimum from any other
@@ -50,6 +51,7 @@ class Confirmation {
  private:
   void judge_residuals(Solution& solution);
   [[nodiscard]] double scaled_residual(double tolerance, const Solution& solution);
+  [[nodiscard]] std::optional<double> newton_length(const Solution& solution);
   void require_settled(Solution& solution);
 
   friend void judge_residuals(NonlinearProgram& program, Solution& solution);
@@ -63,6 +65,14 @@ class Confirmation {
 
 /// `Confirmation::judge`, once.
 void confirm(NonlinearProgram& program, double tolerance, Solution& solution);
+
+/// Status and message where a limit came before it was known whether the answer is settled: "time limit" or
+/// "interrupted".
+void tell_of_stop(Solution& solution);
+
+/// Status and message where nothing is known of an answer, because the tolerance cannot see the cost
+/// (`Confirmation::factor_of_cost`): "not confirmed".
+void refuse_small_cost(double factor, Solution& solution);
 
 /// How much larger than the tolerance our residual may be: ours is the largest entry as it is, solvers scale theirs.
 inline constexpr double confirmation_factor = 10.0;

@@ -7,6 +7,7 @@
 
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/kkt/sparse_kkt.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
 
@@ -213,7 +214,12 @@ bool moves_to_least_violation(const CountedProgram& program, const SolverOptions
   for (int i = 0; i < most_steps; ++i) {
     if (options.stop_requested && options.stop_requested()) return false;
     if (program.is_out_of_time()) return false;
-    const bool is_over = !descent.step();
+    bool is_over = false;
+    try {
+      is_over = !descent.step();
+    } catch (const Stopped&) {
+      return false;
+    }
     if (descent.violation() <= options.tolerance) return false;
     if (descent.is_at_least_violation()) {
       solution.primal = descent.point();

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include "methods/judgement/linearised_conditions.hpp"
 #include "methods/kkt/sparse_kkt.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
 
@@ -34,10 +36,19 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
     return system_->solve(kkt_matrix_of(conditions_), {conditions_.gradient, conditions_.constraints},
                           {step_.primal, step_.multipliers});
   };
-  FactorisationStatus status = solve();
+  const auto solved_or_failed = [&] {
+    try {
+      return solve();
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::exception&) {  // the factorisation is out of memory, or fails otherwise
+      return FactorisationStatus::singular;
+    }
+  };
+  FactorisationStatus status = solved_or_failed();
   if (status != FactorisationStatus::solved && dynamic_cast<SparseKkt*>(system_.get()) == nullptr) {
     system_ = kkt_system_of_any_point(program_);
-    status = solve();
+    status = solved_or_failed();
   }
   if (status != FactorisationStatus::solved) return std::nullopt;
   const double length = length_of(primal, step_.primal, memory.gradient_of_cost);
@@ -56,7 +67,7 @@ std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& pri
 
 double NewtonCorrections::length_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& step,
                                     const Eigen::VectorXd& gradient) {
-  const double least = smallest_share * largest(primal);
+  const double least = smallest_share * std::max(1.0, largest(primal));
   const auto share = [&](const auto& of_step, const auto& of_point) {
     const double moves = of_step.template lpNorm<Eigen::Infinity>();
     return moves > 0.0 ? moves / std::max(of_point.template lpNorm<Eigen::Infinity>(), least) : 0.0;

@@ -32,7 +32,8 @@ struct NewtonCorrection {
 ///   max |δξ_j| / max |ξ_j| over the unknowns of one run of the interval structure (over all unknowns without one),
 ///   |∇φ δξ| / max(1, |φ|),
 ///
-/// where a run counts as at least `smallest_share` of the largest unknown, and φ is scaled as the solver sees it.
+/// where a run counts as at least `smallest_share` of the largest unknown, and of 1, the size that unknowns should
+/// have: at rest they are rounding, and so is a step. φ is scaled as the solver sees it.
 class NewtonCorrections {
  public:
   /// How the linear systems are factorised.
@@ -54,10 +55,11 @@ class NewtonCorrections {
   [[nodiscard]] std::optional<double> length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
                                                 const KktMemory& memory);
   /// The step from `primal` (variable_count() entries) with `multipliers` (constraint_count() entries). Of infinite
-  /// length where a derivative is not finite; none where the matrix is singular.
+  /// length where a derivative is not finite; none where the matrix is singular or its factorisation fails. Throws
+  /// `Stopped` where the `StopScope` of the thread ends that.
   [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
 
-  /// See above: a run of small unknowns counts as at least this share of the largest one.
+  /// See above: a run of small unknowns counts as at least this share of the largest one, or of 1.
   static constexpr double smallest_share = 1e-6;
 
  private:

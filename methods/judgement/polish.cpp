@@ -33,17 +33,18 @@ bool is_unsettled(const Solution& solution) {
   return solution.status == Status::not_confirmed && solution.correction.value_or(0.0) > settled;
 }
 
-/// Status and message where a limit ended the solve before it was known whether the answer would settle.
-void tell_of_stop(Solution& solution) {
-  solution.status = seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
-  solution.message = fmt::format(
-      "{} The residuals are below the tolerance; whether Newton steps would settle the answer is not known.",
-      sentence_of(solution.status));
-}
-
 bool has_own_multipliers(const NonlinearProgram& program, const Solution& solution) {
   return !solution.multipliers_are_estimated &&
          static_cast<std::size_t>(solution.multipliers.size()) == program.constraint_count();
+}
+
+/// The Newton step from a point; none where it cannot be computed, or a limit came first.
+std::optional<NewtonCorrection> correction_in_time(NewtonCorrections& corrections, const Solution& solution) {
+  try {
+    return corrections.at(solution.primal, solution.multipliers);
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
 }
 
 /// The solution after a Newton step that stays within the bounds.
@@ -64,7 +65,7 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
   int steps = 0;
   bool is_better = true;
   while (is_better && steps < most_steps && !must_stop()) {
-    const auto correction = corrections.at(solution.primal, solution.multipliers);
+    const auto correction = correction_in_time(corrections, solution);
     if (!correction) break;
     Solution next = stepped(program, *correction, solution);
     is_better = residual_of(next) < residual_of(solution);
@@ -80,11 +81,11 @@ int settle(NonlinearProgram& program, double tolerance, Solution& solution, int 
   NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
   Solution next = solution;
   for (int steps = 1; steps <= most_steps; ++steps) {
+    const auto correction = correction_in_time(corrections, next);
     if (must_stop()) {
       tell_of_stop(solution);
       return 0;
     }
-    const auto correction = corrections.at(next.primal, next.multipliers);
     if (!correction) break;
     next = stepped(program, *correction, next);
     next.status = Status::solved;

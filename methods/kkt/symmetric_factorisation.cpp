@@ -9,12 +9,7 @@
 
 #include "methods/error.hpp"
 #include "methods/kkt/mumps_lock.hpp"
-
-/// MUMPS calls its subroutine of this name where an allocation fails that it does not report; its own ends the process
-/// with exit code 0. This one takes its place, as the dynamic linker looks into the program first: the exception passes
-/// through MUMPS, and through Ipopt where that called it, as one of `new` would. Work arrays of the call are lost.
-extern "C" void mumps_abort_();  // NOLINT(readability-identifier-naming)
-extern "C" void mumps_abort_() { throw std::bad_alloc(); }
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
 
@@ -33,7 +28,9 @@ constexpr int order_is_given = 1;
 constexpr int control(int number) { return number - 1; }
 
 void call_mumps(DMUMPS_STRUC_C& data, int job) {
-  const auto lock = lock_mumps();
+  const bool may_stop = job != job_begin && job != job_end;
+  const auto lock = lock_mumps(may_stop ? must_stop : nullptr);
+  if (!lock) stop_if_requested();
   data.job = job;
   dmumps_c(&data);
 }
@@ -52,15 +49,20 @@ struct SymmetricFactorisation::Mumps {
   std::vector<MUMPS_INT> positions;  // from 1 on; empty to let MUMPS choose
   bool analysed = false;
 
-  Mumps() {
+  explicit Mumps(std::vector<MUMPS_INT> order) : positions(std::move(order)) {
     data.par = 1;
     data.sym = general_symmetric;
     data.comm_fortran = use_comm_world;
     call_mumps(data, job_begin);
     for (const int stream : {1, 2, 3}) data.icntl[control(stream)] = -1;
-    data.icntl[control(4)] = 0;   // silent
-    data.icntl[control(13)] = 1;  // counts negative pivots in the root too
-    data.icntl[control(24)] = 1;  // detects pivots that are mere rounding
+    data.icntl[control(4)] = 0;                  // silent
+    data.icntl[control(13)] = 1;                 // counts negative pivots in the root too
+    data.icntl[control(24)] = 1;                 // detects pivots that are mere rounding
+    constexpr int more_workspace_percent = 100;  // for rows whose pivots are postponed; to start again takes longer
+    if (positions.empty()) return;
+    data.icntl[control(7)] = order_is_given;
+    data.icntl[control(14)] = more_workspace_percent;
+    data.perm_in = positions.data();
   }
   ~Mumps() { call_mumps(data, job_end); }
   Mumps(const Mumps&) = delete;
@@ -68,19 +70,21 @@ struct SymmetricFactorisation::Mumps {
   Mumps(Mumps&&) = delete;
   Mumps& operator=(Mumps&&) = delete;
 
-  /// False if the matrix is singular. Where workspace is lacking, tries again with more. Throws `std::bad_alloc` where
-  /// memory is, `Error` otherwise.
+  /// False if the matrix is singular. Where workspace is lacking, tries again with more, up to some ten times of what
+  /// the pattern needs: pivots that are postponed so often make minutes of a millisecond. Throws `std::bad_alloc` where
+  /// memory is lacking, `Stopped`, `Error` otherwise.
   bool run(int job) {
-    constexpr int most_workspace_percent = 10'000;
+    constexpr int most_workspace_percent = 1000;
     while (true) {
       call_mumps(data, job);
       const int code = data.infog[control(1)];
       if (code >= 0) return true;
-      if (is_singular(code)) return false;
+      const bool is_enough = data.icntl[control(14)] >= most_workspace_percent;
+      if (is_singular(code) || (lacks_workspace(code) && is_enough)) return false;
       if (lacks_memory(code)) throw std::bad_alloc();
-      if (!lacks_workspace(code) || data.icntl[control(14)] >= most_workspace_percent) {
+      if (!lacks_workspace(code))
         throw Error(fmt::format("MUMPS failed with code {}; its manual lists the codes", code));
-      }
+      stop_if_requested();
       data.icntl[control(14)] *= 4;
     }
   }
@@ -109,22 +113,24 @@ struct SymmetricFactorisation::Mumps {
   }
 };
 
-SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions) : mumps_(std::make_shared<Mumps>()) {
-  constexpr int more_workspace_percent = 100;  // for rows whose pivots are postponed; to start again takes longer
-  for (const int position : positions) mumps_->positions.push_back(static_cast<MUMPS_INT>(position + 1));
-  if (positions.empty()) return;
-  mumps_->data.icntl[control(7)] = order_is_given;
-  mumps_->data.icntl[control(14)] = more_workspace_percent;
-  mumps_->data.perm_in = mumps_->positions.data();
+SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions) {
+  std::vector<MUMPS_INT> from_one;
+  for (const int position : positions) from_one.push_back(static_cast<MUMPS_INT>(position + 1));
+  mumps_ = std::make_shared<Mumps>(std::move(from_one));
 }
 
 bool SymmetricFactorisation::factorise(const Eigen::SparseMatrix<double>& lower) {
   if (!(lower.coeffs().abs() <= largest_entry).all()) return false;  // NaN fails it too
-  if (mumps_->read(lower)) {
-    mumps_->analysed = mumps_->run(job_analyse);
-    if (!mumps_->analysed) return false;
+  try {
+    if (mumps_->read(lower)) {
+      mumps_->analysed = mumps_->run(job_analyse);
+      if (!mumps_->analysed) return false;
+    }
+    return mumps_->run(job_factorise) && mumps_->data.infog[control(28)] == 0;  // pivots that are mere rounding
+  } catch (...) {                                                               // what it was doing is half done
+    mumps_ = std::make_shared<Mumps>(std::move(mumps_->positions));
+    throw;
   }
-  return mumps_->run(job_factorise) && mumps_->data.infog[control(28)] == 0;  // pivots that are mere rounding
 }
 
 Eigen::Index SymmetricFactorisation::negative_eigenvalues() const { return mumps_->data.infog[control(12)]; }

@@ -9,7 +9,8 @@
 namespace dmocbench {
 
 /// Factors L D Lᵀ of a sparse symmetric, possibly indefinite matrix, with its inertia (by MUMPS). Threads may have one
-/// each: calls of MUMPS wait for each other, and for solves by `ipopt` and `sqp` (`lock_mumps`).
+/// each: calls of MUMPS wait for each other, and for solves by `ipopt` and `sqp` (`lock_mumps`). They end with the
+/// `StopScope` of their thread, while they wait and while they work.
 class SymmetricFactorisation {
  public:
   /// Eliminates in a given order, which is kept: `positions` says for every row of the matrix when it is eliminated,
@@ -19,10 +20,11 @@ class SymmetricFactorisation {
   /// The largest entry of a matrix: products of larger ones would overflow.
   static constexpr double largest_entry = 1e100;
 
-  /// Factorises the matrix whose lower triangle is given. False if it is singular, or an entry is not finite or above
+  /// Factorises the matrix whose lower triangle is given. False if it is singular, or so nearly that postponed pivots
+  /// ask for more than some ten times the workspace of the pattern, or an entry is not finite or above
   /// `largest_entry`: MUMPS aborts where a number is infinite. The order of elimination, if none was given, is chosen
   /// at the first call and kept while the pattern stays the same. Throws `std::bad_alloc` if there is not enough
-  /// memory, `Error` if MUMPS fails otherwise.
+  /// memory, `Stopped`, and `Error` if MUMPS fails otherwise; the object may be used again.
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower);
   /// Number of negative eigenvalues of the matrix factorised last.
   [[nodiscard]] Eigen::Index negative_eigenvalues() const;

@@ -1,5 +1,6 @@
 #include "methods/runtime/stop_scope.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -22,9 +23,15 @@ StopScope::StopScope(std::function<bool()> stop_requested, double most_seconds)
 
 StopScope::~StopScope() { innermost() = outer_; }
 
-double StopScope::seconds_left() const { return most_seconds_ - seconds_since(begin_); }
+double StopScope::seconds_left() const {
+  const double left = most_seconds_ - seconds_since(begin_);
+  return outer_ != nullptr ? std::min(left, outer_->seconds_left()) : left;
+}
 
-bool StopScope::must_stop() const { return (stop_requested_ && stop_requested_()) || seconds_left() < 0.0; }
+bool StopScope::must_stop() const {
+  if ((stop_requested_ && stop_requested_()) || most_seconds_ - seconds_since(begin_) < 0.0) return true;
+  return outer_ != nullptr && outer_->must_stop();
+}
 
 bool must_stop() { return innermost() != nullptr && innermost()->must_stop(); }
 

@@ -16,7 +16,7 @@ class Stopped : public Error {
 
 /// As long as it exists, what this thread computes without counted iterations (tracing and differentiating formulas,
 /// integrating, Newton steps behind a solver) ends once `stop_requested` is true or more than `most_seconds` have
-/// passed (0: no limit), and solvers take no longer than that. The innermost scope counts.
+/// passed (0: no limit), and solvers take no longer than that. So it does where a scope around it says so.
 class StopScope {
  public:
   /// Begins now; `most_seconds`: wall clock.
@@ -27,9 +27,9 @@ class StopScope {
   StopScope(StopScope&&) = delete;
   StopScope& operator=(StopScope&&) = delete;
 
-  /// True if `stop_requested` says so or the time is over.
+  /// True if `stop_requested` says so or the time is over, here or in a scope around.
   [[nodiscard]] bool must_stop() const;
-  /// Infinite without a limit.
+  /// The least of this scope and those around; infinite without a limit.
   [[nodiscard]] double seconds_left() const;
 
  private:

@@ -38,6 +38,7 @@
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parsed.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/run_alone.hpp"
 
 namespace dmocbench {
@@ -119,6 +120,8 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   [[nodiscard]] bool has_converged() const { return has_converged_; }
   /// Whether it was told to stop because the time was up.
   [[nodiscard]] bool is_late() const { return is_late_; }
+  /// The last point whose gradient was asked for: an iterate. Empty before the first.
+  [[nodiscard]] const Eigen::VectorXd& last_point() const { return last_point_; }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac_g, Index& nnz_h_lag, IndexStyleEnum& index_style) override {
     n = static_cast<Index>(program_.variable_count());
@@ -151,7 +154,8 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   }
 
   bool eval_grad_f(Index n, const Number* x, bool /*new_x*/, Number* values) override {
-    program_.gradient(point(x, n), array(values, n));
+    last_point_ = point(x, n);
+    program_.gradient(last_point_, array(values, n));
     return true;
   }
 
@@ -221,6 +225,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   bool has_rule_of_its_own_;
   bool has_converged_ = false;
   bool is_late_ = false;
+  Eigen::VectorXd last_point_;
 };
 
 /// Listens to Ipopt's reports on its linear systems: where these fail for want of memory, Ipopt's status says only that
@@ -333,10 +338,16 @@ Solution IpoptSolver::run_ipopt(CountedProgram& program, const Eigen::VectorXd& 
   program.leave_out(seconds_since(begin));
   const Ipopt::SmartPtr<ProgramForIpopt> for_ipopt =
       new ProgramForIpopt(program, start, options(), named_.contains("tol"), solution);
-  const Ipopt::ApplicationReturnStatus status = application->OptimizeTNLP(Ipopt::GetRawPtr(for_ipopt));
-  solution.status = for_ipopt->has_converged() ? Status::solved
-                    : for_ipopt->is_late()     ? Status::time_limit
-                                               : status_of(status);
+  try {
+    const Ipopt::ApplicationReturnStatus status = application->OptimizeTNLP(Ipopt::GetRawPtr(for_ipopt));
+    solution.status = for_ipopt->has_converged() ? Status::solved
+                      : for_ipopt->is_late()     ? Status::time_limit
+                                                 : status_of(status);
+  } catch (const Stopped&) {  // within a factorisation
+    solution.status = program.is_out_of_time() ? Status::time_limit : Status::interrupted;
+    solution.primal = for_ipopt->last_point();
+    if (solution.primal.size() == 0) solution.primal = start;
+  }
   const bool has_failed = solution.status == Status::step_failed || solution.status == Status::solver_error;
   if (has_failed && memory->tell_of_failure()) solution.status = Status::out_of_memory;
   if (solution.status == Status::time_limit && solution.primal.size() == 0) solution.primal = start;

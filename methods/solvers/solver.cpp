@@ -12,7 +12,6 @@
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/least_violation.hpp"
 #include "methods/program/counted_program.hpp"
-#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/scaled_cost.hpp"
 
 namespace dmocbench {
@@ -27,17 +26,6 @@ std::string fault_of_start(const Eigen::VectorXd& start) {
     if (!std::isfinite(start[i])) return fmt::format(" Entry {} of the start is {}.", i, start[i]);
   }
   return {};
-}
-
-/// Nothing is known of an answer whose cost the tolerance cannot see. No Newton step may settle it either: its matrix
-/// holds the cost's curvature next to entries that round it away.
-void refuse_small_cost(double factor, Solution& solution) {
-  solution.status = Status::not_confirmed;
-  solution.correction.reset();
-  solution.message = fmt::format(
-      "The derivatives of the cost are below the tolerance, so that every feasible point passes for an optimum; "
-      "multiply the cost by about {:.0e} (`cost_scale` of a problem does so).",
-      factor);
 }
 
 /// The answer to a program whose cost was multiplied by a factor, as one of the program itself.
@@ -75,6 +63,11 @@ std::unique_ptr<PreparedRun> SolverWithoutMemory::prepare(CountedProgram& progra
 double Solver::seconds_allowed() const {
   const double in_scope = std::max(seconds_left(), shortest_limit);
   return options_.most_seconds > 0.0 ? std::min(options_.most_seconds, in_scope) : in_scope;
+}
+
+StopScope Solver::scope(const CountedProgram& counted) const {
+  return {[this] { return options_.stop_requested && options_.stop_requested(); },
+          std::max(counted.seconds_left(), shortest_limit)};
 }
 
 void Solver::check(const NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
@@ -115,6 +108,7 @@ Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, 
   check(program, start, multipliers, barrier_parameter);
   Confirmation confirmation(program);  // before the clock begins
   CountedProgram counted(program, seconds_allowed());
+  const StopScope limits = scope(counted);
   Solution solution;
   prepare(counted)->run(start, multipliers, barrier_parameter, solution);
   const double factor = complete(counted, start, confirmation, true, solution);

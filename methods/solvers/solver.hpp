@@ -12,6 +12,7 @@
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/program/solver_options.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
 
@@ -44,7 +45,7 @@ class PreparedRun {
 ///
 /// Threads may solve at the same time, each its own program. Solves by `ipopt` and `sqp` wait for each other, as MUMPS
 /// has global state; so does `auto` where it goes to Ipopt. That wait counts for the limit of time and heeds stop
-/// requests. A single factorisation by MUMPS, as where an answer is confirmed, waits for them to the end.
+/// requests, and so do single factorisations by MUMPS, as where an answer is confirmed.
 class Solver {
  public:
   virtual ~Solver() = default;
@@ -91,6 +92,8 @@ class Solver {
   friend class PreparedSolve;
   /// The limit of time of a solve that begins now: that of the options and of the innermost `StopScope`.
   [[nodiscard]] double seconds_allowed() const;
+  /// Ends what a solve computes outside of its iterations with the limits of the solve.
+  [[nodiscard]] StopScope scope(const CountedProgram& counted) const;
   /// Throws `Error` that names what does not fit the program.
   static void check(const NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
                     std::optional<double> barrier_parameter);

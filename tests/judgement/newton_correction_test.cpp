@@ -77,6 +77,18 @@ TEST(NewtonCorrection, IsInfiniteWhereASecondDerivativeIsNotANumber) {
   EXPECT_EQ(correction.length, unbounded);
 }
 
+/// The optimum is 0: all of what is left is error.
+TEST(NewtonCorrection, IsNoShareOfUnknownsThatAreRounding) {
+  SmallProgram program =
+      tests::equality_program([](const HyperVector& x) { return x[0] * x[0] + x[1] * x[1]; },
+                              [](const HyperVector& x) { return HyperVector{x[0] + x[1]}; }, 2, vector({0.0}));
+  const auto length_at = [&](double size) {
+    return tests::value_of(NewtonCorrections(program).at(vector({size, -size}), vector({0.0}))).length;
+  };
+  for (const double size : {1e-11, 1e-15, 1e-30}) EXPECT_LT(length_at(size), settled) << size;
+  for (const double size : {1e-5, 1.0, 1e5}) EXPECT_GT(length_at(size), settled) << size;
+}
+
 TEST(NewtonCorrection, TakesSolvedBackFromAFlatProgramWhoseResidualsAreSmall) {
   SmallProgram program = valley(1e-10);
   Solution solution = unsettled(program);

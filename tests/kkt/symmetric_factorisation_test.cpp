@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include "methods/runtime/stop_scope.hpp"
 #include "tests/solvers/sqp/random_quadratic_program.hpp"
 
 namespace dmocbench {
@@ -40,6 +41,25 @@ TEST(SymmetricFactorisation, ThrowsWhereMumpsWouldEndTheProcess) {
   auto* const abort = reinterpret_cast<void (*)()>(dlsym(RTLD_DEFAULT, "mumps_abort_"));
   ASSERT_NE(abort, nullptr);
   EXPECT_THROW(abort(), std::bad_alloc);
+}
+
+/// As where pivots fail: a matrix that takes MUMPS long.
+TEST(SymmetricFactorisation, EndsWithItsStopScopeAndWorksAgainAfterwards) {
+  std::mt19937 generator(13);
+  constexpr Eigen::Index size = 400;
+  const Eigen::MatrixXd root = random_matrix(size, size, generator);
+  const Eigen::SparseMatrix<double> lower = lower_of(root + root.transpose());
+  SymmetricFactorisation factorisation;
+  for (int i = 0; i < 3; ++i) {
+    int asked = 0;
+    const StopScope scope([&] { return ++asked > i; }, 0.0);
+    EXPECT_THROW(static_cast<void>(factorisation.factorise(lower)), Stopped);
+    EXPECT_EQ(asked, i + 1) << "it is asked within the factorisation";
+  }
+  ASSERT_TRUE(factorisation.factorise(lower));
+  const Eigen::VectorXd right_hand_side = random_matrix(size, 1, generator);
+  const Eigen::VectorXd product = lower.selfadjointView<Eigen::Lower>() * factorisation.solve(right_hand_side);
+  EXPECT_LT((product - right_hand_side).lpNorm<Eigen::Infinity>(), 1e-8);
 }
 
 TEST(SymmetricFactorisation, FindsTheSameInAnyOrder) {

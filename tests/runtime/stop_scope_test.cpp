@@ -12,11 +12,8 @@ TEST(StopScope, EndsWhatAsksInsideOfIt) {
   {
     const StopScope outer([] { return true; }, 0.0);
     EXPECT_THROW(stop_if_requested(), Stopped);
-    {
-      const StopScope inner(nullptr, 0.0);
-      EXPECT_NO_THROW(stop_if_requested()) << "the innermost counts, and it has no limit";
-    }
-    EXPECT_THROW(stop_if_requested(), Stopped);
+    const StopScope inner(nullptr, 0.0);
+    EXPECT_THROW(stop_if_requested(), Stopped) << "a scope inside of it takes nothing back";
   }
   EXPECT_NO_THROW(stop_if_requested());
 }
@@ -38,7 +35,7 @@ TEST(StopScope, TellsWhatIsLeftOfItsTime) {
     EXPECT_LT(seconds_left(), 0.0);
   }
   const StopScope unlimited(nullptr, 0.0);
-  EXPECT_EQ(seconds_left(), std::numeric_limits<double>::infinity());
+  EXPECT_LE(seconds_left(), 1000.0) << "the limit around it stays";
 }
 
 }  // namespace

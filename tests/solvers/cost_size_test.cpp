@@ -2,11 +2,16 @@
 #include <cmath>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "methods/judgement/confirm.hpp"
+#include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/transcription/lane_transcription.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/small_programs.hpp"
@@ -68,11 +73,48 @@ TEST(SmallCost, IsRefusedWhereTheProgramIsPrepared) {
   EXPECT_NE(solution.message.find("cost_scale"), std::string::npos) << solution.message;
 }
 
+TEST(SmallCost, IsSolvedInABatchOnlyAtTheOptimum) {
+  const auto problem = make_problem("double_integrator");
+  const double optimum = solve(*problem, "interior_point").objective;
+  const Restated tiny = with_cost_times(1e-20, *problem);
+  const auto program = tests::transcribe(tiny, {"dmoc", 1}, Grid::uniform(12));
+  const Eigen::VectorXd start = sample(*program, guessed_motion(tiny));
+  for (const bool falls_back : {true, false}) {
+    bool is_over = false;
+    static_cast<void>(solve_batch(
+        *program, lanes_of(*program), start,
+        [&](std::size_t /*index*/, BatchInstance& instance) {
+          instance.start = start;
+          return !std::exchange(is_over, true);
+        },
+        [&](std::size_t /*index*/, const Solution& solution) {
+          EXPECT_EQ(solution.status, falls_back ? Status::solved : Status::not_confirmed) << solution.message;
+          EXPECT_NE(solution.message.find("cost_scale"), std::string::npos) << solution.message;
+          if (!falls_back) return;
+          EXPECT_NEAR(solution.objective * 1e20, optimum, 1e-6 * optimum);
+        },
+        {.falls_back = falls_back}));
+    EXPECT_TRUE(is_over);
+  }
+}
+
 TEST(CostOfNothing, AsksForAFeasiblePointOnly) {
   const auto problem = make_problem("double_integrator");
   for (const char* solver : {"ipopt", "interior_point", "auto", "sqp"}) {
     EXPECT_EQ(solve(with_cost_times(0.0, *problem), solver).status, Status::solved) << solver;
   }
+}
+
+/// Its matrix is so degenerate that MUMPS takes minutes to factorise it, if it can.
+TEST(CostOfNothing, IsConfirmedOnALongGridUnlessALimitEndsThat) {
+  const auto problem = make_problem("double_integrator");
+  const Restated free = with_cost_times(0.0, *problem);
+  const auto program = tests::transcribe(free, {"hamiltonian", 1}, Grid::uniform(1024));
+  Solution solution = make_solver("interior_point")->solve(*program, sample(*program, guessed_motion(free)));
+  EXPECT_EQ(solution.status, Status::solved) << solution.message;
+  const StopScope scope([] { return true; }, 0.0);
+  confirm(*program, 1e-10, solution);
+  EXPECT_EQ(solution.status, Status::interrupted) << solution.message;
 }
 
 /// Its cost, gradient and every residual vanish at the optimum, from where the solve starts.

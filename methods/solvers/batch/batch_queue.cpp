@@ -9,6 +9,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/program/status.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/instance_program.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
@@ -76,11 +77,22 @@ Solution SharedBatch::solve_alone(const BatchInstance& instance) {
 }
 
 void SharedBatch::confirm(const BatchInstance& instance, Solution& solution) {
-  const std::lock_guard lock(program_use_);
-  with_instance(instance, [&](NonlinearProgram& alone) {
-    dmocbench::confirm(alone, options_.tolerance, solution);
-    return 0;
-  });
+  double factor = 1.0;
+  {
+    const std::lock_guard lock(program_use_);
+    const StopScope scope([this] { return options_.stop_requested && options_.stop_requested(); }, 0.0);
+    factor = with_instance(instance, [&](NonlinearProgram& alone) {
+      Confirmation confirmation(alone);
+      confirmation.judge(options_.tolerance, solution);
+      return confirmation.factor_of_cost(options_.tolerance, instance.start, solution);
+    });
+  }
+  if (factor == 1.0) return;
+  if (options_.falls_back) {
+    solution = solve_alone(instance);
+  } else {
+    refuse_small_cost(factor, solution);
+  }
 }
 
 void SharedBatch::count_round() {

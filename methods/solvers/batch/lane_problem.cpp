@@ -85,7 +85,7 @@ OfLanes LaneProblem::length_of(const LaneVector& step, const LaneVector& primal,
     lane_loops().largest(vector.data() + first * width, count, result.data());
     return result;
   };
-  const OfLanes least = NewtonCorrections::smallest_share * largest(primal, 0, variables_);
+  const OfLanes least = NewtonCorrections::smallest_share * largest(primal, 0, variables_).max(1.0);
   OfLanes length = change_of_objective.abs() / objective.abs().max(1.0);
   for (const PlaceRun& run : program_.interval_structure()->unknowns.runs()) {
     const auto first = static_cast<Eigen::Index>(run.first);

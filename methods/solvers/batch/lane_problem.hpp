@@ -39,6 +39,7 @@ class LaneProblem {
   [[nodiscard]] const std::vector<Eigen::Index>& inequalities() const noexcept { return inequalities_; }
   [[nodiscard]] Eigen::Index variable_count() const noexcept { return variables_; }
   [[nodiscard]] Eigen::Index constraint_count() const noexcept { return constraints_; }
+  [[nodiscard]] bool is_fixed(Eigen::Index variable) const { return dmocbench::is_fixed(program_, variable); }
   [[nodiscard]] Eigen::Index primal_count() const noexcept {
     return variables_ + static_cast<Eigen::Index>(inequalities_.size());
   }

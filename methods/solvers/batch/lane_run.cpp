@@ -335,6 +335,15 @@ void LaneRun::give_up(std::size_t number) {
   queue_.solve_one_by_one(lane.assignment, solution_);
 }
 
+/// Whether the tolerance may not see the cost: nothing of its gradient reaches what a residual may be.
+bool LaneRun::has_small_cost(std::size_t number) const {
+  const auto gradient = problem_.gradient().of(number);
+  for (Eigen::Index j = 0; j < problem_.variable_count(); ++j) {
+    if (!problem_.is_fixed(j) && std::abs(gradient[j]) >= confirmation_factor * options_.tolerance) return false;
+  }
+  return true;
+}
+
 void LaneRun::finish(std::size_t number, Status status) {
   const Eigen::Index at = index_of(number);
   Lane& lane = lanes_[number];
@@ -354,7 +363,7 @@ void LaneRun::finish(std::size_t number, Status status) {
   solution_.evaluations = lane.evaluations;
   // Where the last step was a full one of Newton's and short, the next one is shorter.
   const bool is_settled = lane.is_newton && lane.share_moved <= settled;
-  if (status == Status::solved && !is_settled) {
+  if (status == Status::solved && (!is_settled || has_small_cost(number))) {
     const PhaseClock::Within within(clock_, BatchPhase::one_by_one);
     queue_.confirm(lane.assignment, solution_);
   }

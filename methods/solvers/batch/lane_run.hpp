@@ -92,6 +92,7 @@ class LaneRun {
   void update_barrier_parameter(std::size_t number);
   void refuse(std::size_t number, const char* reason);
   void give_up(std::size_t number);
+  [[nodiscard]] bool has_small_cost(std::size_t number) const;
   void finish(std::size_t number, Status status);
   [[nodiscard]] interior_point::PointValues values_in(std::size_t number, const LaneValues& values) const;
   [[nodiscard]] bool is_warm(std::size_t lane) const;

@@ -15,6 +15,7 @@
 #include "methods/judgement/stop_rule.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/long_vectors.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/interior_point/barrier_parameter.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/constants.hpp"
@@ -47,7 +48,11 @@ class InteriorPointRun final : public PreparedRun {
   void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers, std::optional<double> barrier_parameter,
            Solution& solution) override {
     std::optional<Status> end = begin(start, multipliers, barrier_parameter);
-    while (!end) end = iterate();
+    try {
+      while (!end) end = iterate();
+    } catch (const Stopped&) {
+      end = reason_to_stop().value_or(Status::interrupted);
+    }
     write(*end, solution);  // NOLINT(bugprone-unchecked-optional-access): the loop ends with a status
   }
 

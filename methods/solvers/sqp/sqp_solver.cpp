@@ -12,6 +12,7 @@
 #include "methods/judgement/confirm.hpp"
 #include "methods/kkt/linearisation.hpp"
 #include "methods/program/counted_program.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/named_options.hpp"
 #include "methods/solvers/run_alone.hpp"
 #include "methods/solvers/sqp/globalisation.hpp"
@@ -52,7 +53,11 @@ class SequentialRun {
     solution.status = Status::evaluation_failed;
     if (is_differentiable()) {
       std::optional<Status> end;
-      while (!end) end = major_iteration();
+      try {
+        while (!end) end = major_iteration();
+      } catch (const Stopped&) {
+        end = reason_to_stop().value_or(Status::interrupted);
+      }
       solution.status = end.value_or(Status::solver_error);
     }
     solution.message = message_;
