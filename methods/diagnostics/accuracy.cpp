@@ -19,10 +19,15 @@ namespace dmocbench {
 
 namespace {
 
+/// The size below which a range is rounding.
+double rounding_of(const Eigen::MatrixXd& nodes) {
+  return smallest_range * std::max(1.0, nodes.lpNorm<Eigen::Infinity>());
+}
+
 /// The norm of the ranges of all components over the nodes; 0 where it is no more than rounding.
 double range_of(const Eigen::MatrixXd& nodes) {
   const double range = (nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).norm();
-  return range > smallest_range * std::max(1.0, nodes.lpNorm<Eigen::Infinity>()) ? range : 0.0;
+  return range > rounding_of(nodes) ? range : 0.0;
 }
 
 /// Where (q, v) of node k is carried by the controls of interval k; nothing where that fails.
@@ -55,9 +60,13 @@ Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double t
 Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, double tolerance) {
   const Eigen::Index n = trajectory.q.cols();
   const double moves = std::max(range_of(trajectory.q), range_of(trajectory.v));
-  const auto scale = [&](double range) { return range > 0.0 ? range : (moves > 0.0 ? moves : 1.0); };
-  const double range_of_q = scale(range_of(trajectory.q));
-  const double range_of_v = scale(range_of(trajectory.v));
+  const auto scale_of = [&](const Eigen::MatrixXd& nodes) {
+    if (!(moves > 0.0)) return 1.0;
+    const double range = range_of(nodes);
+    return std::max(range > 0.0 ? range : moves, rounding_of(nodes) / largest_jump_of_a_motion);
+  };
+  const double range_of_q = scale_of(trajectory.q);
+  const double range_of_v = scale_of(trajectory.v);
   const auto worst_of = [&](EquationsOfMotion& motion, Eigen::Index begin, Eigen::Index end) {
     Accuracy worst{.interval = begin};
     for (Eigen::Index k = begin; k < end; ++k) {

@@ -53,6 +53,17 @@ TEST(Accuracy, DoesNotCallABodyAtRestTornByRounding) {
   }
 }
 
+TEST(Accuracy, CountsNoJumpThatIsRoundingAsAShareOfAMotionThatIsHardlyMore) {
+  const tests::DoubleIntegrator problem;
+  Trajectory slow = exact_optimum(problem, 8);
+  slow.q.setZero();
+  slow.stage_u.setZero();
+  slow.v = 0.3 * smallest_range * Eigen::VectorXd::LinSpaced(9, 0.0, 8.0);
+  EXPECT_LT(accuracy(problem, slow).relative_jump, largest_jump_of_a_motion);
+  slow.v *= 100.0;
+  EXPECT_GT(accuracy(problem, slow).relative_jump, largest_jump_of_a_motion);
+}
+
 /// x'' = 400 x + u grows by e^40 over its horizon: a replay of the whole cannot judge a motion that rounding moves.
 class Unstable final : public tests::SmallProblem {
  public:
