@@ -51,15 +51,18 @@ class StopRule {
   /// For the largest product of a bound's multiplier and the distance to it. `mean_multiplier`: of those of bounds.
   [[nodiscard]] double complementarity(double mean_multiplier) const { return tolerance_ * scale(mean_multiplier); }
 
-  /// s_d and s_c of Wächter and Biegler: large multipliers excuse large residuals.
+  /// s_d and s_c of Wächter and Biegler: large multipliers excuse large residuals, up to `most_excused`.
   [[nodiscard]] static double scale(double mean_multiplier) {
     constexpr double s_max = 100.0;
-    return std::max(s_max, mean_multiplier) / s_max;
+    return std::max(s_max, std::min(mean_multiplier, s_max * most_excused)) / s_max;
   }
+
+  /// By this factor at most: next to multipliers without a bound any residual would pass.
+  static constexpr double most_excused = 1e8;
 
  private:
   [[nodiscard]] double stationarity_above(double floor, double mean_multiplier, double largest_multiplier) const {
-    return std::max(tolerance_ * scale(mean_multiplier), floor * std::max(1.0, largest_multiplier));
+    return std::max(tolerance_ * scale(mean_multiplier), floor * std::clamp(largest_multiplier, 1.0, most_excused));
   }
 
   /// NaN where an entry is.
