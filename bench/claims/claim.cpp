@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <iterator>
+#include <regex>
 
 namespace dmocbench {
 
@@ -40,11 +41,20 @@ std::vector<std::string> problems_of(const Claims& claims) {
   return problems;
 }
 
+/// Whether a measurement in words has a number that is none. Numbers of tables are finite, but what follows from them
+/// need not be: a ratio to 1e-310 is infinite.
+bool has_no_number(const std::string& measured) {
+  static const std::regex none(R"((^|[^A-Za-z_])(inf|nan)($|[^A-Za-z_]))");
+  return std::regex_search(measured, none);
+}
+
 /// What is found; "not yet", with what is lacking, where nothing can be found.
 template <std::invocable Judge>
 Finding finding_of(const Judge& judge) {
   try {
-    return judge();
+    Finding finding = judge();
+    if (!has_no_number(finding.measured)) return finding;
+    return {.measured = "what follows from the tables is no finite number: " + finding.measured, .sure = ""};
   } catch (const Error& lacking) {
     return {.measured = lacking.what(), .sure = ""};
   }

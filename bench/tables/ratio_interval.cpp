@@ -16,7 +16,9 @@ namespace {
 void require_times(std::span<const double> times) {
   if (times.empty()) throw Error("an interval of a ratio needs a round");
   for (const double time : times) {
-    if (!std::isfinite(time) || time <= 0.0) throw Error(fmt::format("{} is no ratio of two times", time));
+    if (std::isfinite(time) && time > 0.0) continue;
+    throw Error(
+        fmt::format("a time, or a ratio of two, is {:g}: times must be above zero; did the clock stand still?", time));
   }
 }
 
