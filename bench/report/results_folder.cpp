@@ -72,13 +72,6 @@ void read_motions(const std::filesystem::path& folder, ResultsFolder& results) {
   }
 }
 
-/// JSON without what is nested deeper than any metadata: copying and writing it recurses.
-Json parsed_json(const std::string& text) {
-  constexpr int deepest = 16;
-  const auto keeps = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) { return depth <= deepest; };
-  return Json::parse(text, keeps, false);
-}
-
 /// Throws `Error` unless what every section reads of a run's metadata is of its type.
 void require_types(const JsonPlace& metadata) {
   static_cast<void>(metadata.at("command_line").texts());
@@ -89,7 +82,7 @@ void require_types(const JsonPlace& metadata) {
 void read_runs(const std::filesystem::path& folder, ResultsFolder& results) {
   for (const std::filesystem::path& file : files_in(folder, ".json")) {
     try {
-      Json metadata = parsed_json(read_file(file));
+      Json metadata = json_in(read_file(file), file.filename().string());
       if (!metadata.is_object() || !metadata.contains("command_line")) continue;  // not a run's
       require_types({metadata, file.filename().string()});
       results.runs.push_back({file.stem().string(), std::move(metadata)});

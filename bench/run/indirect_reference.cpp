@@ -32,11 +32,12 @@ Json columns_of(const Eigen::MatrixXd& matrix) {
   return columns;
 }
 
-Eigen::MatrixXd matrix_of(const Json& columns) {
-  const auto values = columns.get<std::vector<std::vector<double>>>();
-  if (values.empty()) return {};
-  Eigen::MatrixXd matrix(values.front().size(), values.size());
-  for (Eigen::Index j = 0; const std::vector<double>& column : values) {
+Eigen::MatrixXd matrix_of(const JsonPlace& place) {
+  const std::vector<JsonPlace> columns = place.entries();
+  if (columns.empty()) return {};
+  Eigen::MatrixXd matrix(std::ssize(columns.front().numbers()), std::ssize(columns));
+  for (Eigen::Index j = 0; const JsonPlace& each : columns) {
+    const std::vector<double> column = each.numbers();
     if (std::ssize(column) != matrix.rows()) throw Error("columns differ in length");
     matrix.col(j++) = Eigen::Map<const Eigen::VectorXd>(column.data(), matrix.rows());
   }
@@ -88,24 +89,27 @@ void require_near(const Problem& problem, const IndirectSolution& solution, cons
 std::optional<IndirectSolution> read_solution(const std::filesystem::path& path, const Problem& problem,
                                               const Trajectory& direct) {
   constexpr double rounding = 1e-11;
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::error_code none;  // a pipe or a folder holds no solution either
+  if (!std::filesystem::is_regular_file(path, none)) return std::nullopt;
   try {
-    const Json file = Json::parse(read_file(path));
-    if (file.at("problem") != problem.name() || file.at("parameters") != parameters_of(problem)) return std::nullopt;
-    if (file.at("checksum") != checksum_of(file)) return std::nullopt;
+    const Json json = json_in(read_file(path), path.string());
+    const JsonPlace file(json, path.string());
+    if (file.at("problem").text() != problem.name()) return std::nullopt;
+    if (file.at("parameters").json() != parameters_of(problem)) return std::nullopt;
+    if (file.at("checksum").json() != checksum_of(json)) return std::nullopt;
     CollocatedExtremal extremal;
-    extremal.stages = file.at("stages");
-    extremal.horizon = file.at("horizon");
-    extremal.cost = file.at("scaled_cost");
+    extremal.stages = file.at("stages").count();
+    extremal.horizon = file.at("horizon").number();
+    extremal.cost = file.at("scaled_cost").number();
     extremal.nodes = matrix_of(file.at("nodes"));
     extremal.rates = matrix_of(file.at("slopes"));
     extremal.algebraic = matrix_of(file.at("algebraic"));
-    const Json& agreement = file.at("agreement");
+    const JsonPlace agreement = file.at("agreement");
     IndirectSolution solution(problem, std::move(extremal),
-                              {.state = agreement.at("state"),
-                               .costate = agreement.at("costate"),
-                               .control = agreement.at("control"),
-                               .cost = agreement.at("cost")});
+                              {.state = agreement.at("state").number(),
+                               .costate = agreement.at("costate").number(),
+                               .control = agreement.at("control").number(),
+                               .cost = agreement.at("cost").number()});
     if (boundary_value_residual(problem, solution) > rounding || !is_near(solution, direct)) return std::nullopt;
     return solution;
   } catch (const std::exception&) {
@@ -154,7 +158,9 @@ Json account_of(const Entry& entry) {
 }
 
 /// The solution near a direct one, from the problem's file in a folder, or solved anew and written there.
-Entry solution_near(const Problem& problem, const Trajectory& direct, const std::filesystem::path& folder) {
+/// Where that fails, `notes` gets the reason: the solution is as good without a file.
+Entry solution_near(const Problem& problem, const Trajectory& direct, const std::filesystem::path& folder,
+                    std::vector<std::string>& notes) {
   const std::filesystem::path path = folder / (problem.name() + "_indirect.json");
   std::optional<IndirectSolution> solution = read_solution(path, problem, direct);
   std::optional<double> seconds;
@@ -163,7 +169,11 @@ Entry solution_near(const Problem& problem, const Trajectory& direct, const std:
     solution = solve_indirect(problem, direct);
     seconds = seconds_since(begin);
     require_near(problem, *solution, direct);
-    write_file(path, written(problem, *solution));
+    try {
+      write_file(path, written(problem, *solution));
+    } catch (const Error& error) {
+      notes.push_back(fmt::format("{}: its indirect solution is kept in no file: {}", problem.name(), error.what()));
+    }
   }
   constexpr double replay_tolerance = 1e-13;
   Entry entry{.problem = problem.name(), .solution = *std::move(solution), .seconds = seconds, .initial_costate = {}};
@@ -183,7 +193,7 @@ Entry solution_near(const Problem& problem, const Trajectory& direct, const std:
 const IndirectSolution& IndirectReference::near(const Problem& problem, const Trajectory& direct) {
   const auto known = known_.find(problem.name());
   if (known == known_.end())
-    return known_.emplace(problem.name(), solution_near(problem, direct, folder_)).first->second.solution;
+    return known_.emplace(problem.name(), solution_near(problem, direct, folder_, notes_)).first->second.solution;
   require_near(problem, known->second.solution, direct);
   return known->second.solution;
 }
@@ -237,7 +247,7 @@ Json IndirectReference::metadata() const {
 std::vector<std::string> IndirectReference::notes() const {
   constexpr double wanted_digits = 11.0;
   const Json accounts = findings();
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = notes_;
   for (const auto& [problem, account] : accounts.items()) {
     const double digits = account.at("metadata").at("certified_digits");
     if (digits >= wanted_digits) continue;

@@ -51,11 +51,12 @@ class IndirectReference {
   [[nodiscard]] Table table() const;
   /// The same for metadata: an array with an object per problem.
   [[nodiscard]] nlohmann::ordered_json metadata() const;
-  /// A sentence for every problem whose reference is certified to fewer than 11 digits.
+  /// A sentence for every problem whose reference is certified to fewer than 11 digits, or could not be written.
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
   std::filesystem::path folder_;
+  std::vector<std::string> notes_;                        // on files that cannot be written
   std::map<std::string, CheckedIndirectSolution> known_;  // by problem
   std::map<std::string, nlohmann::ordered_json> joined_;  // findings of parts, by problem
 };

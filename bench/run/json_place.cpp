@@ -60,6 +60,13 @@ double JsonPlace::number() const {
   return json_->get<double>();
 }
 
+int JsonPlace::count() const {
+  constexpr int most = 1'000'000'000;
+  const bool is_whole = json_->is_number_unsigned() && json_->get<unsigned long long>() <= most;
+  if (!is_whole) refuse("a whole number from 0 to a billion");
+  return json_->get<int>();
+}
+
 bool JsonPlace::boolean() const {
   if (!json_->is_boolean()) refuse("true or false");
   return json_->get<bool>();
@@ -69,6 +76,26 @@ std::vector<std::string> JsonPlace::texts() const {
   std::vector<std::string> texts;
   for (const JsonPlace& entry : entries()) texts.push_back(entry.text());
   return texts;
+}
+
+std::vector<double> JsonPlace::numbers() const {
+  std::vector<double> numbers;
+  if (!json_->is_array()) refuse("an array");
+  numbers.reserve(json_->size());
+  for (const auto& value : *json_) {
+    if (!value.is_number()) inner(value, std::to_string(numbers.size() + 1)).refuse("a number");
+    numbers.push_back(value.get<double>());
+  }
+  return numbers;
+}
+
+nlohmann::ordered_json json_in(const std::string& text, const std::string& file) {
+  using Json = nlohmann::ordered_json;
+  constexpr int deepest = 16;
+  const auto keeps = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) { return depth <= deepest; };
+  Json json = Json::parse(text, keeps, false);
+  if (json.is_discarded()) throw Error(fmt::format("{} is no JSON, or was cut off", file));
+  return json;
 }
 
 }  // namespace dmocbench

@@ -26,8 +26,12 @@ class JsonPlace {
   [[nodiscard]] std::string text() const;  ///< the value; throws `Error` if it is not a text
   [[nodiscard]] double number() const;     ///< the value; throws `Error` if it is not a number
   [[nodiscard]] bool boolean() const;      ///< the value; throws `Error` if it is neither true nor false
+  /// The value; throws `Error` if it is not a whole number from 0 to a billion.
+  [[nodiscard]] int count() const;
   /// The entries of an array of texts.
   [[nodiscard]] std::vector<std::string> texts() const;
+  /// The entries of an array of numbers.
+  [[nodiscard]] std::vector<double> numbers() const;
   /// What stands there.
   [[nodiscard]] const nlohmann::ordered_json& json() const noexcept { return *json_; }
 
@@ -42,5 +46,9 @@ class JsonPlace {
   std::string file_;
   std::string path_;  // keys with spaces between them; empty for the whole
 };
+
+/// The JSON in a text, without what is nested deeper than any of ours: copying and writing it recurse. Throws `Error`
+/// that names `file` if it is none.
+[[nodiscard]] nlohmann::ordered_json json_in(const std::string& text, const std::string& file);
 
 }  // namespace dmocbench

@@ -95,6 +95,14 @@ TEST_F(IndirectReferenceIn, ADamagedFileIsWrittenAnew) {
   }
 }
 
+TEST_F(IndirectReferenceIn, AFolderInThePlaceOfTheFileIsNoHindrance) {
+  std::filesystem::create_directories(folder() / "double_integrator_indirect.json" / "inner");
+  IndirectReference reference(folder());
+  EXPECT_NEAR(reference.near(problem_, direct_).cost(), 6.0, 1e-12);
+  ASSERT_EQ(reference.notes().size(), 1U);
+  EXPECT_NE(reference.notes().front().find("double_integrator_indirect.json"), std::string::npos);
+}
+
 TEST_F(IndirectReferenceIn, AFileWithAnotherCostOrAgreementIsWrittenAnew) {
   static_cast<void>(row_for(problem_, direct_));
   const std::filesystem::path file = folder() / "double_integrator_indirect.json";

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/json_place.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/written_tables.hpp"
 #include "methods/error.hpp"
@@ -30,25 +31,25 @@ RoadmapJson rows_json(const Eigen::MatrixXd& rows) {
   return json;
 }
 
-Eigen::VectorXd numbers_from(const RoadmapJson& json) {
-  const auto numbers = json.get<std::vector<double>>();
+Eigen::VectorXd numbers_from(const JsonPlace& place) {
+  const std::vector<double> numbers = place.numbers();
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
 }
 
-Eigen::MatrixXd rows_from(const RoadmapJson& json) {
-  if (json.empty()) return {};
-  const auto rows = static_cast<Eigen::Index>(json.size());
-  Eigen::MatrixXd table(rows, static_cast<Eigen::Index>(json.front().size()));
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    const Eigen::VectorXd numbers = numbers_from(json[static_cast<std::size_t>(row)]);
+Eigen::MatrixXd rows_from(const JsonPlace& place) {
+  const std::vector<JsonPlace> rows = place.entries();
+  if (rows.empty()) return {};
+  Eigen::MatrixXd table(std::ssize(rows), numbers_from(rows.front()).size());
+  for (Eigen::Index row = 0; const JsonPlace& each : rows) {
+    const Eigen::VectorXd numbers = numbers_from(each);
     if (numbers.size() != table.cols()) throw Error("it is damaged: rows of a table have different lengths");
-    table.row(row) = numbers.transpose();
+    table.row(row++) = numbers.transpose();
   }
   return table;
 }
 
-Displacement displacement_from(const RoadmapJson& json) {
-  return {.linear = rows_from(json.at("linear")), .shift = numbers_from(json.at("shift"))};
+Displacement displacement_from(const JsonPlace& place) {
+  return {.linear = rows_from(place.at("linear")), .shift = numbers_from(place.at("shift"))};
 }
 
 RoadmapJson json_of(const Displacement& displacement) {
@@ -62,15 +63,17 @@ RoadmapJson json_of(const Primitive& primitive) {
       {"v", rows_json(primitive.v)},    {"u", rows_json(primitive.u)}};
 }
 
-Primitive primitive_from(const RoadmapJson& json) {
-  return {.first = json.at("first").get<std::size_t>(),
-          .last = json.at("last").get<std::size_t>(),
-          .displacement = displacement_from(json.at("displacement")),
-          .duration = json.at("duration").get<int>(),
-          .cost = json.at("cost").get<double>(),
-          .q = rows_from(json.at("q")),
-          .v = rows_from(json.at("v")),
-          .u = rows_from(json.at("u"))};
+std::size_t number_from(const JsonPlace& place) { return static_cast<std::size_t>(place.count()); }
+
+Primitive primitive_from(const JsonPlace& place) {
+  return {.first = number_from(place.at("first")),
+          .last = number_from(place.at("last")),
+          .displacement = displacement_from(place.at("displacement")),
+          .duration = place.at("duration").count(),
+          .cost = place.at("cost").number(),
+          .q = rows_from(place.at("q")),
+          .v = rows_from(place.at("v")),
+          .u = rows_from(place.at("u"))};
 }
 
 RoadmapJson json_of(const PrimitiveLibrary& library) {
@@ -87,27 +90,27 @@ RoadmapJson json_of(const PrimitiveLibrary& library) {
           {"states", std::move(states)}, {"primitives", std::move(primitives)}};
 }
 
-PrimitiveLibrary library_from(const RoadmapJson& content) {
-  PrimitiveLibrary library{.problem = content.at("problem").get<std::string>(),
+PrimitiveLibrary library_from(const JsonPlace& content) {
+  PrimitiveLibrary library{.problem = content.at("problem").text(),
                            .parameters = {},
-                           .step = content.at("step").get<double>(),
-                           .intervals_per_step = content.at("intervals_per_step").get<int>(),
+                           .step = content.at("step").number(),
+                           .intervals_per_step = content.at("intervals_per_step").count(),
                            .states = {},
                            .primitives = {}};
-  for (const auto& [name, value] : content.at("parameters").items()) {
-    library.parameters.emplace_back(name, value.get<double>());
+  for (const auto& [name, value] : content.at("parameters").members()) {
+    library.parameters.emplace_back(name, value.number());
   }
-  for (const RoadmapJson& each : content.at("states")) {
+  for (const JsonPlace& each : content.at("states").entries()) {
     library.states.push_back({.q = numbers_from(each.at("q")), .v = numbers_from(each.at("v"))});
   }
-  for (const RoadmapJson& each : content.at("primitives")) library.primitives.push_back(primitive_from(each));
+  for (const JsonPlace& each : content.at("primitives").entries()) library.primitives.push_back(primitive_from(each));
   return library;
 }
 
-std::vector<RoadmapNode> nodes_from(const RoadmapJson& content, const PrimitiveLibrary& library) {
+std::vector<RoadmapNode> nodes_from(const JsonPlace& content, const PrimitiveLibrary& library) {
   std::vector<RoadmapNode> nodes;
-  for (const RoadmapJson& each : content.at("nodes")) {
-    nodes.push_back({.state = each.at("state").get<std::size_t>(), .moved = displacement_from(each)});
+  for (const JsonPlace& each : content.at("nodes").entries()) {
+    nodes.push_back({.state = number_from(each.at("state")), .moved = displacement_from(each)});
     const Displacement& moved = nodes.back().moved;
     const Eigen::Index n = library.states.empty() ? 0 : library.states.front().q.size();
     if (moved.linear.rows() != n || moved.linear.cols() != n || moved.shift.size() != n) {
@@ -119,31 +122,33 @@ std::vector<RoadmapNode> nodes_from(const RoadmapJson& content, const PrimitiveL
 
 /// The part behind "content", whose checksum is right.
 RoadmapJson checked_content(std::string_view text) {
-  RoadmapJson json = RoadmapJson::parse(text);
-  if (json.at("format") != roadmap_format) throw Error("it is no roadmap");
-  if (json.at("version") != roadmap_version) {
-    throw Error(
-        fmt::format("it has version {}, this program reads version {}", json.at("version").dump(), roadmap_version));
+  RoadmapJson json = json_in(std::string(text), "it");
+  const JsonPlace place(json, "its JSON");
+  if (!place.has("format") || json["format"] != roadmap_format) throw Error("it is no roadmap");
+  if (const JsonPlace version = place.at("version"); version.json() != roadmap_version) {
+    throw Error(fmt::format("it has version {}, this program reads version {}", version.number(), roadmap_version));
   }
-  RoadmapJson content = std::move(json.at("content"));
-  if (json.at("crc32") != fmt::format("{:08x}", crc_32(content.dump()))) {
+  const RoadmapJson& content = place.at("content").json();
+  if (place.at("crc32").text() != fmt::format("{:08x}", crc_32(content.dump()))) {
     throw Error("it is damaged: its checksum is that of another content");
   }
   return content;
 }
 
-StoredRoadmap roadmap_from(const RoadmapJson& content, const Problem& problem) {
+StoredRoadmap roadmap_from(const JsonPlace& content, const Problem& problem) {
   PrimitiveLibrary library = library_from(content);
   library.require_made_for(problem);
   std::vector<RoadmapEdge> edges;
-  for (const RoadmapJson& each : content.at("edges")) {
-    edges.push_back({.from = each.at(0), .to = each.at(1), .primitive = each.at(2)});
+  for (const JsonPlace& each : content.at("edges").entries()) {
+    const std::vector<JsonPlace> ends = each.entries();
+    if (ends.size() != 3) throw Error("it is damaged: an edge has three numbers");
+    edges.push_back({.from = number_from(ends[0]), .to = number_from(ends[1]), .primitive = number_from(ends[2])});
   }
   Roadmap roadmap(library, nodes_from(content, library), std::move(edges));
   StoredRoadmap stored{.library = std::move(library),
                        .roadmap = std::move(roadmap),
-                       .start = content.at("start"),
-                       .goal = content.at("goal")};
+                       .start = number_from(content.at("start")),
+                       .goal = number_from(content.at("goal"))};
   if (std::max(stored.start, stored.goal) >= stored.roadmap.nodes().size()) {
     throw Error("it is damaged: start or goal is no node");
   }
@@ -176,11 +181,8 @@ std::string roadmap_text(const StoredRoadmap& stored) {
 }
 
 StoredRoadmap roadmap_of(std::string_view text, const Problem& problem) {
-  try {
-    return roadmap_from(checked_content(text), problem);
-  } catch (const RoadmapJson::exception&) {
-    throw Error("it is cut off or no roadmap");
-  }
+  const RoadmapJson content = checked_content(text);
+  return roadmap_from({content, "its JSON"}, problem);
 }
 
 void write_roadmap(const std::filesystem::path& file, const StoredRoadmap& stored) {

@@ -1,10 +1,12 @@
 #include "methods/extensions/primitives/primitive_library.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {
 
@@ -27,6 +29,31 @@ bool fits(const Primitive& primitive, const PrimitiveLibrary& library, Eigen::In
          std::isfinite(primitive.cost) && has_size(primitive.displacement.linear, n, n) &&
          has_size(primitive.displacement.shift, n, 1) && has_size(primitive.q, intervals + 1, n) &&
          has_size(primitive.v, intervals + 1, n) && has_size(primitive.u, intervals, m);
+}
+
+/// Throws `Error` unless every primitive costs what its motion does, by the midpoint rule with the library's step.
+void require_true_costs(const PrimitiveLibrary& library, const Problem& problem) {
+  constexpr double digits = 1e-6;
+  constexpr double share_of_largest = 1e-9;  // a primitive that costs nothing may cost rounding
+  PointFunction cost(problem.configuration_size(), problem.control_size(),
+                     [&](const ControlledState& x) { return ExpressionVector{{problem.running_cost(x)}}; });
+  const double h = library.step / library.intervals_per_step;
+  double largest = 0.0;
+  for (const Primitive& each : library.primitives) largest = std::max(largest, std::abs(each.cost));
+  for (const Primitive& each : library.primitives) {
+    double sum = 0.0;
+    double size = 0.0;
+    for (Eigen::Index k = 0; k < each.u.rows(); ++k) {
+      Eigen::VectorXd value(1);
+      cost.evaluate(0.5 * (each.q.row(k) + each.q.row(k + 1)).transpose(),
+                    (each.q.row(k + 1) - each.q.row(k)).transpose() / h, each.u.row(k).transpose(), 0.0, value);
+      sum += h * value[0];
+      size += h * std::abs(value[0]);
+    }
+    if (std::abs(each.cost - sum) <= digits * size + share_of_largest * largest) continue;
+    throw Error(fmt::format("the primitives of {} are damaged: one is said to cost {:g}, and its motion costs {:g}",
+                            problem.name(), each.cost, sum));
+  }
 }
 
 }  // namespace
@@ -54,10 +81,12 @@ void PrimitiveLibrary::require_made_for(const Problem& asked) const {
                             parameters[i].first, parameters[i].second, expected[i].first, expected[i].second));
   }
   const Eigen::Index n = asked.configuration_size();
-  bool all_fit = step > 0.0 && std::isfinite(step) && intervals_per_step >= 1;
+  constexpr double most_steps = 1e6;  // of a horizon
+  bool all_fit = asked.horizon() / most_steps <= step && std::isfinite(step) && intervals_per_step >= 1;
   for (const BoundaryState& state : states) all_fit = all_fit && has_size(state.q, n, 1) && has_size(state.v, n, 1);
   for (const Primitive& each : primitives) all_fit = all_fit && fits(each, *this, n, asked.control_size());
   if (!all_fit) throw Error(fmt::format("the primitives of {} are damaged: sizes do not fit; make them anew", problem));
+  require_true_costs(*this, asked);
 }
 
 }  // namespace dmocbench

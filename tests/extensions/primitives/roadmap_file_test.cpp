@@ -2,10 +2,15 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/extensions/primitives/planned_motion.hpp"
+#include "bench/run/written_tables.hpp"
+#include "methods/error.hpp"
 #include "problems/hovercraft.hpp"
 #include "problems/orbital_transfer.hpp"
 #include "problems/spherical_pendulum.hpp"
@@ -25,10 +30,11 @@ StoredRoadmap small_roadmap(const Problem& problem) {
                          .last = 1,
                          .displacement = moved,
                          .duration = 1,
-                         .cost = 0.1,
+                         .cost = 0.0,
                          .q = Eigen::MatrixXd::Random(3, 2),
                          .v = Eigen::MatrixXd::Random(3, 2),
                          .u = Eigen::MatrixXd::Random(2, 2)}};
+  library.primitives[0].cost = 0.05 * 0.5 * library.primitives[0].u.squaredNorm();
   const Roadmap roadmap(library, {{.state = 0, .moved = Displacement::identity(2)}, {.state = 1, .moved = moved}},
                         {{.from = 0, .to = 1, .primitive = 0}});
   return {.library = library, .roadmap = roadmap, .start = 0, .goal = 1};
@@ -65,6 +71,43 @@ TEST(RoadmapFile, IsRefusedWhereverADigitIsAnother) {
     ++digits;
   }
   EXPECT_GT(digits, 100);
+}
+
+/// The roadmap with another value at a place of its content, and the checksum of that.
+std::string doctored(const std::string& text, const std::string& place, const nlohmann::ordered_json& value) {
+  auto json = nlohmann::ordered_json::parse(text);
+  json["content"][nlohmann::ordered_json::json_pointer(place)] = value;
+  json["crc32"] = fmt::format("{:08x}", crc_32(json["content"].dump()));
+  return json.dump();
+}
+
+/// No value of another type is read as one, whatever the checksum says; the sentence names where it stands.
+TEST(RoadmapFile, IsRefusedInASentenceWhereAValueIsOfAnotherType) {
+  const SphericalPendulum problem;
+  const std::string text = roadmap_text(small_roadmap(problem));
+  const auto places = nlohmann::ordered_json::parse(text)["content"].flatten();
+  for (const auto& [place, old] : places.items()) {
+    for (const char* other : {"null", "true", "\"x\"", "[]", "{}", "[[1]]", "-1", "1e300", "4294967296"}) {
+      const auto value = nlohmann::ordered_json::parse(other);
+      const bool may_be = value.is_number() && old.is_number();  // of states and displacements any number is one
+      try {
+        static_cast<void>(roadmap_of(doctored(text, place, value), problem));
+        EXPECT_TRUE(may_be) << place << " = " << other;
+      } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()).find("json"), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
+TEST(RoadmapFile, IsRefusedWhereACostOrTheStepIsNotThatOfItsMotions) {
+  const SphericalPendulum problem;
+  const std::string text = roadmap_text(small_roadmap(problem));
+  for (const double number : {-7.0, -1e300, 0.0, 1e-12, 0.01, 1e12}) {
+    for (const char* place : {"/primitives/0/cost", "/step"}) {
+      EXPECT_THROW(static_cast<void>(roadmap_of(doctored(text, place, number), problem)), Error) << place << number;
+    }
+  }
 }
 
 class RoadmapFileInAFolder : public tests::InTemporaryFolder {};
