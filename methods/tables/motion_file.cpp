@@ -1,5 +1,6 @@
 #include "methods/tables/motion_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <utility>
@@ -32,22 +33,17 @@ Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& name
   return values;
 }
 
-/// Reads ψ^q and ψ^p where every row has all of them; a table without them is a motion all the same.
-void read_costates(const Table& nodes, const std::vector<std::string>& names, Trajectory& trajectory) {
-  Eigen::MatrixXd psi_q(std::ssize(nodes.rows()), std::ssize(names));
-  Eigen::MatrixXd psi_p = psi_q;
-  for (Eigen::Index k = 0; const Row& row : nodes.rows()) {
-    for (Eigen::Index i = 0; const std::string& name : names) {
-      const auto of_q = row.number("psi_q_" + name);
-      const auto of_p = row.number("psi_p_" + name);
-      if (!of_q || !of_p) return;
-      psi_q(k, i) = *of_q;
-      psi_p(k, i++) = *of_p;
-    }
-    ++k;
-  }
-  trajectory.psi_q = std::move(psi_q);
-  trajectory.psi_p = std::move(psi_p);
+/// Reads ψ^q and ψ^p; a table without columns or fields of them is a motion all the same.
+void read_costates(const Table& nodes, const std::vector<std::string>& names, const std::filesystem::path& file,
+                   Trajectory& trajectory) {
+  const auto has_field = [&](const Row& row) {
+    return std::ranges::any_of(names, [&](const std::string& name) {
+      return !row.text("psi_q_" + name).empty() || !row.text("psi_p_" + name).empty();
+    });
+  };
+  if (std::ranges::none_of(nodes.rows(), has_field)) return;
+  trajectory.psi_q = columns(nodes, names, "psi_q_", file);
+  trajectory.psi_p = columns(nodes, names, "psi_p_", file);
 }
 
 /// The column t. Throws `Error` unless it ascends.
@@ -222,7 +218,7 @@ Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, con
   trajectory.q = columns(nodes, problem.configuration_names(), "", nodes_file);
   trajectory.v = columns(nodes, problem.configuration_names(), "v_", nodes_file);
   trajectory.stage_u = columns(stages, problem.control_names(), "", stages_file);
-  read_costates(nodes, problem.configuration_names(), trajectory);
+  read_costates(nodes, problem.configuration_names(), nodes_file, trajectory);
   return trajectory;
 }
 
