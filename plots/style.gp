@@ -175,10 +175,12 @@ two_panels(left) = sprintf("set multiplot layout 1, 2 title figure_title offset 
 
 # --- Output ----------------------------------------------------------------------------------------------------------
 # do for [kind in kinds] { eval begin_figure(kind, name, width, height); plot ...; eval end_figure(kind, name) }
-# A figure is written under a hidden name and renamed when it is complete.
+# A figure is written under a hidden name, in which `drawer` is the process that may remove it, and renamed when it is
+# complete.
+if (!exists("drawer")) drawer = "0"
 kinds = "svg png"
 figures = results."/figures"
-hidden(kind, name) = figures."/.".name.".".kind
+hidden(kind, name) = figures."/.".name.".".drawer.".".kind
 terminal(kind, width, height) = kind eq "svg"\
     ? sprintf("set terminal svg size %d, %d enhanced font 'sans-serif,15' background 'white'", width, height)\
     : sprintf("set terminal pngcairo size %d, %d enhanced font 'sans-serif,15' fontscale 1.5 linewidth 2 pointscale 3\
