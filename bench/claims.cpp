@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "bench/claims/claims_table.hpp"
+#include "bench/run/command_line.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/result_file.hpp"
 
@@ -11,9 +12,11 @@ namespace dmocbench::claims_program {
 
 void print(const std::vector<JudgedClaim>& claims) {
   for (const JudgedClaim& claim : claims) {
-    fmt::print("{0:<11} {1:<50} {2}, {3}\n{6:12}states:   {4}\n{6:12}measured: {5}\n", name_of(claim.verdict), claim.id,
-               name_of(claim.whose), claim.where, claim.states, claim.measured, "");
-    if (!claim.reason.empty()) fmt::print("{:12}reason:   {}\n", "", claim.reason);
+    print_line(
+        fmt::format("{:<11} {:<50} {}, {}", name_of(claim.verdict), claim.id, name_of(claim.whose), claim.where));
+    print_line(fmt::format("{:12}states:   {}", "", claim.states));
+    print_line(fmt::format("{:12}measured: {}", "", claim.measured));
+    if (!claim.reason.empty()) print_line(fmt::format("{:12}reason:   {}", "", claim.reason));
   }
   fmt::print("{}\n", fmt::join(closing_lines(claims), "\n"));
 }

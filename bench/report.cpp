@@ -23,8 +23,8 @@ int write_comparison(const std::vector<std::string>& folders, const std::string&
   const std::filesystem::path page = to.empty() ? "comparison.html" : to;
   const std::string html = comparison_page(first, second);
   write_file(page, html);
-  fmt::print("report: {} and {} side by side, {:.1f} MB: {}\n", folders[0], folders[1],
-             static_cast<double>(html.size()) * 1e-6, page.string());
+  print_line(fmt::format("report: {} and {} side by side, {:.1f} MB: {}", folders[0], folders[1],
+                         static_cast<double>(html.size()) * 1e-6, page.string()));
   return 0;
 }
 
@@ -47,8 +47,9 @@ int write_report(CommandLine& line) {
   const std::string folder = way.empty() || way == "." ? "" : way.string() + "/";
   const std::string html = report_page(results, folder);
   write_file(page, html);
-  fmt::print("report: {} tables, {} figures, {} claims, {:.1f} MB: {}\n", results.tables.size(), results.figures.size(),
-             results.claims.rows().size(), static_cast<double>(html.size()) * 1e-6, page.string());
+  print_line(fmt::format("report: {} tables, {} figures, {} claims, {:.1f} MB: {}", results.tables.size(),
+                         results.figures.size(), results.claims.rows().size(), static_cast<double>(html.size()) * 1e-6,
+                         page.string()));
   return 0;
 }
 

@@ -11,6 +11,7 @@
 
 #include "bench/experiments/minor_trace.hpp"
 #include "bench/experiments/wanted_accuracy.hpp"
+#include "bench/run/command_line.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/motion_files.hpp"
 #include "methods/error.hpp"
@@ -82,16 +83,16 @@ class Solve final : public ExperimentOf<Measured> {
     motions_.back().program.reset();  // it is large
   }
   void finish(Table& /*table*/, FurtherOutput& output) override {
-    for (const std::string& failure : failures_) fmt::print("solve: {}\n", failure);
+    for (const std::string& failure : failures_) print_line(fmt::format("solve: {}", failure));
     trace_.describe(output);
     for (const SolvedCase& solved : motions_) {
       if (!solved.trajectory || !solved.accuracy) continue;
       const std::string file = output.prefix.string() + label_of_(solved.the_case);
       write_motion(file, solved, output.metadata);
       if (solved.estimated_error) output.metadata["motions"].back()["estimated_error"] = *solved.estimated_error;
-      fmt::print("solve: {}: {}_nodes.csv\n", solved.the_case.label(), file);
-      fmt::print("solve: {}: intervals join to {:.1e} of the range, worst is interval {}\n", solved.the_case.label(),
-                 solved.accuracy->relative_jump, solved.accuracy->interval);
+      print_line(fmt::format("solve: {}: {}_nodes.csv", solved.the_case.label(), file));
+      print_line(fmt::format("solve: {}: intervals join to {:.1e} of the range, worst is interval {}",
+                             solved.the_case.label(), solved.accuracy->relative_jump, solved.accuracy->interval));
       print_excess(solved);
     }
   }

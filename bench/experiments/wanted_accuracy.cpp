@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/run/command_line.hpp"
 #include "bench/run/start_provider.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
@@ -39,7 +40,7 @@ AdaptiveAnswer solve_on_grids(const SolveTask& asked, const AdaptiveOptions& opt
   const StopScope scope(asked.options.stop_requested, asked.options.most_seconds);
   try {
     AdaptiveAnswer answer = solve_adaptively(task, options, grid_printer(the_case.problem->card().time_unit));
-    fmt::print("solve: {}\n", answer.message);
+    print_line(fmt::format("solve: {}", answer.message));
     return answer;
   } catch (const Stopped&) {
     const bool interrupted = asked.options.stop_requested && asked.options.stop_requested();

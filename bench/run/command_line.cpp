@@ -21,6 +21,7 @@
 #include "bench/run/process_pool.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/environment.hpp"
+#include "methods/runtime/parsed.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
@@ -33,14 +34,18 @@ CLI::Option* add(CLI::App& app, const std::string& names, Value& value, const st
   return option->get_default_str() == "[]" ? option->default_str("") : option;
 }
 
-int report_error(const std::string& name, std::string sentence) {
-  // One line without control characters, whatever was typed.
-  std::ranges::replace_if(
-      sentence, [](unsigned char letter) { return letter < ' ' || letter == 0x7f; }, ' ');
+int report_error(const std::string& name, const std::string& sentence) {
   // Not by fmt::print, which throws where standard error is closed or full.
-  static_cast<void>(std::fputs((name + ": " + sentence + "\n").c_str(), stderr));
+  static_cast<void>(std::fputs((name + ": " + one_line(sentence) + "\n").c_str(), stderr));
   return 2;
 }
+
+/// Numbers as tables write them: CLI11 takes 0x10 for 16, and blanks.
+const CLI::Validator is_written_as_number(
+    [](const std::string& text) {
+      return parsed<double>(text).has_value() ? std::string() : fmt::format("{} is not a number", text);
+    },
+    "");
 
 /// Files that are opened must not take the place of standard streams that are closed, or messages would end up in them.
 /// Nothing can be written to a closed standard output, which /dev/full says in its place.
@@ -58,6 +63,22 @@ bool is_out_of_threads(const std::exception& error) noexcept {
 }
 
 }  // namespace
+
+std::string one_line(std::string_view text) {
+  constexpr std::size_t longest = 2000;
+  std::string line(text.substr(0, longest));
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto letter = static_cast<unsigned char>(line[i]);
+    const bool is_long_control =  // U+0080 to U+009F
+        letter == 0xc2 && i + 1 < line.size() && static_cast<unsigned char>(line[i + 1]) < 0xa0;
+    if (is_long_control) line[i + 1] = ' ';
+    if (letter < ' ' || letter == 0x7f || is_long_control) line[i] = ' ';
+  }
+  if (text.size() > longest) line += fmt::format(" ... ({} more bytes)", text.size() - longest);
+  return line;
+}
+
+void print_line(const std::string& text) { fmt::print("{}\n", one_line(text)); }
 
 // An array of Eigen, a vector, or the heap itself.
 bool is_out_of_memory(const std::exception& error) noexcept {
@@ -90,6 +111,7 @@ void CommandLine::option(const std::string& names, Value& value, const std::stri
     };
     option->check(CLI::Validator(is_empty, ""));
   }
+  if constexpr (std::is_arithmetic_v<Value>) option->check(is_written_as_number);
 }
 template void CommandLine::option(const std::string&, int&, const std::string&);
 template void CommandLine::option(const std::string&, double&, const std::string&);
@@ -105,7 +127,7 @@ void CommandLine::number(const std::string& names, Number& value, std::type_iden
     return std::isnan(std::strtod(text.c_str(), nullptr)) ? fmt::format("{} is not a number", text) : std::string();
   };
   CLI::Option* const option = add(app_, names, value, help);
-  option->check(CLI::Validator(nan, ""));
+  option->check(is_written_as_number)->check(CLI::Validator(nan, ""));
   option->check(CLI::Range(static_cast<Limit>(least), static_cast<Limit>(largest)));
 }
 template void CommandLine::number(const std::string&, int&, int, int, const std::string&);
@@ -115,7 +137,8 @@ template void CommandLine::number(const std::string&, double&, double, double, c
 
 template <class Value>
 void CommandLine::list(const std::string& names, std::vector<Value>& values, const std::string& help) {
-  add(app_, names, values, help)->delimiter(',');
+  CLI::Option* const option = add(app_, names, values, help)->delimiter(',');
+  if constexpr (std::is_arithmetic_v<Value>) option->check(is_written_as_number);
   lists_.push_back(names);
 }
 template void CommandLine::list(const std::string&, std::vector<int>&, const std::string&);
@@ -166,6 +189,7 @@ int run_program(const std::string& name, const std::string& description, int arg
   CLI::App app(description, name);
   occupy_closed_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of writing
+  std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe that nobody reads: locks and parts are removed
   try {
     CommandLine line(app, argc, argv);
     const int code = body(line);
@@ -202,7 +226,7 @@ ProgressLine::ProgressLine() : terminal_(::isatty(STDERR_FILENO) == 1 ? stderr :
 void ProgressLine::show(const std::string& activity) const {
   if (!is_shown()) return;
   erase_line(terminal_.get());
-  fmt::print(terminal_.get(), "{}", activity);
+  fmt::print(terminal_.get(), "{}", one_line(activity));
   std::fflush(terminal_.get());
 }
 

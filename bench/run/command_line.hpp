@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -57,6 +58,13 @@ class CommandLine {
 
 /// What went wrong, for a person: the words of our own errors; of others what they mean, where that is known.
 [[nodiscard]] std::string sentence_of(const std::exception& error);
+
+/// A text for one line of a terminal, whoever wrote it: blanks in the place of control characters, cut where it is
+/// longer than 2000 bytes.
+[[nodiscard]] std::string one_line(std::string_view text);
+
+/// Prints `one_line` of a text, and ends the line.
+void print_line(const std::string& text);
 
 /// True if memory was missing, of which other work may have enough.
 [[nodiscard]] bool is_out_of_memory(const std::exception& error) noexcept;

@@ -9,6 +9,7 @@
 
 #include "bench/run/case_batch.hpp"
 #include "bench/run/case_list.hpp"
+#include "bench/run/command_line.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/kept_rows.hpp"
 #include "bench/run/meanings.hpp"
@@ -130,11 +131,11 @@ class Run {
   /// Prints how the run ended; returns the exit code.
   [[nodiscard]] int report(const Outcome& outcome, std::size_t rows, bool complete) const {
     const std::size_t kept = kept_.count(table_file());
-    fmt::print(
-        "{}: {}{}, {} not solved, {} on another branch{}: {}{}\n", experiment_.card().name,
+    print_line(fmt::format(
+        "{}: {}{}, {} not solved, {} on another branch{}: {}{}", experiment_.card().name,
         complete ? "" : fmt::format("interrupted before {} complete: ", counted(cases_.size(), "row was", "rows were")),
         counted(rows, "row"), outcome.failures, outcome.other_branch, outcome.no_motions_by_method, table_file().string(),
-        kept == 0 ? "" : fmt::format(" (and {} of other problems or settings)", counted(kept, "earlier row")));
+        kept == 0 ? "" : fmt::format(" (and {} of other problems or settings)", counted(kept, "earlier row"))));
     if (!complete) return 130;
     const bool lacks_motion = experiment_.card().wants_motions && outcome.too_coarse + outcome.violating > 0;
     return outcome.failures > 0 || lacks_motion ? 1 : 0;
@@ -167,7 +168,7 @@ class Run {
   int run_part() {
     const std::string& name = experiment_.card().name;
     if (parts_.is_there()) {
-      fmt::print("{}: part {} is there already: {}\n", name, options_.part, prefix_.string());
+      print_line(fmt::format("{}: part {} is there already: {}", name, options_.part, prefix_.string()));
       return 0;
     }
     const OutputFolder folder(prefix_.parent_path(), true);
@@ -176,7 +177,8 @@ class Run {
     solve_all();
     throw_if_interrupted();
     parts_.write(rows_, metadata_);
-    fmt::print("{}: part {}: {} of {} rows: {}\n", name, options_.part, own_cases(), cases_.size(), prefix_.string());
+    print_line(fmt::format("{}: part {}: {} of {} rows: {}", name, options_.part, own_cases(), cases_.size(),
+                           prefix_.string()));
     return 0;
   }
 

@@ -88,7 +88,7 @@ int TableRun::write() const {
   for (const TableFile& table : tables_) kept.read(table.file);
   write_tables(tables_, out_ / (name_ + ".json"), command_line_, kept);
   for (std::size_t i = 0; i < tables_.size(); ++i) {
-    fmt::print("{}: {}: {}\n", name_, rows_of_tables_[i], tables_[i].file.string());
+    print_line(fmt::format("{}: {}: {}", name_, rows_of_tables_[i], tables_[i].file.string()));
   }
   return not_measured_ > 0 ? 1 : 0;
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "bench/extensions/interchange/exchanged_case.hpp"
+#include "bench/run/command_line.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/motion_files.hpp"
 #include "bench/run/result_file.hpp"
@@ -50,10 +51,10 @@ class ReadSol final : public ExperimentOf<IndependentChecks> {
   }
   void finish(Table& /*table*/, FurtherOutput& output) override {
     const Status status = solved_->solution.status;
-    if (!is_solved(status)) fmt::print("read-sol: {}: {}\n", name_of(status), solved_->solution.message);
+    if (!is_solved(status)) print_line(fmt::format("read-sol: {}: {}", name_of(status), solved_->solution.message));
     if ((!is_solved(status) && !is_no_motion(status)) || !solved_->accuracy) return;
     write_motion(output.prefix, *solved_, output.metadata);
-    fmt::print("read-sol: {}: {}_nodes.csv\n", solved_->the_case.label(), output.prefix.string());
+    print_line(fmt::format("read-sol: {}: {}_nodes.csv", solved_->the_case.label(), output.prefix.string()));
   }
 
  private:

@@ -78,15 +78,28 @@ void judge_end(const Ended& ended, std::vector<std::string>& faults) {
   if (ended.code == 2) {
     const auto lines = std::ranges::count(ended.error, '\n');
     if (lines != 1 || !ended.error.ends_with('\n')) faults.push_back(fmt::format("{} lines on standard error", lines));
-    const auto is_control = [](char letter) {
-      return (letter >= 0 && letter < ' ' && letter != '\n') || letter == 127;
-    };
-    if (std::ranges::any_of(ended.error, is_control)) faults.emplace_back("control characters on standard error");
     if (ended.error.size() > 20000) faults.emplace_back("more than 20000 characters on standard error");
   }
+  const auto is_control = [](char letter) { return (letter >= 0 && letter < ' ' && letter != '\n') || letter == 127; };
+  if (std::ranges::any_of(ended.error, is_control)) faults.emplace_back("control characters on standard error");
+  if (std::ranges::any_of(ended.output, is_control)) faults.emplace_back("control characters on standard output");
   for (const char* raw : {"std::", "json.exception", "basic_filebuf", "basic_string", "vector::", "bad_alloc",
                           "what():", "Resource temporarily", "stod", "regex_"}) {
     if (ended.error.find(raw) != std::string::npos) faults.push_back(fmt::format("the words of a library, {}", raw));
+  }
+}
+
+/// The options that were given a number which is not written as one, but for those that name files.
+void judge_numbers(const std::vector<std::string>& line, const Ended& ended, std::vector<std::string>& faults) {
+  if (ended.code != 0) return;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const std::size_t equals = std::min(line[i].find('='), line[i].size());
+    const std::string name = line[i].substr(0, equals);
+    const bool is_joined = equals < line[i].size();
+    if (!name.starts_with("--") || (!is_joined && i + 1 == line.size())) continue;
+    const std::string value = is_joined ? line[i].substr(equals + 1) : line[i + 1];
+    const bool names_file = std::ranges::count(std::array{"--name", "--out", "--to", "--store", "--trace"}, name) > 0;
+    if (value == "0x10" && !names_file) faults.push_back("takes 0x10 for " + name);
   }
 }
 
@@ -105,6 +118,7 @@ std::vector<std::string> faults_of(const std::vector<std::string>& line, const E
                                    const Content& after) {
   std::vector<std::string> faults;
   judge_end(ended, faults);
+  judge_numbers(line, ended, faults);
   const std::vector<std::string> places = places_of(line);
   for (const auto& [path, text] : before) {
     const auto now = after.find(path);
