@@ -98,7 +98,7 @@ void check_picture(const Problem& problem) {
 
 }  // namespace
 
-void check_problem(const Problem& problem) {
+void check_problem(const Problem& problem) try {
   check_parameters(problem);
   const TracedProblem traced(problem);
   static_cast<void>(problem_bounds(problem));
@@ -106,6 +106,10 @@ void check_problem(const Problem& problem) {
   static_cast<void>(positive_cost_scale(problem));
   check_card(problem, asked(problem, "card", [&] { return problem.card(); }));
   check_picture(problem);
+} catch (const Error&) {
+  throw;
+} catch (...) {  // of a function that is asked for numbers, as horizon() or bounds()
+  throw_as_told_by(problem, "a function");
 }
 
 double positive_cost_scale(const Problem& problem) {

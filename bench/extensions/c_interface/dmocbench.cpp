@@ -144,6 +144,9 @@ std::unique_ptr<dmocbench_solution> told(std::unique_ptr<dmocbench_solution> res
   return result;
 }
 
+/// Where the library is loaded, as programs do in `main`: answers are then the same in every run.
+[[gnu::constructor]] void order_by_one_thread_where_loaded() { order_by_one_thread(); }
+
 std::string method_of(const dmocbench_options& options) {
   std::string method = &required(options.method, "the method");
   if (family_of(method).is_condensed) {
@@ -159,13 +162,18 @@ SolverOptions solver_options_of(const dmocbench_options& options) {
   return of_solver;
 }
 
+Grid grid_of(const dmocbench_options& options) {
+  constexpr std::size_t most = 16'777'216;  // as on the command line
+  if (options.intervals <= most) return Grid::uniform(static_cast<long long>(options.intervals));
+  throw Error(fmt::format("a grid has at most {} intervals, not {}", most, options.intervals));
+}
+
 std::unique_ptr<dmocbench_solution> solved(const Problem& problem, const dmocbench_options& options,
                                            const Motion& start) {
   auto result = std::make_unique<dmocbench_solution>();
-  result->program =
-      std::make_unique<Transcription>(problem, *make_element(method_of(options)),
-                                      make_tableau(&required(options.tableau, "the tableau"), options.stages),
-                                      Grid::uniform(static_cast<Eigen::Index>(options.intervals)));
+  result->program = std::make_unique<Transcription>(
+      problem, *make_element(method_of(options)),
+      make_tableau(&required(options.tableau, "the tableau"), options.stages), grid_of(options));
   const auto solver = make_solver(&required(options.solver, "the solver"), solver_options_of(options));
   result->solution = solver->solve(*result->program, sample(*result->program, start));
   result->numbers["settling_steps"] = settle(*result->program, options.tolerance, result->solution);
@@ -193,7 +201,7 @@ std::unique_ptr<dmocbench_solution> solved_accurately(const Problem& problem, co
                           .method = method_of(options),
                           .tableau = &required(options.tableau, "the tableau"),
                           .stages = options.stages,
-                          .first = Grid::uniform(static_cast<Eigen::Index>(options.intervals)),
+                          .first = grid_of(options),
                           .start = guessed_motion(problem)};
   AdaptiveAnswer answer = solve_adaptively(task, adaptive);
   if (!answer.program) throw Error(answer.message);
