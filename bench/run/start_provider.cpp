@@ -325,7 +325,12 @@ Trajectory StartProvider::solve(const Case& the_case) {
   const SolvedCase solved = solve_case(the_case, start, *make_solver(the_case.solver, options_), options_.tolerance, 1);
   if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
   if (options_.stop_requested && options_.stop_requested()) throw Interrupted();
-  throw Error(fmt::format("{} could not be solved: {}", the_case.label(), solved.solution.message));
+  if (!is_solved(solved.solution.status)) {
+    throw Error(fmt::format("{} could not be solved: {}", the_case.label(), solved.solution.message));
+  }
+  throw Error(fmt::format("{} is solved, but not on a branch that is known to be the same for all methods: {}",
+                          the_case.label(),
+                          start.note.empty() ? "its answer is far from its common start." : start.note));
 }
 
 const StartProvider::FoundStart& StartProvider::common_start(const Case& the_case) {

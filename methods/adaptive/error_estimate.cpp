@@ -219,7 +219,11 @@ double second_order_of_cost(const ExtremalCoordinates::Canonical& misses,
 const Transcription& with_fixed_ends(const Transcription& program) {
   const LayoutShape& shape = program.layout().shape();
   if (shape.free_horizon) throw Error("the error cannot be estimated where the horizon is free; fix it");
-  if (shape.conditions > 0) throw Error("the error cannot be estimated where boundary conditions tie both ends");
+  if (shape.conditions > 0) {
+    throw Error(
+        "the error cannot be estimated where the problem has boundary conditions; state the ends by initial_state, "
+        "final_state and bounds");
+  }
   return program;
 }
 

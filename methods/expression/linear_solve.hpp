@@ -8,8 +8,10 @@ namespace dmocbench {
 ///
 /// The factors L D Lᵀ are taken without an exchange of rows, since a formula cannot ask how large a number will be.
 /// Every leading minor of A must therefore be nonzero where the formulas are evaluated; those of a mass matrix are
-/// positive. Throws `Error` if a pivot is a structural zero.
-[[nodiscard]] ExpressionVector solve_symmetric(const ExpressionMatrix& a, const ExpressionVector& b);
+/// positive. Throws `Error` with the sentence `singular` if a pivot is a structural zero.
+[[nodiscard]] ExpressionVector solve_symmetric(
+    const ExpressionMatrix& a, const ExpressionVector& b,
+    const char* singular = "a system of linear equations has a pivot that is zero for all values");
 
 /// The same for a matrix that need not be symmetric, by elimination without an exchange of rows.
 [[nodiscard]] ExpressionVector solve_unsymmetric(const ExpressionMatrix& a, const ExpressionVector& b);

@@ -143,6 +143,30 @@ TEST(ErrorEstimate, IsRefusedWhereABoundIsActiveAndWhereTheHorizonIsFree) {
   tests::expect_error_naming({"horizon"}, [&] { static_cast<void>(ErrorEstimator(*program)); });
 }
 
+TEST(ErrorEstimate, SaysThatTheControlDoesNotFollowFromTheCostateWhereTheCostDoesNotWeighIt) {
+  const tests::DoubleIntegrator base;
+  const tests::Restated unweighed(base, [](tests::Restated::Statement& s) {
+    s.running_cost = [](const ControlledState& x) { return x.q[0] * x.q[0]; };
+  });
+  const auto program = tests::transcribe(unweighed, {"dmoc", 1}, Grid::uniform(8));
+  tests::expect_error_naming({"control", "costate", "running cost"},
+                             [&] { static_cast<void>(ErrorEstimator(*program)); });
+}
+
+TEST(ErrorEstimate, NamesBoundaryConditionsWhicheverEndsTheyRead) {
+  const tests::DoubleIntegrator base;
+  const tests::Restated conditioned(base, [](tests::Restated::Statement& s) {
+    s.last.free_configuration(0);
+    s.conditions = [](const State& /*first*/, const State& last) {
+      return ExpressionVector::Constant(1, sin(last.q[0]));
+    };
+  });
+  const auto program = tests::transcribe(conditioned, {"dmoc", 1}, Grid::uniform(8));
+  const std::string sentence = tests::sentence_of_error([&] { static_cast<void>(ErrorEstimator(*program)); });
+  EXPECT_NE(sentence.find("boundary conditions"), std::string::npos) << sentence;
+  EXPECT_EQ(sentence.find("both ends"), std::string::npos) << sentence;
+}
+
 TEST(ErrorEstimate, DoesNotMindBoundsThatAreNotActive) {
   auto bounded = make_problem("double_integrator");
   bounded->set_parameter("largest_force", 5.999);  // the stages stay inside

@@ -6,6 +6,7 @@
 #include "methods/diagnostics/replay_error.hpp"
 #include "tests/robustness/chain_on_cart.hpp"
 #include "tests/support/restated_problems.hpp"
+#include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {
 namespace {
@@ -69,6 +70,17 @@ TEST_F(StartProviders, GiveUpWhenTheirTimeHasPassed) {
   StartProvider source = provider({.most_seconds = 0.0});
   EXPECT_NE(source.start_for(with("dmoc")).note.find("--start-seconds"), std::string::npos);
   EXPECT_EQ(solves_, 0);
+}
+
+/// The solver has nothing to complain about: what is missing is a motion that tells the branch.
+TEST_F(StartProviders, SayThatThereIsNoCommonStartWhereAnAnswerIsSolvedButOfNoUse) {
+  Case solvable = with("dmoc");
+  solvable.problem = {std::shared_ptr<const Problem>(), &base_};  // which it does not own
+  solvable.grid = Grid::uniform(16);
+  StartProvider source = provider({.most_seconds = 0.0});
+  const std::string sentence = tests::sentence_of_error([&] { static_cast<void>(source.solve(solvable)); });
+  EXPECT_NE(sentence.find("no common start"), std::string::npos) << sentence;
+  EXPECT_EQ(sentence.find("could not be solved"), std::string::npos) << sentence;
 }
 
 TEST_F(StartProviders, HeedAStopRequest) {

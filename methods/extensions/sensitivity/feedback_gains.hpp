@@ -27,7 +27,7 @@ struct FeedbackGains {
 /// has gain 0.
 ///
 /// Throws `Error` if a size is wrong, or the optimal control does not follow from the state at a node alone: with a
-/// free horizon, boundary conditions that tie both ends, controls that two intervals share, and in Mayer form.
+/// free horizon, boundary conditions, controls that two intervals share, and in Mayer form.
 [[nodiscard]] FeedbackGains feedback_gains(Transcription& program, const Eigen::VectorXd& primal,
                                            const Eigen::VectorXd& multipliers);
 
