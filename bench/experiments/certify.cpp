@@ -55,7 +55,7 @@ struct Certificate {
 Certificate certificate_of(const Problem& problem, const Table& table) {
   const Selection rows = Selection(table).where("problem", problem.name());
   const auto has_message = [](const Row& row) { return !row.text("indirect_message").empty(); };
-  const Selection solved = rows.where("status", "solved").with_number("objective").sorted_by("intervals");
+  const Selection solved = rows.where(has_solved_status).with_number("objective").sorted_by("intervals");
   const Selection replays = solved.with_number("replay_objective");
   const Row& best_replay =
       replays.where("intervals", replays.back().text("intervals")).sorted_by("relative_jump").front();

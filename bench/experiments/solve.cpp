@@ -72,7 +72,7 @@ class Solve final : public ExperimentOf<Measured> {
   void measure(SolvedCase& solved, Measured& measured) override {
     if (trace_.is_wanted()) trace_.write(solved);
     measured.estimated_error = solved.estimated_error;
-    if (!is_solved(solved.solution.status)) {
+    if (solved.solution.status != Status::solved) {
       failures_.push_back(
           fmt::format("{}: {}: {}", solved.the_case.label(), name_of(solved.solution.status), solved.solution.message));
     }
@@ -117,7 +117,7 @@ class Solve final : public ExperimentOf<Measured> {
   /// What tells the motion of a case from those of the others, behind the table's name.
   std::function<std::string(const Case&)> label_of_ = [](const Case& /*the_case*/) { return ""; };
   std::vector<SolvedCase> motions_;    // solved, each with its trajectory
-  std::vector<std::string> failures_;  // of the cases that were not solved, why, a sentence each
+  std::vector<std::string> failures_;  // of the cases that were not solved in all respects, why, a sentence each
 };
 
 int run(int argc, char** argv) { return run_experiment(Solve(), argc, argv); }

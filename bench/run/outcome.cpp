@@ -38,7 +38,7 @@ Outcome outcome_of(const Table& table) {
     } else if (status == name_of(Status::violates_between_stages)) {
       ++outcome.violating;
       ++violating[row.text("method")];
-    } else if (status != name_of(Status::solved)) {
+    } else if (!is_solved(status_named(status))) {
       ++outcome.failures;
     }
     if (row.text("branch") == "other") ++outcome.other_branch;

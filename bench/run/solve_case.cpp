@@ -72,6 +72,8 @@ void repeat(SolvedCase& solved, const Start& start, const Solver& solver, const 
 int settle_exactly(Case the_case, Transcription& program, double tolerance, Solution& solution) {
   if (the_case.derivatives == "tape") return settle(program, tolerance, solution);
   the_case.derivatives = "tape";
+  // An inexact derivative at which the solver failed is not to be excused by exact ones.
+  if (solution.status == Status::step_failed || solution.status == Status::iteration_limit) return 0;
   if (solution.status == Status::not_confirmed) solution.status = Status::solved;
   const auto exact = the_case.transcribe();
   confirm(*exact, tolerance, solution);
@@ -326,7 +328,11 @@ bool is_discrete_optimum(const SolvedCase& solved) {
   return is_usable(solved) || (is_no_motion(solved.solution.status) && is_wanted_branch(solved.branch));
 }
 
-bool is_usable(const Row& row) { return row.text("status") == "solved" && is_wanted_branch(row.text("branch")); }
+bool has_solved_status(const Row& row) { return is_solved(status_named(row.text("status"))); }
+
+bool is_usable(const Row& row) { return has_solved_status(row) && is_wanted_branch(row.text("branch")); }
+
+bool has_known_control(const Row& row) { return status_named(row.text("status")) == Status::solved; }
 
 void note_stop(SolvedCase& solved, const std::string& left_out) {
   if (is_solved(solved.solution.status)) solved.note(left_out + ": the time limit was reached.");

@@ -175,8 +175,12 @@ void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 [[nodiscard]] bool is_usable(const SolvedCase& solved);
 /// True of these and of answers that are no motions (`is_no_motion`): optima of the discrete program all the same.
 [[nodiscard]] bool is_discrete_optimum(const SolvedCase& solved);
+/// True if the row's status is one of answers that are solved (`is_solved`).
+[[nodiscard]] bool has_solved_status(const Row& row);
 /// True if the row has an answer that may be compared and drawn: solved, and on the wanted branch.
 [[nodiscard]] bool is_usable(const Row& row);
+/// True if its control may be compared too: a usable row may be one of `Status::control_not_determined`.
+[[nodiscard]] bool has_known_control(const Row& row);
 
 /// Says of a solved case what the end of its time left out.
 void note_stop(SolvedCase& solved, const std::string& left_out);

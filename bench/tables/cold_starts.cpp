@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/run/column.hpp"
+#include "bench/run/solve_case.hpp"
 #include "bench/tables/share_interval.hpp"
 #include "methods/numerics/quantile.hpp"
 #include "methods/program/status.hpp"
@@ -18,7 +19,6 @@ const ColumnNames grid_columns{"problem", "tableau", "stages", "intervals"};
 const ColumnNames columns_of_competitors{"method", "tableau", "stages", "solver", "derivatives", "intervals"};
 const ColumnNames cell_columns{"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals"};
 
-bool was_confirmed(const Row& row) { return row.text("status") == "solved"; }
 bool was_no_motion(const Row& row) { return is_no_motion(status_named(row.text("status"))); }
 
 /// The cost that tells which answers are the best.
@@ -27,7 +27,7 @@ struct BestCost {
   const char* kind = "none";
 
   BestCost(const Selection& grid, double tolerance) {
-    const Selection confirmed = grid.where(was_confirmed);
+    const Selection confirmed = grid.where(has_solved_status);
     if (confirmed.empty()) return;
     const double lowest = confirmed.min("objective");
     const auto certified = grid.front().number("reference_objective");
@@ -37,7 +37,8 @@ struct BestCost {
   }
   /// How far a cost is above, relative.
   [[nodiscard]] double excess(const Row& row) const {
-    return (row.needed("objective") - cost.value_or(0.0)) / std::abs(cost.value_or(1.0));
+    const double difference = row.needed("objective") - cost.value_or(0.0);
+    return difference == 0.0 ? 0.0 : difference / std::abs(cost.value_or(1.0));
   }
 };
 
@@ -132,10 +133,10 @@ std::string failures_in_words(const Selection& lost) {
 
 EndsOfCell ends_of(const Selection& cell, const BestCost& reference, double tolerance) {
   const std::size_t starts = cell.size();
-  const Selection confirmed = cell.where(was_confirmed);
+  const Selection confirmed = cell.where(has_solved_status);
   const Selection best = confirmed.where([&](const Row& row) { return reference.excess(row) <= tolerance; });
   const Selection below = best.where([&](const Row& row) { return reference.excess(row) < -tolerance; });
-  const Selection lost = cell.where([](const Row& row) { return !was_confirmed(row) && !was_no_motion(row); });
+  const Selection lost = cell.where([](const Row& row) { return !has_solved_status(row) && !was_no_motion(row); });
   EndsOfCell ends{.head = cell.front(),
                   .solved = {.hits = starts - lost.size(), .trials = starts},
                   .confirmed = {.hits = confirmed.size(), .trials = starts},
@@ -163,7 +164,7 @@ std::vector<Curve> curves_of(const Selection& rows, const std::string& measure) 
   std::vector<Curve> curves;
   for (const Selection& cell : rows.group_by(cell_columns)) {
     curves.push_back({.cell = fields_of(cell.front(), cell_columns),
-                      .taken = sorted_numbers(cell.where(was_confirmed), measure),
+                      .taken = sorted_numbers(cell.where(has_solved_status), measure),
                       .starts = cell.size()});
   }
   return curves;

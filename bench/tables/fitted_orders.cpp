@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/run/column.hpp"
+#include "bench/run/solve_case.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/counted.hpp"
@@ -38,9 +39,12 @@ const ColumnNames scheme_names{"problem", "method", "tableau", "stages"};
 /// Rows that agree in these differ in their grid only.
 const ColumnNames curve_columns{"problem", "method", "tableau", "stages", "solver", "derivatives"};
 
-/// The usable rows with an error, coarsest first.
+/// The usable rows with an error, coarsest first. A control that is not determined has no order; the one from the
+/// costate is determined by the costate alone.
 Selection with_error(const Selection& curve, const std::string& column) {
-  return curve.usable().with_number(column).sorted_by("intervals");
+  const bool is_of_control = column == "control_error";
+  const auto is_known = [&](const Row& row) { return !is_of_control || has_known_control(row); };
+  return curve.usable().with_number(column).where(is_known).sorted_by("intervals");
 }
 
 std::vector<GridError> errors_of(const Selection& rows, const std::string& column) {

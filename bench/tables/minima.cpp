@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/run/column.hpp"
+#include "bench/run/solve_case.hpp"
 #include "bench/tables/share_interval.hpp"
 #include "methods/diagnostics/accuracy.hpp"
 
@@ -23,7 +24,7 @@ const ColumnNames group_columns{"problem", "tableau", "stages", "solver", "deriv
 std::vector<Selection> minima_of(const Selection& rows, double separation) {
   std::vector<Selection> minima;
   double lowest = 0.0;
-  for (const Row& row : rows.where("status", "solved").sorted_by("objective")) {
+  for (const Row& row : rows.where(has_solved_status).sorted_by("objective")) {
     const double objective = row.number("objective", 0.0);
     if (minima.empty() || objective - lowest > separation * std::abs(lowest)) {
       minima.emplace_back();
@@ -158,7 +159,7 @@ Table basins(const Selection& rows, double separation) {
       for (const Row& answer : minima[i]) starts.push_back({.head = answer, .number = i + 1, .minimum = minima[i]});
     }
     for (const Row& answer : group) {
-      if (answer.text("status") != "solved") starts.push_back({.head = answer});
+      if (!has_solved_status(answer)) starts.push_back({.head = answer});
     }
     // Line by line of the plane, as an image is drawn.
     std::ranges::stable_sort(starts, {}, [](const StartInPlane& start) {
@@ -180,7 +181,7 @@ Table best_minimum_shares(const Selection& rows, double separation) {
       if (starts.empty()) continue;
       const std::size_t hits = best == minima.end() ? 0 : best->where("method", method).size();
       all.push_back({.head = starts.front(),
-                     .solved = starts.where("status", "solved").size(),
+                     .solved = starts.where(has_solved_status).size(),
                      .unconfirmed = unconfirmed_of(minima, method),
                      .best = {.hits = hits, .trials = starts.size()}});
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/run/column.hpp"
+#include "bench/run/solve_case.hpp"
 #include "methods/numerics/median.hpp"
 
 namespace dmocbench {
@@ -149,7 +150,7 @@ std::string reference_in_words(const Row& row) {
 
 /// "0.554575 (+7.4e-06)", or the status; "elsewhere" marks a solve without success.
 std::string answer_in_words(const Row& row) {
-  if (row.text("status") != "solved") return row.text("status");
+  if (!has_solved_status(row)) return row.text("status");
   std::string words = fmt::format("{:.7g}", row.number("objective", std::nan("")));
   if (const auto difference = row.number("relative_difference")) words += fmt::format(" ({:+.1e})", *difference);
   return row.text("success") == "no" ? words + " elsewhere" : words;
@@ -214,7 +215,7 @@ Table profile_summary(const Selection& rows) {
 Table with_best_found_references(const Table& rows, double tolerance) {
   std::map<std::string, double> best;
   for (const Selection& problem : Selection(rows).group_by({"problem"})) {
-    const Selection solved = problem.where("status", "solved").with_number("objective").sorted_by("intervals");
+    const Selection solved = problem.where(has_solved_status).with_number("objective").sorted_by("intervals");
     if (solved.empty() || problem.front().number("reference_objective")) continue;
     best[problem.front().text("problem")] = solved.where("intervals", solved.back().text("intervals")).min("objective");
   }
@@ -224,7 +225,7 @@ Table with_best_found_references(const Table& rows, double tolerance) {
     if (found != best.end()) {
       row.set("reference_objective", found->second);
       row.set("reference_kind", best_found_reference);
-      const auto objective = row.text("status") == "solved" ? row.number("objective") : std::nullopt;
+      const auto objective = has_solved_status(row) ? row.number("objective") : std::nullopt;
       const double error = std::abs(objective.value_or(never) - found->second);
       if (objective) row.set("objective_error", error);
       row.set("success", error <= tolerance * std::abs(found->second) ? "yes" : "no");

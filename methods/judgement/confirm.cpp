@@ -69,38 +69,52 @@ double Confirmation::scaled_residual(double tolerance, const Solution& solution)
                      allowed.share_of_violation(entries_.rows), entries_.bounds / allowed.violation()});
 }
 
-/// The length of the Newton step; none where it cannot be computed.
-std::optional<double> Confirmation::newton_length(const Solution& solution) {
+/// The lengths of the Newton step; none where it cannot be computed.
+std::optional<Confirmation::StepLengths> Confirmation::newton_step(const Solution& solution) {
+  const auto step_by = [&](NewtonCorrections& corrections) -> std::optional<StepLengths> {
+    const auto length = corrections.length_at(solution.primal, solution.multipliers, memory_);
+    if (!length) return std::nullopt;
+    return StepLengths{.of_all = *length, .of_state = corrections.length_of_state()};
+  };
   if (!corrections_) corrections_.emplace(program_);
-  const std::optional<double> length = corrections_->length_at(solution.primal, solution.multipliers, memory_);
-  if (length && *length <= settled) return length;
+  const std::optional<StepLengths> step = step_by(*corrections_);
+  if (step && step->of_all <= settled) return step;
   // A long step may be an inaccurate one: elimination by intervals does not pivot across them.
-  return NewtonCorrections(program_, NewtonCorrections::Factorisation::sparse)
-      .length_at(solution.primal, solution.multipliers, memory_);
+  NewtonCorrections pivoting(program_, NewtonCorrections::Factorisation::sparse);
+  return step_by(pivoting);
 }
 
 /// Takes "solved" back from an answer that a Newton step would move.
 void Confirmation::require_settled(Solution& solution) {
-  std::optional<double> length;
+  std::optional<StepLengths> step;
   try {
-    length = newton_length(solution);
+    step = newton_step(solution);
   } catch (const Stopped&) {
     return tell_of_stop(solution);
   }
-  if (!length) return;
-  solution.correction = *length;
-  if (*length <= settled) return;
-  if (!std::isfinite(*length)) {
+  if (!step) return;
+  const double length = step->of_all;
+  solution.correction = length;
+  if (length <= settled) return;
+  if (!std::isfinite(length)) {
     solution.status = Status::evaluation_failed;
     solution.message = "A second derivative is not a number at the answer.";
+    return;
+  }
+  if (step->of_state <= settled) {
+    solution.status = Status::control_not_determined;
+    solution.message = fmt::format(
+        "{} A Newton step would still move a control by {:.1g} of its size, and neither the state nor the cost: it is "
+        "singular, or near a bound that the solver has not reached; a smaller tolerance tells which.",
+        sentence_of(solution.status), length);
     return;
   }
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
       "The residuals are below the tolerance, but a Newton step would still move the answer by {:.1g} of its size. A "
       "cost scaled to about 1 or a smaller tolerance may settle it, but not where the cost hardly depends on what "
-      "moves, as on a control that is singular.",
-      *length);
+      "moves.",
+      length);
 }
 
 void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton) {

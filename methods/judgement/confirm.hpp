@@ -37,9 +37,10 @@ class Confirmation {
   /// without a point, unless it claims to be solved. The message says what the judgement was.
   ///
   /// "Solved" asks for a settled answer besides: a Newton step from it moves no unknown by more than `settled` of its
-  /// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are; `polish`
-  /// may settle it. Where the step cannot be computed the residuals alone decide, and where `asks_newton` is false.
-  /// Where the `StopScope` of the thread ends its computation, see `tell_of_stop`.
+  /// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are, or, where
+  /// controls alone would move, "solved, control not determined"; `settle` may settle it. Where the step cannot be
+  /// computed the residuals alone decide, and where `asks_newton` is false. Where the `StopScope` of the thread ends
+  /// its computation, see `tell_of_stop`.
   void judge(double tolerance, Solution& solution, bool asks_newton = true);
 
   /// The power of two by which the cost has to be multiplied before the tolerance can tell an optimum from any other
@@ -51,7 +52,12 @@ class Confirmation {
  private:
   void judge_residuals(Solution& solution);
   [[nodiscard]] double scaled_residual(double tolerance, const Solution& solution);
-  [[nodiscard]] std::optional<double> newton_length(const Solution& solution);
+  /// Of the Newton step of all unknowns, and of all but the controls.
+  struct StepLengths {
+    double of_all = 0.0;
+    double of_state = 0.0;
+  };
+  [[nodiscard]] std::optional<StepLengths> newton_step(const Solution& solution);
   void require_settled(Solution& solution);
 
   friend void judge_residuals(NonlinearProgram& program, Solution& solution);

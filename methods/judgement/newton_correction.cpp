@@ -51,8 +51,8 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
     status = solved_or_failed();
   }
   if (status != FactorisationStatus::solved) return std::nullopt;
-  const double length = length_of(primal, step_.primal, memory.gradient_of_cost);
-  return std::isfinite(length) ? std::optional(length) : std::nullopt;
+  measure_step(primal, memory.gradient_of_cost);
+  return std::isfinite(step_.length) ? std::optional(step_.length) : std::nullopt;
 }
 
 std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& primal,
@@ -65,25 +65,24 @@ std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& pri
   return step_;
 }
 
-double NewtonCorrections::length_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& step,
-                                    const Eigen::VectorXd& gradient) {
+void NewtonCorrections::measure_step(const Eigen::VectorXd& primal, const Eigen::VectorXd& gradient) {
   const double least = smallest_share * std::max(1.0, largest(primal));
-  const auto share = [&](const auto& of_step, const auto& of_point) {
-    const double moves = of_step.template lpNorm<Eigen::Infinity>();
-    return moves > 0.0 ? moves / std::max(of_point.template lpNorm<Eigen::Infinity>(), least) : 0.0;
+  const auto share = [&](Eigen::Index first, Eigen::Index count) {
+    const double moves = step_.primal.segment(first, count).lpNorm<Eigen::Infinity>();
+    return moves > 0.0 ? moves / std::max(primal.segment(first, count).lpNorm<Eigen::Infinity>(), least) : 0.0;
   };
-  double length = 0.0;
+  double of_state = std::abs(gradient.dot(step_.primal)) / std::max(1.0, std::abs(program_.objective(primal)));
+  double of_controls = 0.0;
   if (const IntervalStructure* structure = program_.interval_structure()) {
     for (const PlaceRun& run : structure->unknowns.runs()) {
-      const auto first = static_cast<Eigen::Index>(run.first);
-      const auto count = static_cast<Eigen::Index>(run.count);
-      length = std::max(length, share(step.segment(first, count), primal.segment(first, count)));
+      double& length = run.is_control ? of_controls : of_state;
+      length = std::max(length, share(static_cast<Eigen::Index>(run.first), static_cast<Eigen::Index>(run.count)));
     }
   } else if (primal.size() > 0) {
-    length = share(step, primal);
+    of_state = std::max(of_state, share(0, primal.size()));
   }
-  const double cost = program_.objective(primal);
-  return std::max(length, std::abs(gradient.dot(step)) / std::max(1.0, std::abs(cost)));
+  step_.length_of_state = of_state;
+  step_.length = std::max(of_state, of_controls);
 }
 
 }  // namespace dmocbench

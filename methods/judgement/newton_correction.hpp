@@ -19,6 +19,8 @@ struct NewtonCorrection {
   Eigen::VectorXd multipliers;  ///< δλ, constraint_count() entries
   /// How far it moves, see `NewtonCorrections`.
   double length = 0.0;
+  /// The same without the unknowns that are values of a control.
+  double length_of_state = 0.0;
 };
 
 /// How far answers of a program are from the point where the Karush-Kuhn-Tucker conditions hold exactly, to first
@@ -50,8 +52,8 @@ class NewtonCorrections {
   NewtonCorrections(NewtonCorrections&&) = delete;
   NewtonCorrections& operator=(NewtonCorrections&&) = delete;
 
-  /// The length of the step from `primal`, see `at`; `memory` holds what `evaluate_kkt` left of this point. Allocates
-  /// nothing after the first time unless the sparse factorisation is asked.
+  /// The length of the step from `primal`, see `at` and `length_of_state`; `memory` holds what `evaluate_kkt` left of
+  /// this point. Allocates nothing after the first time unless the sparse factorisation is asked.
   [[nodiscard]] std::optional<double> length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
                                                 const KktMemory& memory);
   /// The step from `primal` (variable_count() entries) with `multipliers` (constraint_count() entries). Of infinite
@@ -59,12 +61,14 @@ class NewtonCorrections {
   /// `Stopped` where the `StopScope` of the thread ends that.
   [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
 
+  /// `NewtonCorrection::length_of_state` of the last step.
+  [[nodiscard]] double length_of_state() const noexcept { return step_.length_of_state; }
+
   /// See above: a run of small unknowns counts as at least this share of the largest one, or of 1.
   static constexpr double smallest_share = 1e-6;
 
  private:
-  [[nodiscard]] double length_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& step,
-                                 const Eigen::VectorXd& gradient);
+  void measure_step(const Eigen::VectorXd& primal, const Eigen::VectorXd& gradient);
 
   NonlinearProgram& program_;
   std::unique_ptr<kkt::KktSystem> system_;

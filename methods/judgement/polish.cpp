@@ -9,6 +9,7 @@
 
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/newton_correction.hpp"
+#include "methods/judgement/stop_rule.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
@@ -30,7 +31,26 @@ bool is_rounding(NonlinearProgram& program, const Solution& solution) {
 }
 
 bool is_unsettled(const Solution& solution) {
-  return solution.status == Status::not_confirmed && solution.correction.value_or(0.0) > settled;
+  const bool can_be = solution.status == Status::not_confirmed || solution.status == Status::control_not_determined;
+  return can_be && solution.correction.value_or(0.0) > settled;
+}
+
+/// True where a solver stopped, or was not believed, within a hundred times of what confirms an answer.
+bool is_near(NonlinearProgram& program, double tolerance, const Solution& solution) {
+  const bool has_stopped = solution.status == Status::not_confirmed || solution.status == Status::acceptable ||
+                           solution.status == Status::step_failed || solution.status == Status::iteration_limit;
+  if (!has_stopped) return false;
+  const double residual = scaled_residual(program, tolerance, solution);
+  return residual > confirmation_factor && residual <= confirmation_factor * acceptable_factor;
+}
+
+/// True of a solved answer whose residuals the tolerance does not allow, but what may be rounding.
+bool is_solved_to_rounding(double tolerance, const Solution& solution) {
+  if (!is_solved(solution.status)) return false;
+  const double count = std::max(1.0, static_cast<double>(solution.multipliers.size()));
+  const double allowed = confirmation_factor * tolerance;
+  return solution.constraint_violation.value_or(0.0) > allowed ||
+         solution.kkt_residual.value_or(0.0) > allowed * StopRule::scale(solution.multipliers.lpNorm<1>() / count);
 }
 
 bool has_own_multipliers(const NonlinearProgram& program, const Solution& solution) {
@@ -76,27 +96,62 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
   return steps;
 }
 
-int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
-  if (!is_unsettled(solution) || !has_own_multipliers(program, solution)) return 0;
+namespace {
+
+/// Newton steps as long as each leaves less than half of the residual; how many there were.
+int steps_to_rounding(NonlinearProgram& program, Solution& solution, int most_steps) {
+  constexpr double less = 0.5;
   NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
+  for (int steps = 0; steps < most_steps; ++steps) {
+    if (must_stop()) return steps;
+    const auto correction = correction_in_time(corrections, solution);
+    if (!correction) return steps;
+    Solution next = stepped(program, *correction, solution);
+    if (!(residual_of(next) < less * residual_of(solution))) return steps;
+    solution = std::move(next);
+  }
+  return most_steps;
+}
+
+/// Newton steps until the answer is confirmed; none, and the answer as it was, where they do not get there.
+int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
+  NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
+  Confirmation confirmation(program);
+  const bool was_unsettled = is_unsettled(solution);
   Solution next = solution;
   for (int steps = 1; steps <= most_steps; ++steps) {
     const auto correction = correction_in_time(corrections, next);
     if (must_stop()) {
-      tell_of_stop(solution);
+      if (solution.status == Status::not_confirmed) tell_of_stop(solution);
       return 0;
     }
-    if (!correction) break;
+    if (!correction) return 0;
     next = stepped(program, *correction, next);
     next.status = Status::solved;
-    confirm(program, tolerance, next);
-    if (is_solved(next.status)) {
-      next.message += fmt::format(" It took {} Newton steps behind the solver to settle the answer.", steps);
-      solution = std::move(next);
-      return steps;
+    confirmation.judge(tolerance, next);
+    if (next.status != Status::solved) continue;
+    // Of an answer whose residuals were not small nothing is known yet, were the cost so small that all are.
+    if (!was_unsettled && confirmation.factor_of_cost(tolerance, next.primal, next) != 1.0) return 0;
+    next.message += fmt::format(" It took {} Newton steps behind the solver to settle the answer.", steps);
+    if (solution.status != Status::not_confirmed && !is_solved(solution.status)) {
+      next.message += fmt::format(" The solver itself had ended as \"{}\".", name_of(solution.status));
     }
+    solution = std::move(next);
+    return steps;
   }
   return 0;
+}
+
+}  // namespace
+
+int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
+  if (!has_own_multipliers(program, solution)) return 0;
+  int steps = 0;
+  if (is_unsettled(solution) || is_near(program, tolerance, solution)) {
+    steps = steps_to_confirmation(program, tolerance, solution, most_steps);
+  }
+  if (is_solved_to_rounding(tolerance, solution)) steps += steps_to_rounding(program, solution, most_steps);
+  return steps;
 }
 
 }  // namespace dmocbench

@@ -14,10 +14,17 @@ namespace dmocbench {
 /// not solved, has no multipliers of its own, or its Newton step cannot be computed. It ends with its `StopScope`.
 int polish(NonlinearProgram& program, Solution& solution, int most_steps = 5);
 
-/// Gives an answer that was not confirmed because a Newton step would still move it (`confirm`) the steps that it
-/// lacks. It becomes solved if a further step would not move it and its residuals are confirmed at this tolerance, and
-/// its message says how many steps it took; otherwise `solution` stays as it is. Where its `StopScope` ends it the
-/// status becomes "time limit" or "interrupted", because nothing is known then. Returns the number of steps kept.
+/// Gives an answer the Newton steps that it lacks, if it has multipliers of its own:
+///
+/// - One that was not confirmed because a Newton step would still move it (`confirm`), or at which a solver stopped
+///   within `acceptable_factor` of what confirms it, whatever the solver calls that. It becomes solved if a further
+///   step would not move it and its residuals are confirmed at this tolerance, and its message says how many steps it
+///   took; otherwise `solution` stays as it is.
+/// - A solved one whose residuals are above the tolerance and allowed only as rounding (`StopRule`). It takes steps as
+///   long as each leaves less than half of the residuals: what is left then is rounding, and was measured.
+///
+/// Where its `StopScope` ends it before an answer is confirmed the status becomes "time limit" or "interrupted",
+/// because nothing is known then. Returns the number of steps kept.
 int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps = 10);
 
 }  // namespace dmocbench

@@ -23,6 +23,7 @@ struct PlaceRun {
   std::size_t index = 0;                   ///< of the first one's node or interval
   std::size_t count = 0;                   ///< how many there are
   std::size_t first = 0;                   ///< the first one's number
+  bool is_control = false;                 ///< whether they are values of a control
 };
 
 /// The places of all unknowns, or of all rows, as runs. A quantity of all nodes is one run of N + 1, a quantity of all
@@ -30,8 +31,8 @@ struct PlaceRun {
 class Places {
  public:
   /// Adds a run and returns the number of its first member.
-  std::size_t append(Place::Kind kind, std::size_t index, std::size_t count) {
-    runs_.push_back({kind, index, count, size_});
+  std::size_t append(Place::Kind kind, std::size_t index, std::size_t count, bool is_control = false) {
+    runs_.push_back({kind, index, count, size_, is_control});
     size_ += count;
     return runs_.back().first;
   }

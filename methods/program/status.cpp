@@ -35,6 +35,8 @@ constexpr auto entries = std::to_array<Entry>({
      "The discrete program is solved, but its answer is no motion: the grid is too coarse for it."},
     {Status::violates_between_stages, "violates between stages",
      "The discrete program is solved, but its motion leaves a bound or path constraint between the stages."},
+    {Status::control_not_determined, "solved, control not determined",
+     "Cost and state are confirmed, but the control is not determined: they hardly depend on it."},
     {Status::not_confirmed, "not confirmed",
      "The solver says it is solved, but the residual computed from our derivatives does not confirm it."},
 });

@@ -5,7 +5,7 @@
 
 namespace dmocbench {
 
-/// How a solve ended. Only `solved` is an answer that our own residual confirms.
+/// How a solve ended. Only `solved` and `control_not_determined` are answers that our own residual confirms.
 enum class Status : std::uint8_t {
   not_run,                  ///< no solver has been called
   solved,                   ///< KKT residual and constraint violation are below the tolerance, or rounding (`StopRule`)
@@ -23,6 +23,7 @@ enum class Status : std::uint8_t {
   solver_error,             ///< the solver reported an internal error
   too_coarse,               ///< solved, but the answer is no motion: its intervals do not join (`accuracy`)
   violates_between_stages,  ///< solved, but the motion leaves its bounds between stages (`violation_between_stages`)
+  control_not_determined,   ///< solved, but a Newton step would move a control: cost and state hardly depend on it
   not_confirmed,            ///< the solver says it is solved, but our residual does not confirm it
 };
 
@@ -35,8 +36,11 @@ enum class Status : std::uint8_t {
 /// The status with that name; `not_run` if there is none.
 [[nodiscard]] Status status_named(std::string_view name) noexcept;
 
-/// True for `solved` only: an answer that figures and claims may use.
-[[nodiscard]] constexpr bool is_solved(Status status) noexcept { return status == Status::solved; }
+/// True for answers whose cost and state figures and claims may use: `solved` and `control_not_determined`. Of the
+/// latter the control is not known as well.
+[[nodiscard]] constexpr bool is_solved(Status status) noexcept {
+  return status == Status::solved || status == Status::control_not_determined;
+}
 
 /// True for answers of the discrete program that are no motions: figures draw them hollow, and nothing is fitted to
 /// them.

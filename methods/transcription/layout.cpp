@@ -9,10 +9,10 @@ Layout::Layout(const LayoutShape& shape) : shape_(shape) {
   place_ends();
 }
 
-std::size_t Layout::append(Places& places, Place::Kind kind, Eigen::Index count) const {
+std::size_t Layout::append(Places& places, Place::Kind kind, Eigen::Index count, bool are_controls) const {
   const std::size_t head = places.size();
   const std::size_t length = kind == Place::Kind::node ? shape_.intervals + 1 : shape_.intervals;
-  for (Eigen::Index i = 0; i < count; ++i) places.append(kind, 0, length);
+  for (Eigen::Index i = 0; i < count; ++i) places.append(kind, 0, length, are_controls);
   return head;
 }
 
@@ -27,8 +27,8 @@ void Layout::append_unknowns() {
   structure_.intervals = shape_.intervals;
   append(unknowns, node, node_columns());
   rates_ = append(unknowns, interval, interior_stages() * node_columns());
-  controls_ = append(unknowns, node, shape_.shares_controls ? m : 0);
-  inner_controls_ = append(unknowns, interval, (shape_.shares_controls ? shape_.stages - 2 : shape_.stages) * m);
+  controls_ = append(unknowns, node, shape_.shares_controls ? m : 0, true);
+  inner_controls_ = append(unknowns, interval, (shape_.shares_controls ? shape_.stages - 2 : shape_.stages) * m, true);
   cost_head_ = append(unknowns, node, shape_.mayer ? 1 : 0);
   single_unknowns_ = unknowns.size();
   if (shape_.first_has_velocity) append_singles(unknowns, 0);

@@ -122,7 +122,7 @@ class Layout {
     return first + static_cast<std::size_t>(i) * shape_.intervals;
   }
   /// `count` runs of one kind. Returns the head of the first.
-  std::size_t append(Places& places, Place::Kind kind, Eigen::Index count) const;
+  std::size_t append(Places& places, Place::Kind kind, Eigen::Index count, bool are_controls = false) const;
   /// One of each configuration at one node.
   void append_singles(Places& places, std::size_t node) const;
   void append_unknowns();

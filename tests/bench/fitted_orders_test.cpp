@@ -63,6 +63,14 @@ TEST(FittedOrders, AgainstAFinerGridAreThoseOfTheDifference) {
   }
 }
 
+TEST(FittedOrders, UseStatesButNoControlsOfAnswersWhoseControlIsNotDetermined) {
+  const Table all = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
+  const FittedOrders fits =
+      fit_orders(with_field(all, 128, "status", "solved, control not determined"), std::nullopt, exact_reference);
+  EXPECT_EQ(slope_of(fits, "state").text("points"), "7");
+  EXPECT_EQ(slope_of(fits, "control").text("points"), "6");
+}
+
 TEST(FittedOrders, BeginWhereNeighbouringGridsAgree) {
   const auto bent = [](double n) { return std::pow(n, -2.0) * (1.0 + std::pow(100.0 / n, 4.0)); };
   const Table table = convergence_of({{.error = bent}}, {16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512});

@@ -125,7 +125,7 @@ TEST(NewtonCorrection, SettlesTheCrane) {
     SCOPED_TRACE(method);
     const auto program = tests::transcribe(*problem, {method, 1}, Grid::uniform(256));
     Solution solution = make_solver("interior_point")->solve(*program, sample(*program, guessed_motion(*problem)));
-    EXPECT_EQ(solution.status, Status::not_confirmed);
+    EXPECT_NE(solution.status, Status::solved);
     EXPECT_GE(settle(*program, 1e-10, solution), 1);
     EXPECT_EQ(solution.status, Status::solved) << solution.message;
     EXPECT_LE(solution.correction.value_or(unbounded), settled);

@@ -24,7 +24,7 @@ TEST(Status, NamesCanStandInATable) {
   for (int i = first; i <= last; ++i) {
     const std::string name(name_of(static_cast<Status>(i)));
     EXPECT_FALSE(name.empty());
-    EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz "), std::string::npos) << name;
+    EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz, "), std::string::npos) << name;
   }
 }
 
@@ -43,10 +43,10 @@ TEST(Status, UnknownNamesMeanNotRun) {
   EXPECT_EQ(status_named(""), Status::not_run);
 }
 
-TEST(Status, OnlySolvedIsAnAnswer) {
+TEST(Status, OnlyWhatIsSolvedInCostAndStateIsAnAnswer) {
   for (int i = first; i <= last; ++i) {
     const auto status = static_cast<Status>(i);
-    EXPECT_EQ(is_solved(status), status == Status::solved) << name_of(status);
+    EXPECT_EQ(is_solved(status), name_of(status).starts_with("solved")) << name_of(status);
   }
 }
 
