@@ -2,6 +2,7 @@
 // none from a solution. How many starts are solved, confirmed, on the best branch, and what that takes.
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -51,7 +52,8 @@ class ColdStart final : public Experiment {
     line.number("--other-starts", other_starts_, 0, most, "by other solvers on the paper's problems");
     line.number("--other-library-starts", other_library_starts_, 0, most, "by other solvers on the other problems");
     line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
-    line.number("--amplitude", amplitude_, 0.0, 10.0, "of the random curves, relative to the range of each coordinate");
+    line.number("--amplitude", amplitude_, 0.0, 10.0,
+                "of the random curves, relative to the range of each coordinate and the size of each control");
     line.number("--objective-tolerance", objective_tolerance_, 0.0, 1.0,
                 "largest excess of the cost over the reference, relative, of an answer on the best branch");
   }
@@ -59,7 +61,10 @@ class ColdStart final : public Experiment {
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     std::vector<Case> cases = from_starts(
         chosen, [this](const Case& the_case) { return starts_of(the_case); },
-        [this](const Motion& motion, std::size_t start) { return perturbed(motion, amplitude_, seed_, start); });
+        [this](const Motion& motion, const Problem& problem, std::size_t start) {
+          return perturbed(motion, amplitude_, seed_, start, control_scales(problem));
+        });
+    for (const Case& the_case : chosen) varied_[the_case.problem->name()] = varied_in_words(*the_case.problem);
     if (cases.empty()) throw Error("no case has a start; see --starts and the options like it");
     return cases;
   }
@@ -73,6 +78,10 @@ class ColdStart final : public Experiment {
     metadata["seed"] = seed_;
     metadata["amplitude"] = amplitude_;
     metadata["objective_tolerance"] = objective_tolerance_;
+    for (const auto& [problem, words] : varied_) {
+      fmt::print("{}: {}\n", problem, words);
+      metadata["varied"][problem] = words;
+    }
     for (const Row& row : shares.rows()) {
       fmt::print("{:<22} {:<12} {:<15} {:>5} cold starts: {} solved, {} confirmed, {} on the best branch\n",
                  row.text("problem"), row.text("method"), row.text("solver"), row.text("starts"), row.text("solved"),
@@ -95,6 +104,7 @@ class ColdStart final : public Experiment {
   std::uint64_t seed_ = 1;
   double amplitude_ = 0.3;
   double objective_tolerance_ = 0.02;
+  std::map<std::string, std::string> varied_;  // what starts vary, by problem
 };
 
 int run(int argc, char** argv) { return run_experiment(ColdStart(), argc, argv); }

@@ -1,5 +1,6 @@
 // Which local minima there are and how often each method falls into which: "Global Minima", section 4.1 of the paper.
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -48,7 +49,8 @@ class LocalMinima final : public ExperimentOf<Measured> {
     line.number("--starts", starts_, 1, 100000, "starts per case: the guess, and perturbed ones");
     line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
     line.number("--amplitude", amplitude_, 0.0, 10.0,
-                "of the random curves, and of the bulges of a plane, relative to the range of each coordinate");
+                "of the random curves, and of the bulges of a plane, relative to the range of each coordinate and the "
+                "size of each control");
     line.number(
         "--plane", plane_, 2, 316,
         "instead of random curves M x M starts: the guess with bulges sin(pi t/T) in q_1 and q_2 whose sizes go "
@@ -56,10 +58,14 @@ class LocalMinima final : public ExperimentOf<Measured> {
   }
   /// All methods and grids start from the same curves.
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
+    for (const Case& the_case : chosen) {
+      varied_[the_case.problem->name()] = plane_ > 0 ? "starts vary q and v alone" : varied_in_words(*the_case.problem);
+    }
     return from_starts(
         chosen, [this](const Case& /*the_case*/) { return plane_ > 0 ? plane_ * plane_ : starts_; },
-        [this](const Motion& motion, std::size_t start) {
-          return plane_ > 0 ? bulged(motion, bulges(start)) : perturbed(motion, amplitude_, seed_, start);
+        [this](const Motion& motion, const Problem& problem, std::size_t start) {
+          return plane_ > 0 ? bulged(motion, bulges(start))
+                            : perturbed(motion, amplitude_, seed_, start, control_scales(problem));
         });
   }
 
@@ -84,6 +90,10 @@ class LocalMinima final : public ExperimentOf<Measured> {
       metadata["starts"] = {{"plane", plane_}, {"amplitude", amplitude_}};
     } else {
       metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
+    }
+    for (const auto& [problem, words] : varied_) {
+      fmt::print("{}: {}\n", problem, words);
+      metadata["starts"]["varied"][problem] = words;
     }
     for (const Selection& minimum :
          Selection(minima)
@@ -126,6 +136,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
   long long plane_ = 0;  // 0: random starts
   std::uint64_t seed_ = 1;
   double amplitude_ = 0.5;
+  std::map<std::string, std::string> varied_;  // what starts vary, by problem
 };
 
 int run(int argc, char** argv) { return run_experiment(LocalMinima(), argc, argv); }

@@ -51,14 +51,16 @@ std::vector<std::string> numbers_below(std::size_t count) {
 }
 
 std::vector<Case> from_starts(const std::vector<Case>& cases, const std::function<long long(const Case&)>& count_of,
-                              const std::function<Motion(const Motion& chosen, std::size_t number)>& motion_of) {
+                              const std::function<Motion(const Motion&, const Problem&, std::size_t)>& motion_of) {
   std::vector<Case> started;
   for (const Case& the_case : cases) {
     const auto count = static_cast<std::size_t>(count_of(the_case));
     for (std::size_t i = 0; i < count; ++i) {
       Case& from_start = started.emplace_back(the_case);
       from_start.variant = {i, std::to_string(i)};
-      from_start.start = [motion_of, i](const Motion& chosen) { return motion_of(chosen, i); };
+      from_start.start = [motion_of, problem = the_case.problem, i](const Motion& chosen) {
+        return motion_of(chosen, *problem, i);
+      };
     }
   }
   return started;

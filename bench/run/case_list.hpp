@@ -27,10 +27,10 @@ using LabelsOfCase = std::function<std::vector<std::string>(const Case&)>;
 [[nodiscard]] std::vector<std::string> numbers_below(std::size_t count);
 
 /// Each case once for each of its starts, by number: `count_of` says how many it has, `motion_of` makes the motion of a
-/// number from the one that --start names.
+/// number from the one that --start names, for a case's problem.
 [[nodiscard]] std::vector<Case> from_starts(
     const std::vector<Case>& cases, const std::function<long long(const Case&)>& count_of,
-    const std::function<Motion(const Motion& chosen, std::size_t number)>& motion_of);
+    const std::function<Motion(const Motion& chosen, const Problem& problem, std::size_t number)>& motion_of);
 
 /// The place of the case of a curve that is solved first: that of its reference, or 0.
 [[nodiscard]] std::size_t reference_of(const std::vector<Case>& curve);

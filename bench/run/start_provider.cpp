@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/run/even_draws.hpp"
@@ -339,19 +340,54 @@ const StartProvider::FoundStart& StartProvider::common_start(const Case& the_cas
   return common_.emplace(key, Search(*this, the_case).run()).first->second;
 }
 
-Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std::uint64_t number) {
+Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std::uint64_t number,
+                 const Eigen::VectorXd& control_scales) {
   constexpr Eigen::Index modes = 3;
   if (number == 0) return motion;
   std::seed_seq mixed{seed, number};
   std::mt19937_64 engine(mixed);
-  const Eigen::VectorXd range = ranges(motion);
-  Eigen::MatrixXd amplitudes(range.size(), modes);
-  for (Eigen::Index k = 0; k < modes; ++k) {
-    for (Eigen::Index i = 0; i < range.size(); ++i) {
-      amplitudes(i, k) = amplitude * range[i] * (2.0 * even(engine) - 1.0) / static_cast<double>(k + 1);
+  const auto drawn = [&](const Eigen::VectorXd& sizes) {
+    Eigen::MatrixXd amplitudes(sizes.size(), modes);
+    for (Eigen::Index k = 0; k < modes; ++k) {
+      for (Eigen::Index i = 0; i < sizes.size(); ++i) {
+        amplitudes(i, k) = amplitude * sizes[i] * (2.0 * even(engine) - 1.0) / static_cast<double>(k + 1);
+      }
     }
+    return amplitudes;
+  };
+  const Eigen::MatrixXd of_motion = drawn(ranges(motion));  // first, so that controls do not change its curves
+  return control_scales.size() == 0 ? bent(motion, of_motion) : bent(motion, of_motion, drawn(control_scales));
+}
+
+Eigen::VectorXd control_scales(const Problem& problem) {
+  constexpr int samples = 64;
+  const Eigen::Index m = problem.control_size();
+  Eigen::MatrixXd guessed(m, samples + 1);
+  for (int i = 0; i <= samples; ++i) guessed.col(i) = problem.guess(problem.horizon() * i / samples).u;
+  const Bounds bounds = problem.bounds().u;
+  Eigen::VectorXd scales(m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const double width = bounds.empty() ? unbounded : bounds.upper[j] - bounds.lower[j];
+    const double range = guessed.row(j).maxCoeff() - guessed.row(j).minCoeff();
+    scales[j] = std::isfinite(width) ? 0.5 * width : range > 0.0 ? range : guessed.row(j).cwiseAbs().maxCoeff();
   }
-  return bent(motion, amplitudes);
+  return scales;
+}
+
+std::string varied_in_words(const Problem& problem) {
+  const Eigen::VectorXd scales = control_scales(problem);
+  const std::vector<std::string> names = problem.control_names();
+  std::vector<std::string> varied;
+  std::vector<std::string> left;
+  for (Eigen::Index j = 0; j < scales.size(); ++j) {
+    (scales[j] > 0.0 ? varied : left).push_back(names[static_cast<std::size_t>(j)]);
+  }
+  std::string words = "starts vary q and v";
+  if (!varied.empty()) words += fmt::format(" and the controls {}", fmt::join(varied, ", "));
+  if (!left.empty()) {
+    words += fmt::format("; not the controls {}, of whose size neither bounds nor guess tell", fmt::join(left, ", "));
+  }
+  return words;
 }
 
 Motion bulged(const Motion& motion, const Eigen::Vector2d& bulges) {

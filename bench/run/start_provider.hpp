@@ -102,9 +102,18 @@ class StartProvider {
 
 /// A motion with smooth random curves added: to every q_i a sum of three sines that vanish at both ends, their
 /// amplitudes drawn evenly between -a and a times the range of that q_i along the motion (1 where it has none) and
-/// falling as 1/k, with their derivatives added to the velocity. The control stays. The same `seed` and `number` give
-/// the same curves on every machine; number 0 is the motion itself.
-[[nodiscard]] Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std::uint64_t number);
+/// falling as 1/k, with their derivatives added to the velocity. To every control u_j are added a constant and two
+/// cosines, in the same way between -a and a times its entry of `control_scales`; without entries the control stays.
+/// The same `seed` and `number` give the same curves on every machine; number 0 is the motion itself.
+[[nodiscard]] Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std::uint64_t number,
+                               const Eigen::VectorXd& control_scales = {});
+
+/// The size of every control of a problem: half the distance of its bounds, or where one of them is missing its range
+/// along the guess, or its largest magnitude there. 0 where none of them tells it.
+[[nodiscard]] Eigen::VectorXd control_scales(const Problem& problem);
+
+/// What `perturbed` varies with these scales: "q, v and u", "q and v, not u: ...".
+[[nodiscard]] std::string varied_in_words(const Problem& problem);
 
 /// A motion with two curves added, which vanish at both ends: a_1 sin(πt/T) to q_1 and a_2 sin(πt/T) to q_2, or
 /// a_2 sin(2πt/T) to q_1 where there is no q_2, in units of the range of that coordinate as in `perturbed`, with their

@@ -1,13 +1,17 @@
 #include "bench/tables/minima.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "bench/run/start_provider.hpp"
+#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/restated_problems.hpp"
 
 namespace dmocbench {
 namespace {
@@ -133,6 +137,26 @@ TEST(PerturbedGuess, KeepsTheEndsAndTheSeedTellsItApart) {
   EXPECT_NE(moved.at(0.4).q, perturbed(guess, 0.5, 7, 4).at(0.4).q);
   EXPECT_NE(moved.at(0.4).q, perturbed(guess, 0.5, 8, 3).at(0.4).q);
   EXPECT_EQ(perturbed(guess, 0.5, 7, 0).at(0.4).q, guess.at(0.4).q);
+}
+
+/// Sized by its bounds or by the guess; where neither tells, it stays, and so do the curves of the motion.
+TEST(PerturbedGuess, VariesControlsInTheirOwnSize) {
+  const tests::DoubleIntegrator base;
+  const tests::Restated bounded(base, [](tests::Restated::Statement& s) { s.u = tests::all_between(1, -8.0, 4.0); });
+  EXPECT_EQ(control_scales(bounded)[0], 6.0);
+  EXPECT_EQ(control_scales(base)[0], 0.0);
+  const Motion guess = guessed_motion(bounded);
+  double largest = 0.0;
+  for (std::uint64_t number = 1; number <= 20; ++number) {
+    const Motion moved = perturbed(guess, 0.5, 1, number, control_scales(bounded));
+    EXPECT_EQ(moved.at(0.3).q, perturbed(guess, 0.5, 1, number).at(0.3).q);
+    EXPECT_EQ(perturbed(guess, 0.5, 1, number, control_scales(base)).at(0.3).u, guess.at(0.3).u);
+    largest = std::max(largest, std::abs(moved.at(0.3).u[0] - guess.at(0.3).u[0]));
+  }
+  EXPECT_GT(largest, 1.0);
+  EXPECT_LT(largest, 0.5 * 6.0 * (1.0 + 0.5 + 1.0 / 3.0));
+  EXPECT_NE(varied_in_words(bounded).find("the controls u1"), std::string::npos);
+  EXPECT_NE(varied_in_words(base).find("not the controls u1"), std::string::npos);
 }
 
 TEST(PerturbedGuess, HasTheVelocityThatIsItsSlope) {

@@ -61,7 +61,7 @@ TEST(Part, FilesAreInTheOrderOfTheirNumbers) {
 }
 
 TEST(Cases, AreMadeOnceForEachStart) {
-  const auto number_as_horizon = [](const Motion& chosen, std::size_t number) {
+  const auto number_as_horizon = [](const Motion& chosen, const Problem& /*problem*/, std::size_t number) {
     return Motion{chosen.at, static_cast<double>(number)};
   };
   const std::vector<Case> cases = from_starts(
