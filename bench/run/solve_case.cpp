@@ -99,6 +99,16 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   solved.solution.status = Status::too_coarse;
   const Eigen::Index k = found.interval;
   const double unit = solved.the_case.problem->card().time_unit.factor;
+  const auto undefined = undefined_point(*solved.the_case.problem, motion, k);
+  if (undefined || std::isinf(found.relative_jump)) {
+    solved.solution.message = fmt::format(
+        "The discrete program is solved, but interval {} (t = {:.4g} to {:.4g}) does not lead to the next node: {} "
+        "More intervals do not help; state the formula so that it stays finite along the motion, as by a force as "
+        "control and a bound on its power as path constraint.",
+        k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
+        undefined ? undefined->quantity + " is not a finite number there." : "its formulas are singular there.");
+    return;
+  }
   solved.solution.message =
       fmt::format("{} Interval {} (t = {:.4g} to {:.4g}), replayed alone, misses the next node by {:.2g} of the range.",
                   sentence_of(Status::too_coarse), k, unit * motion.node_times[k], unit * motion.node_times[k + 1],

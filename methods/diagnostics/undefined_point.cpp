@@ -13,22 +13,50 @@ std::string UndefinedPoint::words() const {
       quantity, interval, time);
 }
 
-std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory) {
+namespace {
+
+/// At eight points between the nodes of interval k.
+std::optional<UndefinedPoint> undefined_between(FormulaCheck& check, const Trajectory& trajectory, Eigen::Index k) {
   constexpr int points_per_interval = 8;
-  FormulaCheck check(problem);
-  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
-    const double left = trajectory.node_times[k];
-    const double width = trajectory.node_times[k + 1] - left;
-    for (int i = 0; i < points_per_interval; ++i) {
-      const double t = left + width * (i + 0.5) / points_per_interval;
-      const MotionPoint point{.q = configuration_at(trajectory, t),
-                              .v = velocity_on_interval(trajectory, k, t),
-                              .u = control_on_interval(trajectory, k, t)};
-      const std::string quantity = check.undefined_at(point, t);
-      if (!quantity.empty()) return UndefinedPoint{quantity, k, t};
-    }
+  const double left = trajectory.node_times[k];
+  const double width = trajectory.node_times[k + 1] - left;
+  for (int i = 0; i < points_per_interval; ++i) {
+    const double t = left + width * (i + 0.5) / points_per_interval;
+    const MotionPoint point{.q = configuration_at(trajectory, t),
+                            .v = velocity_on_interval(trajectory, k, t),
+                            .u = control_on_interval(trajectory, k, t)};
+    const std::string quantity = check.undefined_at(point, t);
+    if (!quantity.empty()) return UndefinedPoint{quantity, k, t};
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory) {
+  FormulaCheck check(problem);
+  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
+    if (auto found = undefined_between(check, trajectory, k)) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory,
+                                              Eigen::Index interval) {
+  FormulaCheck check(problem);
+  const ProblemBounds bounds = problem.bounds();
+  for (const Eigen::Index node : {interval, interval + 1}) {
+    const double t = trajectory.node_times[node];
+    MotionPoint point{.q = trajectory.q.row(node).transpose(),
+                      .v = trajectory.v.row(node).transpose(),
+                      .u = control_on_interval(trajectory, interval, t)};
+    // Momenta tell the velocity up to rounding; a prescribed one is known exactly, as that of a body at rest.
+    if (node == 0 && bounds.first.v.all_fixed()) point.v = problem.initial_state().v;
+    if (node == trajectory.intervals() && bounds.last.v.all_fixed()) point.v = problem.final_state().v;
+    const std::string quantity = check.undefined_at(point, t);
+    if (!quantity.empty()) return UndefinedPoint{quantity, interval, t};
+  }
+  return undefined_between(check, trajectory, interval);
 }
 
 }  // namespace dmocbench

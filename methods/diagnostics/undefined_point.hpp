@@ -23,5 +23,8 @@ struct UndefinedPoint {
 /// derivatives at stages alone, and may step over a singularity: an answer with such a point is no solution of the
 /// problem.
 [[nodiscard]] std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory);
+/// The same of one interval k = `interval`, its two nodes, where the motion may begin or end at a singularity, first.
+[[nodiscard]] std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory,
+                                                            Eigen::Index interval);
 
 }  // namespace dmocbench

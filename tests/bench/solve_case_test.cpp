@@ -1,5 +1,7 @@
 #include "bench/run/solve_case.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "methods/transcription/start.hpp"
@@ -48,6 +50,61 @@ TEST(SolveCase, SaysWhichScaleWouldSuitACostFarFromOne) {
   EXPECT_NE(small.solution.message.find("cost_scale = 100000 would suit, not 1"), std::string::npos)
       << small.solution.message;
   EXPECT_EQ(solved(1.0, 0.5).solution.message.find("cost_scale"), std::string::npos);
+}
+
+/// Pushed from rest with a power u, f = u/v, with the least ∫ ½u² over 1 m in 1 s: at rest the force is infinite, the
+/// motion is not.
+class PowerFromRest final : public tests::SmallProblem {
+ public:
+  PowerFromRest() : SmallProblem("power_from_rest", at(0.0, 0.0), at(1.0, 1.5), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(x.u[0] / x.v[0]); }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+};
+
+TEST(SolveCase, AdvisesNoFinerGridWhereAForceIsSingularOnTheMotion) {
+  const auto problem = std::make_shared<PowerFromRest>();
+  const Case the_case{
+      .problem = problem, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(32)};
+  const SolvedCase solved = solve_case(the_case, {guessed_motion(*problem)}, *make_solver("ipopt"), 1e-8, 1);
+  ASSERT_EQ(solved.solution.status, Status::too_coarse) << solved.solution.message;
+  EXPECT_NE(solved.solution.message.find("force is not a finite number"), std::string::npos) << solved.solution.message;
+  EXPECT_NE(solved.solution.message.find("More intervals do not help"), std::string::npos) << solved.solution.message;
+  EXPECT_EQ(solved.solution.message.find("the grid is too coarse"), std::string::npos) << solved.solution.message;
+}
+
+/// An oscillator between two places without a control: Hamilton's principle, with the action as cost. q = sin 2t /
+/// sin 2.
+class LeastAction final : public tests::SmallProblem {
+ public:
+  LeastAction() : SmallProblem("least_action", at(0.0, 0.0), at(1.0, 0.0), 1.0, 0) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * x.v[0] * x.v[0] - 2.0 * x.q[0] * x.q[0];
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& /*x*/) const override { return one(0.0); }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return 0.5 * x.v[0] * x.v[0] - 2.0 * x.q[0] * x.q[0];
+  }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    bounds.first.free_velocity(0);
+    bounds.last.free_velocity(0);
+    return bounds;
+  }
+};
+
+TEST(SolveCase, SolvesAProblemWithoutControlsByEverySolverAndMethod) {
+  const auto problem = std::make_shared<LeastAction>();
+  for (const char* solver : {"ipopt", "interior_point", "sqp", "auto"}) {
+    for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+      SCOPED_TRACE(std::string(solver) + " " + method);
+      const Case the_case{
+          .problem = problem, .method = method, .tableau = "gauss", .solver = solver, .grid = Grid::uniform(64)};
+      const SolvedCase solved = solve_case(the_case, {guessed_motion(*problem)}, *make_solver(solver), 1e-10, 1);
+      EXPECT_EQ(solved.solution.status, Status::solved) << solved.solution.message;
+      EXPECT_NEAR(solved.trajectory->q(32, 0), std::sin(1.0) / std::sin(2.0), 1e-3);
+    }
+  }
 }
 
 /// From rest to rest over a distance in T = 1: L = ½v², f = u, C = ½u²; |v| is 3/2 of the distance, |u| 6 times it.
