@@ -230,9 +230,29 @@ bool moves_to_least_violation(const CountedProgram& program, const SolverOptions
   return false;
 }
 
+/// Whether descent on the violation alone, from a point, meets the constraints.
+bool meets_from(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start) {
+  ViolationDescent descent(program.uncounted(), start);
+  for (int i = 0; i < most_steps && descent.violation() > options.tolerance; ++i) {
+    const bool must_end = (options.stop_requested && options.stop_requested()) || program.is_out_of_time();
+    if (must_end || !descent.step()) break;
+  }
+  return descent.violation() <= options.tolerance;
+}
+
+/// A point with every unknown that has two bounds half way between them.
+Eigen::VectorXd between_bounds(const NonlinearProgram& program, Eigen::VectorXd point) {
+  for (Eigen::Index i = 0; i < point.size(); ++i) {
+    const double middle = 0.5 * (program.variable_lower()[i] + program.variable_upper()[i]);
+    if (std::isfinite(middle)) point[i] = middle;
+  }
+  return point;
+}
+
 }  // namespace
 
-void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, Solution& solution) {
+void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start,
+                         Solution& solution) {
   const bool claims = solution.status == Status::infeasible;
   const bool has_failed = solution.status == Status::step_failed;
   if (!claims && !has_failed && solution.status != Status::iteration_limit) return;
@@ -242,6 +262,16 @@ void judge_infeasibility(const CountedProgram& program, const SolverOptions& opt
   const bool is_least =
       is_outside && (is_point_of_least_violation(program.uncounted(), solution.primal) ||
                      ((claims || has_failed) && moves_to_least_violation(program, options, solution)));
+  if (is_least && start.allFinite() &&
+      (meets_from(program, options, start) ||
+       meets_from(program, options, between_bounds(program.uncounted(), start)))) {
+    solution.status = Status::step_failed;
+    solution.message =
+        "Near the last point the constraints cannot be met any better, but descent on their violation alone, from the "
+        "start or from half way between the bounds, meets them: the program is feasible, and the solver went astray; "
+        "begin at another motion.";
+    return;
+  }
   if (is_least == claims) return;
   solution.status = is_least ? Status::infeasible : Status::step_failed;
   solution.message = is_least ? "" : "The solver calls it infeasible, but its point is none of least violation.";

@@ -72,7 +72,9 @@ class ViolationDescent {
 /// point is one of least violation (`is_point_of_least_violation`), or if descent from it ends at one, to which
 /// `solution.primal` then moves; "step failed" if the solver reports infeasible and neither holds. For a `solution`
 /// that is reported infeasible, whose step failed or whose iterations ran out; the latter is judged at its last point,
-/// without descent. It ends with the time of the solve, and counts no evaluation.
-void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, Solution& solution);
+/// without descent. "Infeasible" is not said either where descent from `start`, where the solve began, or from half
+/// way between the bounds meets the constraints. It ends with the time of the solve, and counts no evaluation.
+void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start,
+                         Solution& solution);
 
 }  // namespace dmocbench

@@ -90,7 +90,7 @@ double Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, C
   solution.seconds = counted.elapsed_seconds();
   solution.evaluation_seconds = counted.evaluation_seconds();
   if (counted.counts().total() > 0) solution.evaluations = counted.counts();
-  judge_infeasibility(counted, options_, solution);
+  judge_infeasibility(counted, options_, start, solution);
   const bool claims_success = is_solved(solution.status) || solution.status == Status::acceptable;
   const bool has_point = solution.primal.size() == start.size();
   confirmation.judge(options_.tolerance, solution, asks_newton);

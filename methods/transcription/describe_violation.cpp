@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "methods/expression/schedule.hpp"
+#include "methods/transcription/start.hpp"
 #include "methods/transcription/undefined_stage.hpp"
 
 namespace dmocbench {
@@ -191,6 +192,102 @@ std::string held_controls(const Problem& problem, const Transcription& transcrip
   return text;
 }
 
+/// Jᵀr, r the amounts by which rows leave their bounds: the gradient of ½|r|².
+Eigen::VectorXd gradient_of_violation(Transcription& transcription, const Eigen::VectorXd& x,
+                                      const Eigen::VectorXd& rows) {
+  const Eigen::VectorXd excess =
+      rows - rows.cwiseMax(transcription.constraint_lower()).cwiseMin(transcription.constraint_upper());
+  Eigen::VectorXd jacobian(static_cast<Eigen::Index>(transcription.jacobian_structure().size()));
+  transcription.jacobian(x, jacobian);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+  transcription.jacobian_structure().for_each(
+      [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * excess[row]; });
+  return gradient;
+}
+
+/// The bound on q against which the violation presses most, if it presses hardly less against any other: without that
+/// bound the rows would be met better.
+std::string pressed_bound(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x,
+                          const Eigen::VectorXd& rows) {
+  constexpr double near = 1e-2;   // a descent within the bounds stops before them
+  constexpr double share = 1e-2;  // of the hardest pressure
+  const Eigen::VectorXd gradient = gradient_of_violation(transcription, x, rows);
+  const auto configurations =
+      static_cast<Eigen::Index>(transcription.layout().configuration_head(problem.configuration_size()));
+  double hardest = 0.0;
+  Worst pressed;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double lower = transcription.variable_lower()[i];
+    const double upper = transcription.variable_upper()[i];
+    const double bound = gradient[i] > 0.0 ? lower : upper;
+    const double pressure = std::abs(gradient[i]);
+    if (lower == upper || !std::isfinite(bound) || !(std::abs(x[i] - bound) <= near * std::max(1.0, std::abs(bound))))
+      continue;
+    hardest = std::max(hardest, pressure);
+    if (i < configurations && pressure > pressed.amount) pressed = {static_cast<std::size_t>(i), pressure};
+  }
+  if (pressed.amount == 0.0 || pressed.amount < share * hardest) return "";
+  const auto i = static_cast<Eigen::Index>(pressed.entry);
+  const bool is_lower = gradient[i] > 0.0;
+  return fmt::format(" In the way is {}, whose {} bound is {:g}.",
+                     ConstraintWords(problem, transcription, x).unknown(pressed.entry), is_lower ? "lower" : "upper",
+                     is_lower ? transcription.variable_lower()[i] : transcription.variable_upper()[i]);
+}
+
+/// The bound on a velocity that is missed most, where it is not the row that is missed most of all.
+std::string missed_velocity(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
+                            const Eigen::VectorXd& rows, double most) {
+  constexpr double share = 1e-3;
+  const ConstraintWords words(problem, transcription, x);
+  Worst worst;
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
+    const double lower = transcription.constraint_lower()[i];
+    const double upper = transcription.constraint_upper()[i];
+    const double amount = lower < upper ? std::max(lower - rows[i], rows[i] - upper) : 0.0;
+    if (amount > worst.amount && amount < most && words.row(static_cast<std::size_t>(i)).starts_with("bounds().v")) {
+      worst = {static_cast<std::size_t>(i), amount};
+    }
+  }
+  return worst.amount < share * most ? "" : fmt::format(" In the way is {}.", words.row(worst.entry));
+}
+
+/// The largest derivatives of each boundary condition, and by which unknown it is.
+std::vector<Worst> slopes_of_conditions(Transcription& transcription, const Eigen::VectorXd& x) {
+  const Eigen::Index conditions = transcription.layout().shape().conditions;
+  const auto first = static_cast<Eigen::Index>(transcription.constraint_count()) - conditions;
+  Eigen::VectorXd jacobian(static_cast<Eigen::Index>(transcription.jacobian_structure().size()));
+  transcription.jacobian(x, jacobian);
+  std::vector<Worst> slopes(static_cast<std::size_t>(conditions));
+  transcription.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
+    if (row < first || is_fixed(transcription, column)) return;
+    Worst& slope = slopes[static_cast<std::size_t>(row - first)];
+    if (std::abs(jacobian[e]) >= slope.amount) slope = {static_cast<std::size_t>(column), std::abs(jacobian[e])};
+  });
+  return slopes;
+}
+
+/// Boundary conditions whose derivatives vanish where the solve ended, next to those at the guess.
+std::string vanishing_conditions(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x) {
+  constexpr double small = 1e-3;
+  if (transcription.layout().shape().conditions == 0 || !x.allFinite()) return "";
+  const std::vector<Worst> here = slopes_of_conditions(transcription, x);
+  const std::vector<Worst> guessed =
+      slopes_of_conditions(transcription, sample(transcription, guessed_motion(transcription)));
+  std::string text;
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    if (!(here[i].amount <= small * guessed[i].amount)) continue;
+    const Place place = transcription.layout().structure().unknowns[guessed[i].entry];
+    const auto node = place.kind == Place::Kind::node ? static_cast<Eigen::Index>(place.index)
+                                                      : static_cast<Eigen::Index>(transcription.layout().intervals());
+    text += fmt::format(
+        " {} is rank deficient: its derivatives vanish at node {} (t = {:.4g}); state it by a formula whose "
+        "derivatives do not vanish where it holds.",
+        entry_of("boundary_conditions", i, problem.card().boundary_condition_names), node,
+        transcription.node_times(x)[node]);
+  }
+  return text;
+}
+
 std::string held_horizon(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x) {
   if (!transcription.has_free_horizon()) return "";
   const HorizonBounds bounds = problem.bounds().horizon;
@@ -223,11 +320,17 @@ std::string endless_descent(Transcription& transcription, const Eigen::VectorXd&
   return fmt::format(" The scaled cost is {:.2g} there: running_cost or final_cost may have no lower bound.", cost);
 }
 
+/// True if an end is bounded by more than the bounds that hold for q all along.
+bool states_more_than(const EndBounds& end, const Bounds& all_along) {
+  if (end.v.any() || all_along.empty()) return end.v.any() || end.q.any();
+  return end.q.lower != all_along.lower || end.q.upper != all_along.upper;
+}
+
 /// The functions of the problem that contradict each other.
 std::string contradiction(const Transcription& transcription) {
   std::vector<std::string> parts;
   const EndBounds& last = transcription.bounds().last;
-  if (last.q.any() || last.v.any()) parts.emplace_back("final_state");
+  if (states_more_than(last, transcription.bounds().q)) parts.emplace_back("final_state");
   if (transcription.layout().shape().conditions > 0) parts.emplace_back("boundary_conditions");
   if (transcription.traced_problem().path_constraint_count() > 0) parts.emplace_back("path_constraints");
   if (parts.empty()) return "";
@@ -271,6 +374,10 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
   const bool has_failed_there = solution.status == Status::evaluation_failed;
   std::string text = undefined_formula(problem, transcription, solution);
   if (has_failed_there && !text.empty()) return text;
+  const bool has_stuck = solution.status == Status::step_failed || solution.status == Status::iteration_limit ||
+                         solution.status == Status::infeasible || solution.status == Status::not_confirmed;
+  if (has_stuck) text += vanishing_conditions(problem, transcription, x);
+  if (text.starts_with(' ')) text.erase(0, 1);
   Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription.constraint_count()));
   transcription.constraints(x, rows);
   const Worst row = farthest_outside(rows, transcription.constraint_lower(), transcription.constraint_upper());
@@ -286,7 +393,10 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
   if (std::isnan(worst.amount)) return text;
   text += held_controls(problem, transcription, x) + held_horizon(problem, transcription, x);
   text += idle_controls(problem) + endless_descent(transcription, x);
-  if (solution.status == Status::infeasible) text += contradiction(transcription);
+  if (solution.status == Status::infeasible) {
+    text += pressed_bound(problem, transcription, x, rows);
+    text += missed_velocity(problem, transcription, x, rows, worst.amount) + contradiction(transcription);
+  }
   return text;
 }
 

@@ -21,10 +21,11 @@ namespace dmocbench {
 
 /// Why a solve failed, in a sentence or two: the constraint or bound that its point violates most
 /// (`describe_constraint`), and by how much, in the unit of the constraint; which controls, and whether the horizon,
-/// are at their bounds there; and, where the solver ended at a point of least violation, what cannot be met near it,
-/// such as a final state that is out of reach. A formula that is not a number at that point is named first, with the
-/// interval (`undefined_stage`); it alone where the evaluation failed. Empty where the solve ended without a point, or
-/// its point violates nothing by more than `tolerance`. `problem` is the one that was transcribed.
+/// are at their bounds there; boundary conditions whose derivatives vanish there; and, where the solver ended at a
+/// point of least violation, the bounds on q and q̇ that the violation presses against most and what cannot be met near
+/// it, such as a final state that is out of reach. A formula that is not a number at that point is named first, with
+/// the interval (`undefined_stage`); it alone where the evaluation failed. Empty where the solve ended without a point,
+/// or its point violates nothing by more than `tolerance`. `problem` is the one that was transcribed.
 [[nodiscard]] std::string describe_violation(const Problem& problem, Transcription& transcription,
                                              const Solution& solution, double tolerance = 1e-8);
 

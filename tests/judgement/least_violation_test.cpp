@@ -89,16 +89,30 @@ Solution ended(Status status, const Eigen::VectorXd& point) {
 TEST(Infeasibility, IsNotBelievedWhereTheViolationCanBeReducedToNothing) {
   SmallProgram program = bounded_rows(1.0, 2.0);
   Solution solution = ended(Status::infeasible, vector({-1.0, 1.0}));
-  judge_infeasibility(CountedProgram(program), {}, solution);
+  judge_infeasibility(CountedProgram(program), {}, solution.primal, solution);
   EXPECT_EQ(solution.status, Status::step_failed);
   EXPECT_EQ(solution.primal, vector({-1.0, 1.0}));
   EXPECT_NE(solution.message, "");
 }
 
+/// x² (x - 3) + 5 = 0 has one root, at x < 0; at x = 2 its left-hand side has a local minimum, of 1.
+TEST(Infeasibility, IsNotSaidWhereDescentFromTheStartMeetsTheRows) {
+  SmallProgram program = tests::equality_program(
+      [](const HyperVector& x) { return 0.0 * x[0]; },
+      [](const HyperVector& x) { return HyperVector{x[0] * x[0] * (x[0] - 3.0) + 5.0}; }, 1, vector({0.0}));
+  Solution solution = ended(Status::infeasible, vector({2.0}));  // the violation is 1 there, and least nearby
+  judge_infeasibility(CountedProgram(program), {}, vector({2.0}), solution);
+  EXPECT_EQ(solution.status, Status::infeasible);
+  solution = ended(Status::infeasible, vector({2.0}));
+  judge_infeasibility(CountedProgram(program), {}, vector({-2.0}), solution);
+  EXPECT_EQ(solution.status, Status::step_failed);
+  EXPECT_NE(solution.message.find("feasible"), std::string::npos) << solution.message;
+}
+
 TEST(Infeasibility, IsSaidAtThePointWhereAFailedStepLeadsToLeastViolation) {
   SmallProgram program = bounded_rows(12.0, 1.0);
   Solution solution = ended(Status::step_failed, vector({0.0, 0.0}));
-  judge_infeasibility(CountedProgram(program), {}, solution);
+  judge_infeasibility(CountedProgram(program), {}, solution.primal, solution);
   EXPECT_EQ(solution.status, Status::infeasible);
   EXPECT_TRUE(is_point_of_least_violation(program, solution.primal));
 }
@@ -106,13 +120,13 @@ TEST(Infeasibility, IsSaidAtThePointWhereAFailedStepLeadsToLeastViolation) {
 TEST(Infeasibility, IsNeverSaidWhereRowsHoldOrALimitEndedTheSolve) {
   SmallProgram reachable = bounded_rows(1.0, 2.0);
   Solution failed = ended(Status::step_failed, vector({1.0, 0.0}));  // violated by 1
-  judge_infeasibility(CountedProgram(reachable), {}, failed);
+  judge_infeasibility(CountedProgram(reachable), {}, failed.primal, failed);
   EXPECT_EQ(failed.status, Status::step_failed);
 
   SmallProgram program = bounded_rows(12.0, 1.0);
   for (const Status limit : {Status::iteration_limit, Status::time_limit, Status::interrupted}) {
     Solution solution = ended(limit, vector({0.0, 0.0}));
-    judge_infeasibility(CountedProgram(program), {}, solution);
+    judge_infeasibility(CountedProgram(program), {}, solution.primal, solution);
     EXPECT_EQ(solution.status, limit);
   }
 }

@@ -222,6 +222,39 @@ class Endless final : public tests::SmallProblem {
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return -x.u[0] * x.u[0]; }
 };
 
+/// The oscillator q = cos 2t swings to -1 and back in T = 3.14, without a control to hold it.
+TEST_P(ViolationInWords, NamesTheBoundOnTheMotionThatIsInTheWayAndNoFreeFinalState) {
+  const tests::HarmonicOscillator base(3.14);
+  const Restated walled(base, [](Statement& s) {
+    s.q = Bounds{Eigen::VectorXd::Constant(1, -0.2), Eigen::VectorXd::Constant(1, tests::infinity)};
+    s.u = all_between(1, -1e-3, 1e-3);
+    s.last = tests::free_end(1);
+  });
+  Ended ended(walled, GetParam(), Status::infeasible);
+  ended.solution = make_solver("ipopt")->solve(*ended.transcription, ended.solution.primal);
+  ASSERT_EQ(ended.solution.status, Status::infeasible) << ended.solution.message;
+  const std::string words = ended.words();
+  EXPECT_PRED2(says, words, "In the way is bounds().q: q[0] (q1)");
+  EXPECT_PRED2(says, words, "whose lower bound is -0.2");
+  EXPECT_FALSE(says(words, "final_state")) << words;
+}
+
+TEST_P(ViolationInWords, NamesAConditionWhoseDerivativesVanishWhereTheSolveEnded) {
+  const tests::Pendulum base;
+  const Restated conditioned(base, [](Statement& s) {
+    s.last.free_configuration(0);
+    s.conditions = [](const State& /*first*/, const State& last) {
+      return ExpressionVector::Constant(1, 1.0 - cos(last.q[0] - 1.0));
+    };
+  });
+  Ended ended(conditioned, GetParam(), Status::step_failed);
+  EXPECT_FALSE(says(ended.words(), "rank deficient")) << ended.words();  // the guess ends at pi
+  ended.solution
+      .primal[static_cast<Eigen::Index>(ended.transcription->layout().configuration_head(0)) + violation_intervals] =
+      1.0;
+  EXPECT_PRED2(says, ended.words(), "boundary_conditions[0] is rank deficient: its derivatives vanish at node 12");
+}
+
 TEST_P(ViolationInWords, TellsThatACostMayHaveNoLowerBound) {
   const Endless problem;
   Ended ended(problem, GetParam());
