@@ -34,7 +34,12 @@ BEGIN {
 }
 
 # Words of a table become parts of commands that gnuplot gives to a shell: what means something there is no part of a name.
-function clean() { gsub(/"[^"]*"/, ""); gsub(/[/`'$\\"();|&<>]/, "_") }
+# Answers without a determined control are solved for cost and state, which is all but the error of the control.
+function clean() {
+  sub(/"solved, control not determined"/, need == "control_error" ? "control not determined" : "solved")
+  gsub(/"[^"]*"/, "")
+  gsub(/[/`'$\\"();|&<>]/, "_")
+}
 function note_columns(i) { for (i = 1; i <= NF; ++i) position[$i] = i }
 # The library and the settings of a row in words.
 function statement(words) {

@@ -134,7 +134,8 @@ class Run {
     print_line(fmt::format(
         "{}: {}{}, {} not solved, {} on another branch{}: {}{}", experiment_.card().name,
         complete ? "" : fmt::format("interrupted before {} complete: ", counted(cases_.size(), "row was", "rows were")),
-        counted(rows, "row"), outcome.failures, outcome.other_branch, outcome.no_motions_by_method, table_file().string(),
+        counted(rows, "row"), outcome.failures, outcome.other_branch, outcome.no_motions_by_method,
+        table_file().string(),
         kept == 0 ? "" : fmt::format(" (and {} of other problems or settings)", counted(kept, "earlier row"))));
     if (!complete) return 130;
     const bool lacks_motion = experiment_.card().wants_motions && outcome.too_coarse + outcome.violating > 0;

@@ -35,10 +35,11 @@ bool is_unsettled(const Solution& solution) {
   return can_be && solution.correction.value_or(0.0) > settled;
 }
 
-/// True where a solver stopped, or was not believed, within a hundred times of what confirms an answer.
+/// True where a solver stopped, or was not believed, within a hundred times of what confirms an answer. Not at a limit
+/// of the user's, which is on the solver's own iterations.
 bool is_near(NonlinearProgram& program, double tolerance, const Solution& solution) {
   const bool has_stopped = solution.status == Status::not_confirmed || solution.status == Status::acceptable ||
-                           solution.status == Status::step_failed || solution.status == Status::iteration_limit;
+                           solution.status == Status::step_failed;
   if (!has_stopped) return false;
   const double residual = scaled_residual(program, tolerance, solution);
   return residual > confirmation_factor && residual <= confirmation_factor * acceptable_factor;
