@@ -71,20 +71,20 @@ do for [problem_word in problems] {
         if (q == 1 && m == 1) {
           set key at screen 0.52, screen 0.008 center bottom vertical maxrows 3 width 2
         } else { unset key }
-        plot for [i in shown] keyentry with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
-                 pointtype filled(i + 0) pointsize 0.75 title label_of(i + 0),\
+        plot for [i in shown] keyentry with linespoints linecolor rgb colour(number_in(i)) linewidth 1.5 dashtype dashes(number_in(i))\
+                 pointtype filled(number_in(i)) pointsize 0.75 title label_of(number_in(i)),\
              NaN notitle,\
-             for [i in solved] taken("''", where.",".curve_of(i + 0), quantity)\
+             for [i in solved] taken("''", where.",".curve_of(number_in(i)), quantity)\
                  using (column("intervals")):(column(quantity))\
-                 with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
-                 pointtype filled(i + 0) pointsize 0.75,\
+                 with linespoints linecolor rgb colour(number_in(i)) linewidth 1.5 dashtype dashes(number_in(i))\
+                 pointtype filled(number_in(i)) pointsize 0.75,\
              for [k = 1:words(with_bars)] taken("''", where.",".curve_of(number_in(word(with_bars, k))), "seconds_lower_quartile")\
                  using (column("intervals")):(column("seconds")):(column("seconds_lower_quartile")):\
                  (column("seconds_upper_quartile")) with yerrorbars linecolor rgb colour(number_in(word(with_bars, k))) linewidth 1.2 dashtype 1\
                  pointtype filled(number_in(word(with_bars, k))) pointsize 0.75,\
-             for [i in unsolved] taken("unsolved", where.",".curve_of(i + 0), quantity)\
+             for [i in unsolved] taken("unsolved", where.",".curve_of(number_in(i)), quantity)\
                  using (column("intervals")):(column(quantity))\
-                 with points linecolor rgb colour(i + 0) linewidth 1 pointtype open(i + 0) pointsize 0.9
+                 with points linecolor rgb colour(number_in(i)) linewidth 1 pointtype open(number_in(i)) pointsize 0.9
       }
     }
     unset multiplot

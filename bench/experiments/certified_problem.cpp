@@ -28,7 +28,8 @@ Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const So
   const SolvedCase solved =
       solve_case(the_case, Start{guessed_motion(*problem)}, *make_solver("auto", options), options.tolerance, 1);
   if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
-  throw Error(fmt::format("{} could not be solved: {}", the_case.label(), solved.solution.message));
+  throw Error(fmt::format("{} has no usable answer ({}): {}", the_case.label(), name_of(solved.solution.status),
+                          solved.solution.message));
 }
 
 /// Bounds that a parameter can switch off are switched off: the indirect method knows none.

@@ -327,7 +327,8 @@ Trajectory StartProvider::solve(const Case& the_case) {
   if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
   if (options_.stop_requested && options_.stop_requested()) throw Interrupted();
   if (!is_solved(solved.solution.status)) {
-    throw Error(fmt::format("{} could not be solved: {}", the_case.label(), solved.solution.message));
+    throw Error(fmt::format("{} has no usable answer ({}): {}", the_case.label(), name_of(solved.solution.status),
+                            solved.solution.message));
   }
   throw Error(fmt::format("{} is solved, but not on a branch that is known to be the same for all methods: {}",
                           the_case.label(),
