@@ -72,14 +72,14 @@ Registry problems_of_the_suite() {
 
 }  // namespace
 
-void Registry::add(Maker make) {
-  const std::string name = make()->name();
+void Registry::add(Maker maker) {
+  const std::string name = maker()->name();
   if (!is_name(name)) {
     throw Error("a problem cannot be named \"" + name +
                 R"(": names are small letters, digits and underscores, a letter first, and not "all")");
   }
   require_new(name, "");
-  entries_.push_back({name, make, ""});
+  entries_.push_back({name, maker, ""});
 }
 
 void Registry::add_all(const Registry& others, const std::string& origin) {
