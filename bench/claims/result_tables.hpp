@@ -14,10 +14,10 @@ namespace dmocbench {
 
 /// The tables of a results folder by their names without ".csv", each read when it is asked for.
 ///
-/// The run that wrote a table is the one whose name the table's begins with; its metadata have to say that it came to
-/// its end and wrote this content, and the JSON Schema of the rows there tells the key and the numbers. Of a problem
-/// with rows of several settings only those without settings count. A table that is not as described throws when its
-/// rows are asked for, so that it stops no claim but those that need it.
+/// The run that wrote a table is the one whose name the table's begins with; its metadata have to state that the run
+/// was complete and wrote this content, and the JSON Schema of the rows there tells the key and the numbers. Of a
+/// problem with rows of several settings only those without settings count. A table that is not as described throws
+/// when its rows are asked for, so that it stops no claim but those that need it.
 class ResultTables {
  public:
   ResultTables() = default;

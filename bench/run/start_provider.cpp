@@ -386,7 +386,8 @@ std::string varied_in_words(const Problem& problem) {
   std::string words = "starts vary q and v";
   if (!varied.empty()) words += fmt::format(" and the controls {}", fmt::join(varied, ", "));
   if (!left.empty()) {
-    words += fmt::format("; not the controls {}, of whose size neither bounds nor guess tell", fmt::join(left, ", "));
+    words +=
+        fmt::format("; not the controls {}, whose size follows from neither bounds nor guess", fmt::join(left, ", "));
   }
   return words;
 }

@@ -24,8 +24,8 @@ struct FittedOrder {
 };
 
 /// The order p by least squares: the slope of log(error) over log(step). Where errors were measured against a grid of
-/// step `reference`, finer than all others, they fall like c (h^p - reference^p), and the order is that of the
-/// difference; 0 stands for an exact reference. Points whose error is not positive and finite, and those not coarser
+/// step `reference`, finer than all others, they fall like c (h^p - reference^p), and p is fitted to this difference; 0
+/// stands for an exact reference. Points whose error is not positive and finite, and those not coarser
 /// than the reference, are left out; nothing is returned if fewer than two points remain.
 [[nodiscard]] std::optional<FittedOrder> fit_order(const std::vector<GridError>& points, double reference = 0.0);
 
@@ -42,7 +42,7 @@ enum class RangeEnd : std::uint8_t {
 /// "grids", "floor" or "orders".
 [[nodiscard]] std::string_view name_of(RangeEnd end) noexcept;
 
-/// Grids on which errors fall as one power of the step: those of number `first` up to `end`, which is not one of them.
+/// Neighbouring grids on which errors fall as one power of the step: the numbers `first` to `end` - 1.
 struct AsymptoticRange {
   std::size_t first = 0;                  ///< number of the coarsest grid
   std::size_t end = 0;                    ///< number behind the finest grid
