@@ -50,7 +50,11 @@ do for [name in "convergence convergence_512"] {
       eval finer_tics("x")
       eval set_range("x", x_low, x_high, 1.3)
       eval set_range("y", y_low, y_high, 3)
-      fitted = fit_range(name."_slopes", word(curves, 1), quantity)
+      fitted = ""  # every range that a curve is fitted over
+      do for [curve in curves] {
+        range = fit_range(name."_slopes", curve, quantity)
+        if (strlen(range) > 0 && strstrt(fitted, range) == 0) { fitted = fitted.(strlen(fitted) > 0 ? " or " : "").range }
+      }
       guide_remark = one_stage && h_ref > 0\
           ? " C (h² − h_{ref}²) is what an error C h² becomes against a reference of step h_{ref}." : ""
       set title title_text(problem_label(problem).": error of the ".quantity." over the step",\
