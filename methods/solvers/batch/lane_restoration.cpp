@@ -14,9 +14,7 @@ bool LaneRun::begin_restoration(std::size_t number) {
     give_up(number);
     return false;
   }
-  lane.line_search.leave(values_in(number, values_));
-  lane.theta_restored = constants::kappa_resto * theta;
-  lane.blocked_steps = 0;
+  lane.line_search.begin_restoration(values_in(number, values_));
   lane.phase = LanePhase::restoring;
   lane.is_searching = false;
   lane.moves = false;
@@ -30,17 +28,14 @@ bool LaneRun::try_feasibility_step(std::size_t number) {
   const Eigen::Index at = index_of(number);
   const double theta = trial_values_.theta[at];
   return std::isfinite(theta) && std::isfinite(trial_values_.objective[at]) &&
-         theta <= (1.0 - constants::sufficient_decrease * length_[at]) * values_.theta[at];
+         interior_point::FilterLineSearch::restores(values_.theta[at], theta, length_[at]);
 }
 
 /// Whether the filter accepts the point that a step has led to.
 bool LaneRun::is_restored(std::size_t number) {
   Lane& lane = lanes_[number];
-  const Eigen::Index at = index_of(number);
-  const double theta = values_.theta[at];
-  if (theta <= lane.theta_restored && lane.line_search.may_return_to(values_in(number, values_))) return true;
-  lane.blocked_steps = length_[at] < constants::very_short_step ? lane.blocked_steps + 1 : 0;
-  if (lane.blocked_steps >= constants::most_blocked_steps) give_up(number);
+  if (lane.line_search.may_return_to(values_in(number, values_), lane.line_search.restored_theta())) return true;
+  if (lane.line_search.has_no_room(length_[index_of(number)])) give_up(number);
   return false;
 }
 

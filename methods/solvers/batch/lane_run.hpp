@@ -52,8 +52,6 @@ class LaneRun {
     Assignment assignment;
     interior_point::FilterLineSearch line_search;
     interior_point::InertiaShift shift;
-    double theta_restored = 0.0;  ///< θ at which the restoration of feasibility may end
-    int blocked_steps = 0;        ///< its very short steps in a row
     double mu = 0.0;
     // Of the present step.
     bool is_searching = false;  ///< its length is not accepted yet

@@ -35,10 +35,21 @@ void FilterLineSearch::restart(double theta_max) {
   blocked_searches_ = 0;
 }
 
-void FilterLineSearch::leave(const PointValues& at) {
+void FilterLineSearch::begin_restoration(const PointValues& at) {
   filter_.add(at.theta, at.phi);
   is_blocked_ = false;
   blocked_searches_ = 0;
+  restored_theta_ = constants::kappa_resto * at.theta;
+  very_short_steps_ = 0;
+}
+
+bool FilterLineSearch::restores(double theta_from, double theta_to, double length) {
+  return theta_to <= (1.0 - constants::sufficient_decrease * length) * theta_from;
+}
+
+bool FilterLineSearch::has_no_room(double length) {
+  very_short_steps_ = length < constants::very_short_step ? very_short_steps_ + 1 : 0;
+  return very_short_steps_ >= constants::most_blocked_steps;
 }
 
 double FilterLineSearch::smallest_length(double theta, double derivative) const {

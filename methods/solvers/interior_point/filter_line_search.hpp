@@ -31,10 +31,19 @@ class FilterLineSearch {
   /// are those of the Newton step, also where its correction is tried. The filter takes up `from` where A-7 says so.
   [[nodiscard]] bool accept(const PointValues& from, const PointValues& to, double derivative, double length);
 
-  /// Before restoration: the filter takes up the point that is left, A-9.
-  void leave(const PointValues& at);
-  /// Whether restoration may end at a point.
-  [[nodiscard]] bool may_return_to(const PointValues& at) const { return filter_.accepts(at.theta, at.phi); }
+  /// Begins restoration, A-9, at a point, which the filter takes up. Restoration has to reduce its violation to the
+  /// share κ_resto.
+  void begin_restoration(const PointValues& at);
+  /// The violation at which restoration may end.
+  [[nodiscard]] double restored_theta() const { return restored_theta_; }
+  /// Whether a feasibility step of this length reduces the violation enough to be taken.
+  [[nodiscard]] static bool restores(double theta_from, double theta_to, double length);
+  /// Whether restoration may end at a point with at most this violation.
+  [[nodiscard]] bool may_return_to(const PointValues& at, double enough) const {
+    return at.theta <= enough && filter_.accepts(at.theta, at.phi);
+  }
+  /// Counts a feasibility step of this length. True after many very short ones in a row, where bounds leave no room.
+  [[nodiscard]] bool has_no_room(double length);
 
  private:
   [[nodiscard]] bool decreases(const PointValues& from, const PointValues& to, double derivative, double length,
@@ -46,6 +55,8 @@ class FilterLineSearch {
   bool is_blocked_ = false;      // the last point that was refused was so by the filter
   int blocked_searches_ = 0;     // in a row, whose last refusal was the filter's
   int emptied_ = 0;              // how often the filter was
+  double restored_theta_ = 0.0;  // the violation at which restoration may end
+  int very_short_steps_ = 0;     // of restoration, in a row
   double theta_at_start_ = 1.0;  // at least 1
   double theta_min_ = 0.0;
   double theta_max_ = 0.0;

@@ -205,13 +205,12 @@ class InteriorPointRun final : public PreparedRun {
       message_ = "No step along the Newton direction is an improvement, though all constraints hold.";
       return Status::step_failed;
     }
-    const double enough = constants::kappa_resto * values_.theta;
-    line_search_.leave(values_);
-    for (int blocked_steps = 0; blocked_steps < constants::most_blocked_steps && take_feasibility_step();
-         blocked_steps = length_ < constants::very_short_step ? blocked_steps + 1 : 0) {
+    line_search_.begin_restoration(values_);
+    const double enough = line_search_.restored_theta();
+    for (bool has_room = true; has_room && take_feasibility_step(); has_room = !line_search_.has_no_room(length_)) {
       ++iterations_;
       report("normal");
-      if (values_.theta <= enough && line_search_.may_return_to(values_)) return std::nullopt;
+      if (line_search_.may_return_to(values_, enough)) return std::nullopt;
       if (const auto reason = reason_to_stop()) return reason;
     }
     return values_.theta <= enough ? std::nullopt : descend_on_violation(enough);
@@ -227,7 +226,7 @@ class InteriorPointRun final : public PreparedRun {
       program_.set_interior(descent.point(), push_of_descent, at_);
       if (!program_.evaluate(at_, mu_, values_)) break;
       report("descent");
-      if (values_.theta <= enough && line_search_.may_return_to(values_)) return std::nullopt;
+      if (line_search_.may_return_to(values_, enough)) return std::nullopt;
       if (const auto reason = reason_to_stop()) return reason;
     }
     message_ = "Neither the Newton step nor descent on the violation is an improvement.";
@@ -241,8 +240,7 @@ class InteriorPointRun final : public PreparedRun {
     if (!newton_.feasibility_step(at_, mu, values_.constraints, step_)) return false;
     for (length_ = program_.bounds().fraction_to_boundary(at_, step_, constants::tau_min);
          length_ > constants::shortest_feasibility_step; length_ *= 0.5) {
-      if (evaluate_trial(step_, length_) &&
-          trial_values_.theta <= (1.0 - constants::sufficient_decrease * length_) * values_.theta) {
+      if (evaluate_trial(step_, length_) && FilterLineSearch::restores(values_.theta, trial_values_.theta, length_)) {
         accept_trial();
         return true;
       }

@@ -73,11 +73,11 @@ TEST(FilterLineSearch, EmptiesAFilterThatShortensSearchAfterSearch) {
     return is_blocked;
   };
   for (int emptied = 0; emptied < 5; ++emptied) {
-    search.leave(point(0.5, 0.0));
+    search.begin_restoration(point(0.5, 0.0));
     for (int i = 0; i < 10; ++i) EXPECT_TRUE(search_once()) << emptied << ' ' << i;
     EXPECT_FALSE(search_once()) << emptied;
   }
-  search.leave(point(0.5, 0.0));
+  search.begin_restoration(point(0.5, 0.0));
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(search_once()) << i;
 }
 
@@ -85,7 +85,7 @@ TEST(FilterLineSearch, EmptiesAFilterThatShortensSearchAfterSearch) {
 TEST(FilterLineSearch, KeepsTheViolationBelowThatOfTheStartOnceItIsEmptied) {
   const auto emptied_at = [](double theta) {
     FilterLineSearch search = search_from(1.0);
-    search.leave(point(0.5 * theta, 0.0));
+    search.begin_restoration(point(0.5 * theta, 0.0));
     for (int i = 0; i < 10; ++i) {
       EXPECT_FALSE(search.accept(point(theta, 1.0), point(theta, 0.5), -1e-9, 1.0));
       EXPECT_TRUE(search.accept(point(theta, 1.0), point(0.4 * theta, 1.0), -1e-9, 0.5));
