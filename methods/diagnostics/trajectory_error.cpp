@@ -55,7 +55,7 @@ TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory&
   for (Eigen::Index i = 0; i < trajectory.stage_times.size(); ++i) {
     const bool ends_interval = trajectory.tableau.c[i % trajectory.stages()] == 1.0;
     const Eigen::VectorXd u =
-        control_at(reference, trajectory.stage_times[i] * stretch, ends_interval ? Side::left : Side::right);
+        reference_control_at(reference, trajectory.stage_times[i] * stretch, ends_interval ? Side::left : Side::right);
     error.control = std::max(error.control, (trajectory.stage_u.row(i).transpose() - u).norm());
   }
   if (has_same_stages(trajectory, reference)) error.stages = stage_error(trajectory, reference);

@@ -27,8 +27,8 @@ struct TrajectoryError {
 };
 
 /// Errors against a reference on a finer grid. Controls are compared at the stage times of the coarse grid, where
-/// `control_at` evaluates the reference; motions with different horizons at the same relative times. At nodes that the
-/// reference lacks, `configuration_at` evaluates its configuration.
+/// `reference_control_at` evaluates the reference; motions with different horizons at the same relative times. At nodes
+/// that the reference lacks, `configuration_at` evaluates its configuration.
 [[nodiscard]] TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory& reference);
 
 }  // namespace dmocbench

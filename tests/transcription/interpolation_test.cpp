@@ -21,9 +21,10 @@ Trajectory arbitrary_trajectory(const std::string& method, int stages, const Gri
 }
 
 /// Samples of a smooth control at the stage times of a uniform grid on [0, 1].
-Trajectory sampled_control(int stages, Eigen::Index intervals, double (*u)(double)) {
+Trajectory sampled_control(const Tableau& tableau, Eigen::Index intervals, double (*u)(double)) {
   Trajectory trajectory;
-  trajectory.tableau = gauss_tableau(stages);
+  trajectory.tableau = tableau;
+  const Eigen::Index stages = tableau.stages();
   trajectory.node_times = Eigen::VectorXd::LinSpaced(intervals + 1, 0.0, 1.0);
   trajectory.stage_times.resize(intervals * stages);
   trajectory.stage_u.resize(intervals * stages, 1);
@@ -99,7 +100,7 @@ TEST(ControlAt, IsOfOrderTwoForOneStageAndOfOrderSForMore) {
   for (const int s : {1, 2, 3}) {
     std::vector<GridError> errors;
     for (const Eigen::Index intervals : {40, 80, 160}) {
-      const Trajectory trajectory = sampled_control(s, intervals, control);
+      const Trajectory trajectory = sampled_control(gauss_tableau(s), intervals, control);
       double worst = 0.0;
       for (int i = 0; i <= 1000; ++i) {
         const double t = i / 1000.0;
@@ -111,10 +112,40 @@ TEST(ControlAt, IsOfOrderTwoForOneStageAndOfOrderSForMore) {
   }
 }
 
+TEST(ReferenceControlAt, IsOfHigherOrderThanTheStageControls) {
+  const auto control = [](double t) { return std::sin(5.0 * t); };
+  for (const Tableau& tableau : {gauss_tableau(1), gauss_tableau(2), gauss_tableau(3), lobatto_tableau(3)}) {
+    std::vector<GridError> errors;
+    for (const Eigen::Index intervals : {20, 40, 80}) {
+      const Trajectory trajectory = sampled_control(tableau, intervals, control);
+      const double end = 1.0 / static_cast<double>(intervals);
+      double worst = 0.0;
+      for (int i = 0; i <= 1000; ++i) {
+        const double t = 1.5 * end + (1.0 - 3.0 * end) * i / 1000.0;
+        worst = std::max(worst, std::abs(reference_control_at(trajectory, t)[0] - control(t)));
+      }
+      errors.push_back({end, worst});
+    }
+    EXPECT_NEAR(fit_order(errors)->order, static_cast<double>(tableau.stages()) + 2.0, 0.1);
+  }
+}
+
+TEST(ReferenceControlAt, ReproducesTheStageControls) {
+  for (const std::string tableau : {"gauss", "lobatto"}) {
+    const Trajectory trajectory = sampled_control(tableau == "gauss" ? gauss_tableau(3) : lobatto_tableau(3), 5,
+                                                  [](double t) { return std::exp(t); });
+    for (Eigen::Index row = 0; row < trajectory.stage_times.size(); ++row) {
+      const Side side = trajectory.tableau.c[row % 3] == 1.0 ? Side::left : Side::right;
+      EXPECT_NEAR(reference_control_at(trajectory, trajectory.stage_times[row], side)[0], trajectory.stage_u(row, 0),
+                  1e-13);
+    }
+  }
+}
+
 TEST(ControlAt, IsExactForLinearControlsUpToTheEndsOfTheHorizon) {
   const auto line = [](double t) { return 3.0 - 7.0 * t; };
   for (const int s : {1, 2, 3}) {
-    const Trajectory trajectory = sampled_control(s, 6, line);
+    const Trajectory trajectory = sampled_control(gauss_tableau(s), 6, line);
     for (const double t : {0.0, 0.01, 0.3, 0.5, 0.77, 0.999, 1.0}) {
       EXPECT_NEAR(control_at(trajectory, t)[0], line(t), 1e-13) << "s = " << s << ", t = " << t;
     }
@@ -122,9 +153,9 @@ TEST(ControlAt, IsExactForLinearControlsUpToTheEndsOfTheHorizon) {
 }
 
 TEST(ControlOnInterval, IsConstantForOneStageAndDoesNotLookAtItsNeighbours) {
-  const Trajectory one = sampled_control(1, 4, [](double t) { return t * t; });
+  const Trajectory one = sampled_control(gauss_tableau(1), 4, [](double t) { return t * t; });
   EXPECT_EQ(control_on_interval(one, 2, 0.5)[0], control_on_interval(one, 2, 0.75)[0]);
-  Trajectory two = sampled_control(2, 4, [](double t) { return t * t; });
+  Trajectory two = sampled_control(gauss_tableau(2), 4, [](double t) { return t * t; });
   const double before = control_on_interval(two, 1, 0.4)[0];
   two.stage_u.row(1).setConstant(99.0);
   two.stage_u.row(4).setConstant(99.0);

@@ -32,6 +32,12 @@ Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
   return integral;
 }
 
+/// The interval of a node or of any other time on that side of it.
+Eigen::Index interval_on_side(const Eigen::VectorXd& times, double t, Side side) {
+  const double nudge = rounding_of_times * (times[times.size() - 1] - times[0]);
+  return interval_of(times, side == Side::left ? t - nudge : t + nudge);
+}
+
 /// The polynomial through the stages of an interval, from their table.
 Eigen::VectorXd stage_polynomial(const Trajectory& trajectory, const Eigen::MatrixXd& stages, Eigen::Index interval,
                                  double t) {
@@ -71,15 +77,30 @@ Eigen::VectorXd velocity_on_interval(const Trajectory& trajectory, Eigen::Index 
 
 Eigen::VectorXd control_at(const Trajectory& trajectory, double t, Side side) {
   if (trajectory.stages() > 1) {
-    const Eigen::VectorXd& times = trajectory.node_times;
-    const double nudge = rounding_of_times * (times[times.size() - 1] - times[0]);
-    return control_on_interval(trajectory, interval_of(times, side == Side::left ? t - nudge : t + nudge), t);
+    return control_on_interval(trajectory, interval_on_side(trajectory.node_times, t, side), t);
   }
   if (trajectory.intervals() == 1) return trajectory.stage_u.row(0).transpose();
   const Eigen::Index k = interval_of(trajectory.stage_times, t);
   const double left = trajectory.stage_times[k];
   const double weight = (t - left) / (trajectory.stage_times[k + 1] - left);
   return (1.0 - weight) * trajectory.stage_u.row(k).transpose() + weight * trajectory.stage_u.row(k + 1).transpose();
+}
+
+Eigen::VectorXd reference_control_at(const Trajectory& trajectory, double t, Side side) {
+  const Eigen::VectorXd& times = trajectory.stage_times;
+  const Eigen::Index s = trajectory.stages();
+  const Eigen::Index k = interval_on_side(trajectory.node_times, t, side);
+  // Lobatto stages of two intervals share the time of a node.
+  const bool shares_nodes = trajectory.tableau.c[0] == 0.0 && trajectory.tableau.c[s - 1] == 1.0;
+  const Eigen::Index away = shares_nodes ? 2 : 1;
+  std::vector<Eigen::Index> stages;
+  if (k > 0) stages.push_back(k * s - away);
+  for (Eigen::Index i = 0; i < s; ++i) stages.push_back(k * s + i);
+  if (k + 1 < trajectory.intervals()) stages.push_back((k + 1) * s - 1 + away);
+  const double step = trajectory.step(k);
+  Eigen::VectorXd places = (times(stages).array() - trajectory.node_times[k]) / step;
+  return trajectory.stage_u(stages, Eigen::all).transpose() *
+         lagrange_basis(places, (t - trajectory.node_times[k]) / step);
 }
 
 Motion smooth_motion(const Trajectory& trajectory) {

@@ -30,6 +30,11 @@ enum class Side : std::uint8_t { left, right };
 /// the interval; at a node, of the interval on that side.
 [[nodiscard]] Eigen::VectorXd control_at(const Trajectory& trajectory, double t, Side side = Side::right);
 
+/// The control of a reference at time t, m entries: the polynomial through the stages of the interval on that side and
+/// the nearest stage of each neighbouring interval, of order s + 2, or s + 1 in the first and last interval. Errors
+/// against it are errors of stage values. The polynomial through the stages of one interval has only the order s.
+[[nodiscard]] Eigen::VectorXd reference_control_at(const Trajectory& trajectory, double t, Side side = Side::right);
+
 /// The control that acts on the discrete system: the polynomial through the stages of interval k = `interval`,
 /// [t_k, t_{k+1}]; constant for one stage.
 [[nodiscard]] Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t);
