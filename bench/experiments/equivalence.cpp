@@ -9,6 +9,7 @@
 #include "bench/run/experiment.hpp"
 #include "bench/tables/fitted_orders.hpp"
 #include "methods/diagnostics/adjoint_scheme.hpp"
+#include "methods/diagnostics/control_lagrangian.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/transcription/start.hpp"
@@ -62,6 +63,8 @@ struct Measured {
   std::optional<ForeignViolation> of_dmoc;  // DMOC's answer in this method's constraints
   std::optional<double> adjoint_residual;
   std::optional<double> plain_residual;
+  std::optional<double> forced_form_residual;
+  std::optional<double> acceleration_form_residual;
   std::optional<int> polish_steps;
 };
 
@@ -103,6 +106,11 @@ class Equivalence final : public ExperimentOf<Measured> {
          &Measured::plain_residual},
         {"polish_steps", "", "Newton steps behind the solver", &Measured::polish_steps},
         {"horizon_difference", "", "of T", &Measured::horizon},
+        {"forced_form_residual", "",
+         "residual in the discrete Euler-Lagrange equations of the control Lagrangian C + xi F + xi' L_v, F = L_q + f",
+         &Measured::forced_form_residual},
+        {"acceleration_form_residual", "", "the same of C + xi q'' + xi' q', q'' as a function of (q, q', u)",
+         &Measured::acceleration_form_residual},
     };
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
@@ -126,6 +134,13 @@ class Equivalence final : public ExperimentOf<Measured> {
       };
       measured.adjoint_residual = residual(adjoint_coefficients(tableau));
       measured.plain_residual = residual({.a_q = tableau.a, .a_p = tableau.a_conjugate});
+      if (trajectory.stages() == 1 && trajectory.intervals() > 1) {
+        const auto of_form = [&](ControlLagrangianForm form) {
+          return control_lagrangian_residual(*here.problem, trajectory, form).largest();
+        };
+        measured.forced_form_residual = of_form(ControlLagrangianForm::forced_euler_lagrange);
+        measured.acceleration_form_residual = of_form(ControlLagrangianForm::acceleration);
+      }
     } else if (trajectory.has_costates()) {
       solved.note(
           "Its stages have no costates to put into the adjoint scheme: constraints along the path have "

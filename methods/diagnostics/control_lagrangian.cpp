@@ -1,0 +1,145 @@
+#include "methods/diagnostics/control_lagrangian.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/linear_solve.hpp"
+#include "methods/mechanics/point_function.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// F and P of a form at a point.
+std::pair<ExpressionVector, ExpressionVector> terms(const TracedProblem::Values& values, const ControlledState& x,
+                                                    ControlLagrangianForm form) {
+  if (form == ControlLagrangianForm::forced_euler_lagrange) return {values.generalised_force, values.momentum};
+  const ExpressionVector inertial = values.momentum_by_configuration * x.v + values.momentum_by_time;
+  return {solve_symmetric(values.mass, values.generalised_force - inertial), x.v};
+}
+
+/// The derivatives of Λ at the midpoints of intervals.
+class ControlLagrangian {
+ public:
+  ControlLagrangian(const TracedProblem& problem, ControlLagrangianForm form)
+      : n_(problem.configuration_size()),
+        m_(problem.control_size()),
+        function_(n_, m_,
+                  [&](const ControlledState& x) {
+                    const TracedProblem::Values values = problem.at(x);
+                    const auto [force, momentum] = terms(values, x, form);
+                    const Expression& cost = values.running_cost;
+                    ExpressionVector outputs(4 * n_ + m_ + 4 * n_ * n_ + n_ * m_);
+                    outputs << force, momentum, gradient(cost, x.q), gradient(cost, x.v), gradient(cost, x.u),
+                        jacobian(force, x.q).reshaped(), jacobian(force, x.v).reshaped(),
+                        jacobian(momentum, x.q).reshaped(), jacobian(momentum, x.v).reshaped(),
+                        jacobian(force, x.u).reshaped();
+                    return outputs;
+                  }),
+        values_(function_.output_count()) {}
+
+  struct Derivatives {
+    Eigen::VectorXd q;                ///< Λ_q
+    Eigen::VectorXd v;                ///< Λ_q̇
+    Eigen::VectorXd u;                ///< Λ_u
+    Eigen::VectorXd xi;               ///< Λ_ξ = F
+    Eigen::VectorXd xi_rate;          ///< Λ_ξ̇ = P
+    Eigen::VectorXd cost_by_control;  ///< C_u
+  };
+  [[nodiscard]] Derivatives at(const MotionPoint& point, double t, const Eigen::VectorXd& xi,
+                               const Eigen::VectorXd& xi_rate) {
+    function_.evaluate(point, t, values_);
+    const Eigen::VectorXd cost_by_control = values_.segment(4 * n_, m_);
+    const auto of_force = values_.tail(n_ * m_).reshaped(n_, m_);
+    return {.q = part(2) + square(0).transpose() * xi + square(2).transpose() * xi_rate,
+            .v = part(3) + square(1).transpose() * xi + square(3).transpose() * xi_rate,
+            .u = cost_by_control + of_force.transpose() * xi,
+            .xi = part(0),
+            .xi_rate = part(1),
+            .cost_by_control = cost_by_control};
+  }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd part(Eigen::Index which) const { return values_.segment(which * n_, n_); }
+  [[nodiscard]] Eigen::MatrixXd square(Eigen::Index which) const {
+    return values_.segment(4 * n_ + m_ + which * n_ * n_, n_ * n_).reshaped(n_, n_);
+  }
+
+  Eigen::Index n_;
+  Eigen::Index m_;
+  PointFunction function_;
+  Eigen::VectorXd values_;
+};
+
+/// ξ at the nodes, a row each.
+Eigen::MatrixXd multipliers_at_nodes(const TracedProblem& problem, const Trajectory& trajectory,
+                                     ControlLagrangianForm form) {
+  if (form == ControlLagrangianForm::forced_euler_lagrange) return trajectory.psi_p;
+  const Eigen::Index n = problem.configuration_size();
+  PointFunction mass(n, problem.control_size(),
+                     [&](const ControlledState& x) { return ExpressionVector(problem.at(x).mass.reshaped()); });
+  Eigen::VectorXd entries(n * n);
+  Eigen::MatrixXd xi(trajectory.psi_p.rows(), n);
+  for (Eigen::Index k = 0; k < xi.rows(); ++k) {
+    const MotionPoint node{trajectory.q.row(k).transpose(), trajectory.v.row(k).transpose(), {}};
+    mass.evaluate(node, trajectory.node_times[k], entries);
+    xi.row(k) = (entries.reshaped(n, n) * trajectory.psi_p.row(k).transpose()).transpose();
+  }
+  return xi;
+}
+
+double relative(double residual, double scale) { return scale > 0.0 ? residual / scale : residual; }
+
+}  // namespace
+
+double ControlLagrangianResidual::largest() const { return std::max({adjoint, motion, control}); }
+
+ControlLagrangianResidual control_lagrangian_residual(const Problem& problem, const Trajectory& trajectory,
+                                                      ControlLagrangianForm form) {
+  if (!trajectory.has_costates()) throw Error("the control Lagrangian needs costates: take a solver with multipliers");
+  if (trajectory.stages() != 1 || trajectory.intervals() < 2) {
+    throw Error("the control Lagrangian is discretised by one stage on two intervals or more");
+  }
+  const TracedProblem traced(problem);
+  ControlLagrangian lagrangian(traced, form);
+  const Eigen::MatrixXd xi = multipliers_at_nodes(traced, trajectory, form);
+  const auto mean = [](const Eigen::MatrixXd& rows, Eigen::Index k) {
+    return Eigen::VectorXd(0.5 * (rows.row(k) + rows.row(k + 1)).transpose());
+  };
+  ControlLagrangianResidual largest;
+  double size_of_v = 0.0;
+  double size_of_rate = 0.0;
+  double size_of_cost = 0.0;
+  ControlLagrangian::Derivatives before;
+  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
+    const double h = trajectory.step(k);
+    const auto rate = [&](const Eigen::MatrixXd& rows) {
+      return Eigen::VectorXd((rows.row(k + 1) - rows.row(k)).transpose() / h);
+    };
+    const MotionPoint middle{mean(trajectory.q, k), rate(trajectory.q), trajectory.stage_u.row(k).transpose()};
+    ControlLagrangian::Derivatives here = lagrangian.at(middle, trajectory.stage_times[k], mean(xi, k), rate(xi));
+    size_of_v = std::max(size_of_v, here.v.norm());
+    size_of_rate = std::max(size_of_rate, here.xi_rate.norm());
+    size_of_cost = std::max(size_of_cost, here.cost_by_control.norm());
+    largest.control = std::max(largest.control, here.u.norm());
+    if (k > 0) {
+      const double left = 0.5 * trajectory.step(k - 1);
+      const double right = 0.5 * h;
+      const auto defect = [&](const Eigen::VectorXd& force_before, const Eigen::VectorXd& force,
+                              const Eigen::VectorXd& momentum_before, const Eigen::VectorXd& momentum) {
+        return (left * force_before + right * force + momentum_before - momentum).norm() / (left + right);
+      };
+      largest.adjoint = std::max(largest.adjoint, defect(before.q, here.q, before.v, here.v));
+      largest.motion = std::max(largest.motion, defect(before.xi, here.xi, before.xi_rate, here.xi_rate));
+    }
+    before = std::move(here);
+  }
+  const double horizon = trajectory.node_times[trajectory.intervals()] - trajectory.node_times[0];
+  return {.adjoint = relative(horizon * largest.adjoint, size_of_v),
+          .motion = relative(horizon * largest.motion, size_of_rate),
+          .control = relative(largest.control, size_of_cost)};
+}
+
+}  // namespace dmocbench
