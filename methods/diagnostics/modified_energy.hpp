@@ -23,7 +23,7 @@ using StepSeries = std::array<long double, 3>;
 ///   H₂ = -D_X² H/24,   H₄ = -D_X² H₂/24 - D_X D_Y H/30 - D_X⁴ H/1920,   Y = J∇H₂,
 ///
 /// where X and Y are held constant while the derivatives are taken. DMOC and Hamiltonian collocation by one Gauss stage
-/// are this rule for every L. methods/README.md derives the terms.
+/// are this rule for every L. methods/diagnostics/README.md derives the terms.
 ///
 /// With forces X becomes F = X + (0, f), and the modified energy changes by modified work: on one step by
 /// h (W + h²W₂ + h⁴W₄) + O(h⁷) at the midpoint, where W = f·q̇ is the virtual work of the method and
