@@ -10,7 +10,7 @@ Motion one_interval_later(const Trajectory& trajectory) {
     if (beyond > 0.0) point.q += beyond * point.v;
     return point;
   };
-  return {at, motion.horizon};
+  return {at, motion.horizon, motion.unknowns};
 }
 
 Eigen::VectorXd shifted(const Places& places, const Eigen::VectorXd& values) {

@@ -121,10 +121,10 @@ std::string active_bounds(const Problem& problem, const Trajectory& motion) {
   bool state = meets(bounds.q, inner_q) || meets(bounds.v, motion.stage_v);
   const Eigen::MatrixXd values = path_constraints_along(problem, motion);
   const ReadBy read = what_path_constraints_read(problem);
+  const Bounds path = bounds.of_path(values.cols());
   for (Eigen::Index i = 0; i < values.cols(); ++i) {
-    Bounds from_zero = Bounds::none(1);
-    from_zero.lower[0] = 0.0;
-    if (!meets(from_zero, values.col(i))) continue;
+    const Bounds own{path.lower.segment(i, 1), path.upper.segment(i, 1)};
+    if (!meets(own, values.col(i))) continue;
     control = control || read.control[static_cast<std::size_t>(i)];
     state = state || read.state[static_cast<std::size_t>(i)];
   }

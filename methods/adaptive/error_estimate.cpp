@@ -245,7 +245,11 @@ ErrorEstimator::ErrorEstimator(const Transcription& program)
 
 ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::VectorXd& primal,
                                        const Eigen::VectorXd& multipliers, const Trajectory& motion) {
-  if (program.layout().shape().mayer) throw Error("the error can only be estimated in Bolza form (--form bolza)");
+  const LayoutShape& shape = program.layout().shape();
+  if (shape.mayer) throw Error("the error can only be estimated in Bolza form (--form bolza)");
+  if (shape.integrals > 0 || shape.unknown_parameters > 0) {
+    throw Error("the error cannot be estimated with integral constraints or unknown parameters");
+  }
   const LinearisedConditions at(program, primal, multipliers);
   require_smooth_optimum(program, at);
   constexpr double safety_of_floors = 20.0;

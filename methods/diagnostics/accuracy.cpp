@@ -10,6 +10,7 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -54,6 +55,7 @@ std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& traject
 }  // namespace
 
 Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   return accuracy(TracedProblem(problem), trajectory, tolerance);
 }
 

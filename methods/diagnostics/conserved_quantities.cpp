@@ -5,12 +5,30 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 
+namespace {
+
+/// What the integral constraints add to the integrand of the cost.
+Expression priced_integrals(const TracedProblem::Values& values, const Trajectory& trajectory) {
+  if (trajectory.integral_prices.size() != values.integrands.size()) {
+    throw Error("the control Hamiltonian needs the prices of the integral constraints: a solver with multipliers");
+  }
+  Expression sum;
+  for (Eigen::Index i = 0; i < values.integrands.size(); ++i) {
+    sum -= Expression(trajectory.integral_prices[i]) * values.integrands[i];
+  }
+  return sum;
+}
+
+}  // namespace
+
 MomentumConsistency momentum_consistency(const Problem& problem, const Trajectory& trajectory) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   if (!traced.has_symmetry()) {
     throw Error(problem.name() + " states no symmetry, so there is no momentum to watch");
@@ -72,6 +90,7 @@ double Energy::power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const E
 }
 
 EnergyBalance energy_balance(const Problem& problem, const Trajectory& trajectory) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   Energy energy(problem);
   const auto at_node = [&](Eigen::Index k) {
     const MotionPoint node = trajectory.node(k);
@@ -96,12 +115,13 @@ EnergyBalance energy_balance(const Problem& problem, const Trajectory& trajector
 
 Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& trajectory) {
   if (!trajectory.has_costates()) throw Error("the control Hamiltonian needs costates: a solver with multipliers");
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   const Eigen::Index n = traced.configuration_size();
   PointFunction rates(n, traced.control_size(), [&](const ControlledState& x) {  // C, then ṗ
     const TracedProblem::Values values = traced.at(x);
     ExpressionVector outputs(1 + n);
-    outputs << values.running_cost, values.generalised_force;
+    outputs << values.running_cost + priced_integrals(values, trajectory), values.generalised_force;
     return outputs;
   });
   Eigen::VectorXd hamiltonian(trajectory.node_times.size());
@@ -119,6 +139,7 @@ Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& tr
 }
 
 double free_horizon_residual(const Problem& problem, const Trajectory& trajectory) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const Eigen::VectorXd hamiltonian = control_hamiltonian(problem, trajectory);
   const TracedProblem traced(problem);
   const Eigen::Index n = traced.configuration_size();

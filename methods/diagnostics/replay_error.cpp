@@ -8,6 +8,7 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
@@ -94,6 +95,7 @@ class Replay {
 double ReplayError::norm() const { return std::hypot(configuration, velocity); }
 
 ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index intervals = trajectory.intervals();
   const ProblemBounds bounds = problem.bounds();
@@ -111,6 +113,7 @@ ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, d
 }
 
 double cost_by_intervals(const Problem& problem, const Trajectory& trajectory, double tolerance) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const Eigen::Index intervals = trajectory.intervals();
   Replay replay(problem, trajectory, tolerance);
   double cost = 0.0;

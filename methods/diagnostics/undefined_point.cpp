@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/mechanics/formula_check.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
@@ -34,6 +35,7 @@ std::optional<UndefinedPoint> undefined_between(FormulaCheck& check, const Traje
 }  // namespace
 
 std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   FormulaCheck check(problem);
   for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
     if (auto found = undefined_between(check, trajectory, k)) return found;
@@ -43,6 +45,7 @@ std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Traj
 
 std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory,
                                               Eigen::Index interval) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   FormulaCheck check(problem);
   const ProblemBounds bounds = problem.bounds();
   for (const Eigen::Index node : {interval, interval + 1}) {

@@ -91,7 +91,8 @@ class Measurement {
     upper_ = joined(bounds, &Bounds::upper, n_, m_, infinite);
     scales_ << range_of_q_.each, range_of_v_.each, Ranges(trajectory.stage_u).each;
     if (traced.path_constraint_count() == 0) return;
-    path_.emplace(traced, std::max(points * intervals_at_once, 2 * scales_.size()));
+    path_bounds_ = bounds.of_path(traced.path_constraint_count());
+    path_.emplace(traced, std::max(points * intervals_at_once, 2 * scales_.size() + 1));
     violated_.resize(static_cast<std::size_t>(path_->count()));
   }
 
@@ -170,8 +171,10 @@ class Measurement {
         while (std::isfinite(h(row, i))) ++row;
         keep(worst, infinite, row);
       } else {
-        const double least = h.col(i).minCoeff(&row);
-        keep(worst, -least, row);
+        const double below = path_bounds_.lower[i] - h.col(i).minCoeff(&row);
+        keep(worst, below, row);
+        const double above = h.col(i).maxCoeff(&row) - path_bounds_.upper[i];
+        keep(worst, above, row);
       }
     }
   }
@@ -250,12 +253,13 @@ class Measurement {
     if (std::isinf(worst.amount)) return infinite;
     constexpr double delta = largest_violation_of_a_motion;
     const Eigen::Index moved = 2 * n_ + m_;
-    Eigen::MatrixXd rows = worst.point.replicate(2 * moved, 1);
+    Eigen::MatrixXd rows = worst.point.replicate(2 * moved + 1, 1);  // the last one stays
     for (Eigen::Index j = 0; j < moved; ++j) {
       rows(2 * j, j) += delta * scales_[j];
       rows(2 * j + 1, j) -= delta * scales_[j];
     }
-    const Eigen::VectorXd changes = (path_->at(rows, 2 * moved).col(i).array() + worst.amount).abs();
+    const Eigen::VectorXd values = path_->at(rows, 2 * moved + 1).col(i);
+    const Eigen::VectorXd changes = (values.head(2 * moved).array() - values[2 * moved]).abs();
     double change = 0.0;
     for (Eigen::Index j = 0; j < moved; ++j) change += std::max(changes[2 * j], changes[2 * j + 1]);
     return delta * worst.amount / change;
@@ -296,6 +300,7 @@ class Measurement {
   Ranges range_of_v_;
   std::vector<Worst> outside_;
   std::optional<PathConstraints> path_;
+  Bounds path_bounds_;
   std::vector<Worst> violated_;  // path constraints
   Eigen::Index first_ = 0;
   Eigen::Index count_ = 0;

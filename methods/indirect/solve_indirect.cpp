@@ -65,6 +65,8 @@ void require_smooth_class(const Problem& problem) {
   if (bounds.u.any()) refuse("bounds on the controls");
   if (bounds.q.any() || bounds.v.any()) refuse("bounds on the state");
   if (traced.path_constraint_count() > 0) refuse("path constraints");
+  if (traced.integral_count() > 0) refuse("integral constraints");
+  if (traced.unknown_count() > 0) refuse("unknown parameters");
   if (traced.boundary_condition_count() > 0) refuse("boundary conditions");
   const Eigen::Index n = traced.configuration_size();
   const auto size = static_cast<std::size_t>(n);

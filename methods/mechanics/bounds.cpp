@@ -34,6 +34,10 @@ EndBounds& EndBounds::free_velocity(Eigen::Index i) {
   return *this;
 }
 
+Bounds ProblemBounds::of_path(Eigen::Index count) const {
+  return path.empty() ? Bounds::all(count, 0.0, std::numeric_limits<double>::infinity()) : path;
+}
+
 std::vector<Eigen::Index> ProblemBounds::bounded_velocities() const {
   std::vector<Eigen::Index> bounded;
   for (Eigen::Index i = 0; i < v.lower.size(); ++i) {

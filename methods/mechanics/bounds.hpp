@@ -65,6 +65,11 @@ struct ProblemBounds {
   Bounds q;               ///< at every node, n entries or none
   Bounds v;               ///< at every stage, n entries or none
   Bounds u;               ///< at every stage, m entries or none
+  Bounds path;            ///< on the path constraints h at every stage, one entry each; h >= 0 where there are none
+  Bounds integrals;       ///< on the integrals of `Problem::integrands` over [0, T], one entry each
+
+  /// On h, with `count` entries: `path`, or h >= 0 where that is empty.
+  [[nodiscard]] Bounds of_path(Eigen::Index count) const;
 
   /// The i whose velocity has a bound, in ascending order.
   [[nodiscard]] std::vector<Eigen::Index> bounded_velocities() const;

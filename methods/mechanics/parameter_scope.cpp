@@ -51,7 +51,9 @@ ParameterTrace::ParameterTrace(const Problem& problem, const std::vector<std::st
       problem_(problem),
       varies_(problem.parameters().size(), false),
       is_number_(problem.parameters().size(), false) {
-  for (const std::string& name : open) {
+  std::vector<std::string> names = open;
+  for (const std::size_t unknown : problem.unknowns()) names.push_back(problem.parameters()[unknown].name);
+  for (const std::string& name : names) {
     const std::size_t number = parameter_number(problem, name);
     if (problem.parameters()[number].whole) {
       throw Error(
@@ -74,9 +76,23 @@ std::optional<std::size_t> ParameterTrace::read_varying(std::size_t parameter) {
 void ParameterTrace::read_as_number(std::size_t parameter) {
   is_number_[parameter] = true;
   if (std::ranges::find(open_, parameter) == open_.end()) return;
+  const auto& [name, is_unknown] =
+      std::pair(problem_.parameters()[parameter].name, problem_.parameters()[parameter].is_unknown);
+  if (is_unknown) {
+    throw Error(fmt::format("{}: a formula reads the unknown {} by parameter(), as a number; varying() is the unknown",
+                            problem_.name(), name));
+  }
   throw Error(fmt::format(
       "{}: the parameter {} cannot be kept open, since a formula reads it by parameter(); varying() would let it vary",
-      problem_.name(), problem_.parameters()[parameter].name));
+      problem_.name(), name));
+}
+
+void ParameterTrace::require_unknowns_read() const {
+  for (const std::size_t unknown : problem_.unknowns()) {
+    if (varies_[unknown]) continue;
+    throw Error(fmt::format("{}: no formula reads the unknown {}; leave it out", problem_.name(),
+                            problem_.parameters()[unknown].name));
+  }
 }
 
 std::vector<bool> ParameterTrace::are_constants() const {
@@ -90,9 +106,21 @@ std::vector<bool> ParameterTrace::are_constants() const {
 std::vector<bool> ParameterTrace::are_varying() const {
   std::vector<bool> varying = varies_;
   for (std::size_t i = 0; i < varying.size(); ++i) {
-    if (is_number_[i] || problem_.parameters()[i].whole) varying[i] = false;
+    const Parameter& parameter = problem_.parameters()[i];
+    if (is_number_[i] || parameter.whole || parameter.is_unknown) varying[i] = false;
   }
   return varying;
+}
+
+ParameterScope with_unknowns(const Problem& problem, const Eigen::VectorXd& values) {
+  Eigen::VectorXd all = parameter_values(problem);
+  const std::vector<std::size_t> unknowns = problem.unknowns();
+  for (std::size_t i = 0; i < unknowns.size() && static_cast<Eigen::Index>(i) < values.size(); ++i) {
+    const Parameter& parameter = problem.parameters()[unknowns[i]];
+    all[static_cast<Eigen::Index>(unknowns[i])] =
+        std::clamp(values[static_cast<Eigen::Index>(i)], parameter.lower, parameter.upper);
+  }
+  return {problem, std::move(all)};
 }
 
 Eigen::VectorXd parameter_values(const Problem& problem) {

@@ -50,16 +50,18 @@ class ParameterScope {
 /// 0, 1, ... (`Problem::varying`), and it is noted which others they read.
 class ParameterTrace final : public ParameterScope {
  public:
-  /// `open`: names of the parameters that are kept open. Throws `Error` if there is none of that name, one occurs
-  /// twice, or its values are whole numbers.
+  /// `open`: names of the parameters that are kept open, besides which the unknown ones are. Throws `Error` if there is
+  /// none of that name, one occurs twice, or its values are whole numbers.
   ParameterTrace(const Problem& problem, const std::vector<std::string>& open);
 
-  /// The parameters that are kept open, by their numbers among all: that of input i at i.
+  /// The parameters that are kept open, the unknown ones last, by their numbers among all: that of input i at i.
   [[nodiscard]] const std::vector<std::size_t>& open() const noexcept { return open_; }
+  /// Throws `Error` if no formula has read one of the unknown parameters.
+  void require_unknowns_read() const;
   /// Per parameter, whether a formula has read it as a number, or by `varying` though it is not kept open: its value is
   /// a constant of the trace now.
   [[nodiscard]] std::vector<bool> are_constants() const;
-  /// Per parameter, whether formulas have read it by `varying` and nowhere as a number.
+  /// Per parameter that is no unknown, whether formulas have read it by `varying` and nowhere as a number.
   [[nodiscard]] std::vector<bool> are_varying() const;
 
  private:
@@ -72,6 +74,10 @@ class ParameterTrace final : public ParameterScope {
   std::vector<bool> varies_;     // per parameter: read by `varying`
   std::vector<bool> is_number_;  // read as a number
 };
+
+/// A problem as solved: its unknown parameters have these values, moved into their ranges, in the order of
+/// `Problem::unknowns`; all others keep those that this thread sees.
+[[nodiscard]] ParameterScope with_unknowns(const Problem& problem, const Eigen::VectorXd& values);
 
 /// The values of a problem's parameters as this thread sees them, in the order of `Problem::parameters`.
 [[nodiscard]] Eigen::VectorXd parameter_values(const Problem& problem);

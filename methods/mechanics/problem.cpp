@@ -120,6 +120,8 @@ ProblemBounds Problem::bounds() const {
 
 ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const { return {}; }
 
+ExpressionVector Problem::integrands(const ControlledState& /*x*/) const { return {}; }
+
 ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }
 
 Expression Problem::final_cost(const State& /*last*/) const { return {}; }
@@ -149,6 +151,14 @@ Expression Problem::varying(std::string_view name) const {
   if (scope == nullptr) return {parameters_[number].value};
   const auto input = scope->read_varying(number);
   return input ? Expression::input(*input) : Expression(scope->value(number));
+}
+
+std::vector<std::size_t> Problem::unknowns() const {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    if (parameters_[i].is_unknown) numbers.push_back(i);
+  }
+  return numbers;
 }
 
 void Problem::set_parameter(std::string_view name, double value) {

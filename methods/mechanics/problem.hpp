@@ -27,6 +27,9 @@ struct Parameter {
   double lower = -std::numeric_limits<double>::infinity();  ///< smallest allowed value
   double upper = std::numeric_limits<double>::infinity();   ///< largest allowed value
   bool whole = false;                                       ///< whole numbers only
+  /// A solve chooses it in its range, from its value on: a constant of the motion that formulas read by
+  /// `Problem::varying`.
+  bool is_unknown = false;
 
   /// The allowed values in words: "a whole number in [1, 100]".
   [[nodiscard]] std::string range() const;
@@ -39,8 +42,9 @@ struct Parameter {
 ///   minimise  ∫₀ᵀ C(q, q̇, u) dt + Φ(q(T), q̇(T), T)
 ///   such that  δ∫₀ᵀ L(q, q̇) dt + ∫₀ᵀ f(q, q̇, u)·δq dt = 0,   h(q, q̇, u) >= 0,   r(q(0), q̇(0), q(T), q̇(T)) = 0,
 ///
-/// with bounds on both ends, on q, q̇ and u along the motion, and on T. Every formula may depend on time. The simplest
-/// problem states L, f, C, two ends and T, all of them fixed; all that it does not override is absent.
+/// with bounds on both ends, on q, q̇ and u along the motion, on T and on further integrals ∫₀ᵀ c dt. Every formula may
+/// depend on time, and on parameters of which some may be unknowns too. The simplest problem states L, f, C, two ends
+/// and T, all of them fixed; all that it does not override is absent.
 ///
 /// A problem states its formulas once, as traced expressions; no derivative, mass matrix or Hamiltonian is ever asked
 /// of it. L must be regular: L_vv invertible along the motion. Formulas are plain C++ on `Expression`: they may loop
@@ -85,8 +89,13 @@ class Problem {
   /// Bounds on the ends, on T and along the motion. Default: both ends and T fixed, nothing else bounded. Overrides
   /// start from `Problem::bounds()`.
   [[nodiscard]] virtual ProblemBounds bounds() const;
-  /// h(q, q̇, u, t) >= 0 at every stage (eq:LOCP4), (eq:gDLOCP5): as many entries as there are constraints.
+  /// h(q, q̇, u, t) >= 0 at every stage (eq:LOCP4), (eq:gDLOCP5): as many entries as there are constraints. With
+  /// `ProblemBounds::path` lower <= h <= upper, entry by entry; equal bounds make an equality along the motion, of
+  /// which there may be at most m.
   [[nodiscard]] virtual ExpressionVector path_constraints(const ControlledState& x) const;
+  /// c(q, q̇, u, t) of the integral constraints lower <= ∫₀ᵀ c dt <= upper, whose bounds are
+  /// `ProblemBounds::integrals`: as many entries as there are. Every method integrates them as it does the cost.
+  [[nodiscard]] virtual ExpressionVector integrands(const ControlledState& x) const;
   /// r(q(0), q̇(0), q(T), q̇(T)) = 0 (eq:LOCP5), (eq:gDLOCP6), periodicity among them: as many entries as there are
   /// conditions. `last.t` is T.
   [[nodiscard]] virtual ExpressionVector boundary_conditions(const State& first, const State& last) const;
@@ -119,6 +128,8 @@ class Problem {
   /// A parameter for use in formulas, so that its value may change later: an input of the trace in a transcription that
   /// keeps it open, elsewhere its value. Throws as `parameter`.
   [[nodiscard]] Expression varying(std::string_view name) const;
+  /// The numbers of the unknown ones among all parameters.
+  [[nodiscard]] std::vector<std::size_t> unknowns() const;
   /// Sets a parameter. Throws `Error` if there is none of that name or the value is not allowed.
   void set_parameter(std::string_view name, double value);
   /// True if every parameter has its default value, those in `except` apart: a certified optimum holds for the data

@@ -124,11 +124,24 @@ ProblemBounds complete_bounds(const Problem& problem, ProblemBounds bounds) {
   bounds.q = checked_bounds(bounds.q, n, name + ".q");
   bounds.v = checked_bounds(bounds.v, n, name + ".v");
   bounds.u = checked_bounds(bounds.u, problem.control_size(), name + ".u");
+  bounds.path = checked_bounds(bounds.path, bounds.path.lower.size(), name + ".path");
+  bounds.integrals = checked_bounds(bounds.integrals, bounds.integrals.lower.size(), name + ".integrals");
   bounds.first = checked_end(bounds.first, bounds.q, n, name + ".first");
   bounds.last = checked_end(bounds.last, bounds.q, n, name + ".last");
   require_velocity_left(bounds.first, bounds.v, name + ".first");
   require_velocity_left(bounds.last, bounds.v, name + ".last");
   return bounds;
+}
+
+void require_bounds_of_formulas(const Problem& problem, const ProblemBounds& bounds, Eigen::Index path_constraints,
+                                Eigen::Index integrals) {
+  const auto require = [&](const char* part, const char* formula, const Bounds& given, Eigen::Index count) {
+    if (given.lower.size() == count) return;
+    throw Error(fmt::format("{}: bounds().{} has {} entries, and {} has {}", problem.name(), part, given.lower.size(),
+                            formula, count));
+  };
+  if (!bounds.path.empty()) require("path", "path_constraints", bounds.path, path_constraints);
+  require("integrals", "integrands", bounds.integrals, integrals);
 }
 
 }  // namespace dmocbench

@@ -29,6 +29,13 @@ void require_as_many_names(const std::vector<std::string>& names, Eigen::Index e
   if (!names.empty()) require_size(std::ssize(names), entries, problem, formula);
 }
 
+/// Whether formulas read one of `count` inputs from `first` on.
+bool reads(const Schedule& formulas, std::size_t first, std::size_t count) {
+  return std::ranges::any_of(formulas.steps(), [&](const Schedule::Step& step) {
+    return step.operation == Operation::input && step.input_index >= first && step.input_index < first + count;
+  });
+}
+
 /// A control that nothing reads would keep any value. `first` is the input of the first control.
 void require_controls(const Schedule& formulas, std::size_t first, const Problem& problem) {
   const std::vector<std::string> names = problem.control_names();
@@ -77,10 +84,14 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
   });  // before the trace: parameters that it reads are no constants of formulas
   const ParameterTrace parameters(problem, open_parameters);
   open_ = parameters.open();
+  unknowns_ = problem.unknowns();
+  open_.resize(open_.size() - unknowns_.size());
   open_values_.resize(static_cast<Eigen::Index>(open_.size()));
+  unknown_values_.resize(static_cast<Eigen::Index>(unknowns_.size()));
   set_parameters(values);
   trace_formulas(problem);
   trace_ends(problem);
+  parameters.require_unknowns_read();
   require_as_many_names(card.path_constraint_names, path_constraints_, problem, "path_constraint_names");
   require_as_many_names(card.boundary_condition_names, boundary_conditions_, problem, "boundary_condition_names");
   are_constants_ = parameters.are_constants();
@@ -91,7 +102,7 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
 }
 
 void TracedProblem::trace_formulas(const Problem& problem) {
-  InputCounter inputs(open_.size());
+  InputCounter inputs(parameter_inputs());
   const ControlledState point{inputs.take(n_), inputs.take(n_), inputs.take(m_), inputs.take()};
   const Expression lagrangian = asked(problem, "lagrangian", [&] { return problem.lagrangian(point.state()); });
   const ExpressionVector force = asked(problem, "force", [&] { return problem.force(point); });
@@ -117,12 +128,21 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   const ExpressionVector path_constraints =
       asked(problem, "path_constraints", [&] { return problem.path_constraints(point); });
   path_constraints_ = path_constraints.size();
+  for (const Expression& entry : path_constraints) {
+    constraints_read_controls_.push_back(reads(Schedule(std::span(&entry, 1)),
+                                               parameter_inputs() + 2 * static_cast<std::size_t>(n_),
+                                               static_cast<std::size_t>(m_)));
+  }
   append(formulas, path_constraints);
   append(formulas, mass);
   append(formulas, jacobian(momentum, point.q));
   const ExpressionVector momentum_by_time = jacobian(momentum, ExpressionVector::Constant(1, point.t));
   momentum_depends_on_time_ = !std::all_of(momentum_by_time.begin(), momentum_by_time.end(), is_zero);
+  momentum_depends_on_unknowns_ = reads(Schedule(momentum), open_.size(), unknowns_.size());
   append(formulas, momentum_by_time);
+  const ExpressionVector integrands = asked(problem, "integrands", [&] { return problem.integrands(point); });
+  integrals_ = integrands.size();
+  append(formulas, integrands);
   if (const auto generator = asked(problem, "symmetry", [&] { return problem.symmetry(point.q); })) {
     require_size(generator->size(), n_, problem, "symmetry");
     has_symmetry_ = true;
@@ -130,12 +150,12 @@ void TracedProblem::trace_formulas(const Problem& problem) {
     append(formulas, jacobian(*generator, point.q));
   }
   schedule_ = Schedule(formulas);
-  require_controls(schedule_, open_.size() + 2 * static_cast<std::size_t>(n_), problem);
+  require_controls(schedule_, parameter_inputs() + 2 * static_cast<std::size_t>(n_), problem);
   tape_ = Tape(schedule_);
 }
 
 void TracedProblem::trace_ends(const Problem& problem) {
-  InputCounter inputs(open_.size());
+  InputCounter inputs(parameter_inputs());
   const State first{inputs.take(n_), inputs.take(n_), Expression(0.0)};
   const State last{inputs.take(n_), inputs.take(n_), inputs.take()};
   const ExpressionVector conditions =
@@ -148,27 +168,33 @@ void TracedProblem::trace_ends(const Problem& problem) {
 }
 
 bool TracedProblem::ends_read(Eigen::Index first, Eigen::Index count) const {
-  const auto begin = open_.size() + static_cast<std::size_t>(first);
-  return std::ranges::any_of(ends_.steps(), [&](const Schedule::Step& step) {
-    return step.operation == Operation::input && step.input_index >= begin &&
-           step.input_index < begin + static_cast<std::size_t>(count);
-  });
+  return reads(ends_, parameter_inputs() + static_cast<std::size_t>(first), static_cast<std::size_t>(count));
 }
 
 void TracedProblem::set_parameters(const Eigen::VectorXd& values) {
   for (std::size_t i = 0; i < open_.size(); ++i) {
     open_values_[static_cast<Eigen::Index>(i)] = values[static_cast<Eigen::Index>(open_[i])];
   }
+  for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+    unknown_values_[static_cast<Eigen::Index>(i)] = values[static_cast<Eigen::Index>(unknowns_[i])];
+  }
 }
 
-TracedProblem TracedProblem::with_open_inputs() const {
+TracedProblem TracedProblem::with_open_inputs(const ExpressionVector& unknowns) const {
   TracedProblem open = *this;
   open.has_open_inputs_ = true;
+  open.unknown_inputs_ = unknowns;
   return open;
 }
 
 ExpressionVector TracedProblem::parameters() const {
-  return has_open_inputs_ ? input_vector(0, open_values_.size()) : ExpressionVector(open_values_.cast<Expression>());
+  ExpressionVector all(open_values_.size() + unknown_values_.size());
+  if (has_open_inputs_) {
+    all << input_vector(0, open_values_.size()), unknown_inputs_;
+  } else {
+    all << open_values_.cast<Expression>(), unknown_values_.cast<Expression>();
+  }
+  return all;
 }
 
 Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const {
@@ -185,6 +211,7 @@ Eigen::MatrixXd TracedProblem::table(const Eigen::MatrixXd& rows) const {
   std::vector<Tape::Input> columns;
   std::vector<double*> results;
   for (const double& value : open_values_) columns.push_back({&value, true});
+  for (const double& value : unknown_values_) columns.push_back({&value, true});
   for (const auto& column : rows.colwise()) columns.push_back({column.data(), false});
   for (auto column : values.colwise()) results.push_back(column.data());
   Tape::Workspace workspace(tape_);
@@ -214,6 +241,7 @@ TracedProblem::Values TracedProblem::at(const ControlledState& point) const {
   values.mass = read.matrix(n_, n_);
   values.momentum_by_configuration = read.matrix(n_, n_);
   values.momentum_by_time = read.vector(n_);
+  values.integrands = read.vector(integrals_);
   if (has_symmetry_) {
     values.symmetry = read.vector(n_);
     values.symmetry_jacobian = read.matrix(n_, n_);

@@ -32,6 +32,7 @@ class TracedProblem {
     ExpressionMatrix mass;                       ///< L_vv, n × n
     ExpressionMatrix momentum_by_configuration;  ///< L_vq, n × n: ∂(L_v)_i/∂q_j
     ExpressionVector momentum_by_time;           ///< L_vt, n entries
+    ExpressionVector integrands;                 ///< c, as many entries as there are integral constraints
     ExpressionVector symmetry;                   ///< ξ(q), n entries, empty without symmetry
     ExpressionMatrix symmetry_jacobian;          ///< Dξ(q), n × n, empty without symmetry
   };
@@ -43,7 +44,8 @@ class TracedProblem {
   };
 
   /// Calls each formula of the problem once. Throws `Error` that names the formula if a dimension is wrong or the
-  /// Lagrangian does not depend on a velocity; or as `ParameterTrace` does about the parameters that are kept open.
+  /// Lagrangian does not depend on a velocity; that names a control or an unknown that no formula reads; or as
+  /// `ParameterTrace` does about the parameters that are kept open.
   explicit TracedProblem(const Problem& problem, const std::vector<std::string>& open_parameters = {});
 
   /// The parameters that are kept open, by their numbers among all of the problem.
@@ -54,10 +56,15 @@ class TracedProblem {
   [[nodiscard]] const std::vector<std::string>& varying_parameters() const noexcept { return varying_; }
   /// The present values of the open ones.
   [[nodiscard]] const Eigen::VectorXd& open_values() const noexcept { return open_values_; }
-  /// Sets the values of open parameters from those of all parameters. Allocates nothing.
+  /// Sets the values of open and of unknown parameters from those of all parameters. Allocates nothing.
   void set_parameters(const Eigen::VectorXd& values);
-  /// The same problem whose formulas `at` have the open parameters as inputs 0, 1, ..., not as their present values.
-  [[nodiscard]] TracedProblem with_open_inputs() const;
+  /// How many parameters are unknowns of the problem.
+  [[nodiscard]] Eigen::Index unknown_count() const noexcept { return unknown_values_.size(); }
+  /// Sets the values of the unknown ones: the guess at first.
+  void set_unknowns(const Eigen::VectorXd& values) { unknown_values_ = values; }
+  /// The same problem whose formulas `at` have the open parameters as inputs 0, 1, ..., and these formulas for the
+  /// unknown ones, not their present values.
+  [[nodiscard]] TracedProblem with_open_inputs(const ExpressionVector& unknowns) const;
 
   [[nodiscard]] Eigen::Index configuration_size() const noexcept { return n_; }  ///< n.
   [[nodiscard]] Eigen::Index control_size() const noexcept { return m_; }        ///< m.
@@ -65,6 +72,12 @@ class TracedProblem {
   [[nodiscard]] bool has_symmetry() const noexcept { return has_symmetry_; }
   /// How many entries h has.
   [[nodiscard]] Eigen::Index path_constraint_count() const noexcept { return path_constraints_; }
+  /// How many entries c has.
+  [[nodiscard]] Eigen::Index integral_count() const noexcept { return integrals_; }
+  /// Whether entry i of h reads a control.
+  [[nodiscard]] const std::vector<bool>& constraints_read_controls() const noexcept {
+    return constraints_read_controls_;
+  }
   /// How many entries r has.
   [[nodiscard]] Eigen::Index boundary_condition_count() const noexcept { return boundary_conditions_; }
   /// True if the conditions or the cost of the ends depend on the velocity of the first or the last end, or on T.
@@ -75,6 +88,8 @@ class TracedProblem {
   [[nodiscard]] bool ends_read_horizon() const { return ends_read(4 * n_, 1); }
   /// True if L_v depends on t: then the momentum of a given velocity changes with the horizon.
   [[nodiscard]] bool momentum_depends_on_time() const noexcept { return momentum_depends_on_time_; }
+  /// True if L_v depends on an unknown parameter.
+  [[nodiscard]] bool momentum_depends_on_unknowns() const noexcept { return momentum_depends_on_unknowns_; }
 
   /// The formulas at many points, in numbers: row i belongs to points[i] at time times[i]. The columns hold p, L_q and
   /// f (n each), C, h, then L_vv column by column; further columns are not for callers.
@@ -94,21 +109,29 @@ class TracedProblem {
   void trace_ends(const Problem& problem);
   /// Whether an input of the ends' formulas is read, numbered without the parameters.
   [[nodiscard]] bool ends_read(Eigen::Index first, Eigen::Index count) const;
-  /// What `at` puts in place of the open parameters.
+  /// What `at` puts in place of the open and of the unknown parameters.
   [[nodiscard]] ExpressionVector parameters() const;
+  /// How many of the inputs of all formulas these are.
+  [[nodiscard]] std::size_t parameter_inputs() const { return open_.size() + unknowns_.size(); }
 
   Eigen::Index n_;
   Eigen::Index m_;
   Eigen::Index path_constraints_ = 0;
+  Eigen::Index integrals_ = 0;
   Eigen::Index boundary_conditions_ = 0;
   bool has_symmetry_ = false;
   bool momentum_depends_on_time_ = false;
-  // The inputs of all formulas begin with the open parameters.
+  bool momentum_depends_on_unknowns_ = false;
+  std::vector<bool> constraints_read_controls_;
+  // The inputs of all formulas begin with the open parameters, then the unknown ones.
   std::vector<std::size_t> open_;
+  std::vector<std::size_t> unknowns_;
   std::vector<bool> are_constants_;
   std::vector<std::string> varying_;
   Eigen::VectorXd open_values_;
+  Eigen::VectorXd unknown_values_;
   bool has_open_inputs_ = false;
+  ExpressionVector unknown_inputs_;  // where it has open inputs
   Schedule schedule_;
   Tape tape_;  // of the schedule
   Schedule ends_;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/tables/table_file.hpp"
 
@@ -121,16 +122,34 @@ void require_similar_horizon(const Problem& problem, double horizon, const std::
                   nodes.string(), horizon, problem.name(), problem.horizon(), most));
 }
 
+std::vector<std::string> unknown_names(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const std::size_t unknown : problem.unknowns()) names.push_back(problem.parameters()[unknown].name);
+  return names;
+}
+
+/// Reads the unknown parameters; a table without columns of them is a motion all the same.
+void read_unknowns(const Problem& problem, const Table& nodes, const std::filesystem::path& file,
+                   Trajectory& trajectory) {
+  const std::vector<std::string> names = unknown_names(problem);
+  const Row& first = nodes.rows().front();
+  if (names.empty() || std::ranges::any_of(names, [&](const std::string& name) { return first.text(name).empty(); }))
+    return;
+  trajectory.unknowns = columns(nodes, names, "", file).row(0).transpose();
+}
+
 }  // namespace
 
 Table node_table(const Problem& problem, const Trajectory& trajectory) {
   const std::vector<std::string> names = problem.configuration_names();
+  const Eigen::MatrixXd unknowns = trajectory.unknowns.transpose().replicate(trajectory.node_times.size(), 1);
   return series_table("t", trajectory.node_times,
                       {{"", names, trajectory.q, "configuration q"},
                        {"v_", names, trajectory.v, "its velocity"},
                        {"p_", names, trajectory.p, "its momentum p = L_v"},
                        {"psi_q_", names, trajectory.psi_q, "costate of q"},
-                       {"psi_p_", names, trajectory.psi_p, "costate of p"}});
+                       {"psi_p_", names, trajectory.psi_p, "costate of p"},
+                       {"", unknown_names(problem), unknowns, "unknown parameter"}});
 }
 
 Table stage_table(const Problem& problem, const Trajectory& trajectory) {
@@ -138,6 +157,7 @@ Table stage_table(const Problem& problem, const Trajectory& trajectory) {
 }
 
 Table picture_table(const Problem& problem, const Trajectory& trajectory) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   std::vector<std::string> names;
   std::vector<std::string> units;
   PointFunction quantities(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
@@ -219,6 +239,7 @@ Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, con
   trajectory.v = columns(nodes, problem.configuration_names(), "v_", nodes_file);
   trajectory.stage_u = columns(stages, problem.control_names(), "", stages_file);
   read_costates(nodes, problem.configuration_names(), nodes_file, trajectory);
+  read_unknowns(problem, nodes, nodes_file, trajectory);
   return trajectory;
 }
 

@@ -63,13 +63,25 @@ class ConstraintWords {
         }
       }
     }
-    return std::string("the bounds of ") +
-           (place.kind == Place::Kind::border ? "the horizon" : "a velocity, momentum or cost") + where(place);
+    if (place.kind == Place::Kind::border) return "the bounds of " + border_unknown(unknown);
+    for (Eigen::Index i = 0; i < shape.integrals; ++i) {
+      if (unknown == layout_->integral_head(i) + layout_->intervals()) return fmt::format("bounds().integrals[{}]", i);
+    }
+    return "the bounds of a velocity, momentum or cost" + where(place);
   }
 
  private:
   [[nodiscard]] std::string coordinate(Eigen::Index i) const { return named('q', i, problem_->configuration_names()); }
 
+  /// The horizon, or an unknown parameter.
+  [[nodiscard]] std::string border_unknown(std::size_t unknown) const {
+    const std::vector<std::size_t> parameters = problem_->unknowns();
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (unknown != layout_->unknown_parameter(static_cast<Eigen::Index>(i))) continue;
+      return "the unknown " + problem_->parameters()[parameters[i]].name;
+    }
+    return "the horizon";
+  }
   [[nodiscard]] std::string in_interval(std::size_t k) const {
     const auto left = static_cast<Eigen::Index>(k);
     return fmt::format(" in interval {} (t = {:.4g} to {:.4g})", k, times_[left], times_[left + 1]);
@@ -104,7 +116,12 @@ class ConstraintWords {
     const LayoutShape& shape = layout_->shape();
     if (column < shape.stage_equations) return stage_equation(column) + in_interval(k);
     const Eigen::Index path = column - shape.stage_equations;
-    if (path >= shape.path_rows) return "running_cost: the cost so far" + in_interval(k);
+    if (path >= shape.path_rows) {
+      const Eigen::Index integral = path - shape.path_rows - (shape.mayer ? 1 : 0);
+      return (integral < 0 ? "running_cost: the cost so far"
+                           : fmt::format("integrands[{}]: the integral so far", integral)) +
+             in_interval(k);
+    }
     const Eigen::Index per_stage = shape.path_rows / shape.stages;
     const std::vector<Eigen::Index> velocities = transcription_->bounds().bounded_velocities();
     const auto bounded = static_cast<Eigen::Index>(velocities.size());

@@ -42,13 +42,13 @@ KnownPoint known_point(const char* name, const EndBounds& end, Eigen::Index cont
 
 /// True unless every constraint is kept where the components that are not given vanish, which settles most problems
 /// fast.
-bool may_be_broken(const TracedProblem& traced, const KnownPoint& point) {
+bool may_be_broken(const TracedProblem& traced, const Bounds& path, const KnownPoint& point) {
   const Eigen::Index n = traced.configuration_size();
   const Eigen::Map<const Eigen::VectorXd> x(point.values.data(), static_cast<Eigen::Index>(point.values.size()));
   const MotionPoint numbers{x.head(n), x.segment(n, n), x.segment(2 * n, traced.control_size())};
   const Eigen::MatrixXd table = traced.table({&numbers, 1}, Eigen::VectorXd::Constant(1, point.time));
   const auto h = table.row(0).segment(3 * n + 1, traced.path_constraint_count());
-  return !(h.array() >= 0.0).all();
+  return !((h.transpose().array() >= path.lower.array()).all() && (h.transpose().array() <= path.upper.array()).all());
 }
 
 bool reads_given_only(const Schedule& formula, const std::vector<bool>& are_given) {
@@ -65,8 +65,9 @@ double uncertainty(const Expression& h, const ExpressionVector& inputs, std::spa
   return 1e-12 * sum;
 }
 
-void require_constraints_at(const KnownPoint& point, const Problem& problem, const TracedProblem& traced) {
-  if (!may_be_broken(traced, point)) return;
+void require_constraints_at(const KnownPoint& point, const Problem& problem, const TracedProblem& traced,
+                            const Bounds& path) {
+  if (!may_be_broken(traced, path, point)) return;
   const Eigen::Index n = traced.configuration_size();
   const Eigen::Index m = traced.control_size();
   const ExpressionVector x = input_vector(0, 2 * n + m + 1);
@@ -79,11 +80,15 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
     const Schedule formula(std::span(&h, 1));
     if (!reads_given_only(formula, point.are_given)) continue;
     const double value = replay<double>(formula, values).front();
-    if (!(value < -uncertainty(h, x, values))) continue;  // what is no number at an end may be one inside
+    const auto entry = static_cast<Eigen::Index>(i);
+    const bool is_below = value < path.lower[entry];
+    const double excess = is_below ? path.lower[entry] - value : value - path.upper[entry];
+    if (!(excess > uncertainty(h, x, values))) continue;  // what is no number at an end may be one inside
     throw Error(
         fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} there (t = "
-                    "{:g}), and has to be at least 0",
-                    problem.name(), point.name, i, names.empty() ? "" : " (" + names[i] + ")", value, point.time));
+                    "{:g}), and has to be at {} {:g}",
+                    problem.name(), point.name, i, names.empty() ? "" : " (" + names[i] + ")", value, point.time,
+                    is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]));
   }
 }
 
@@ -91,11 +96,13 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
 
 void require_path_constraints_at_ends(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
                                       double horizon) {
-  if (traced.path_constraint_count() == 0) return;
+  // Unknown parameters may be such that the ends keep the constraints.
+  if (traced.path_constraint_count() == 0 || traced.unknown_count() > 0) return;
+  const Bounds path = bounds.of_path(traced.path_constraint_count());
   const Eigen::Index m = traced.control_size();
-  require_constraints_at(known_point("initial_state", bounds.first, m, 0.0, true), problem, traced);
+  require_constraints_at(known_point("initial_state", bounds.first, m, 0.0, true), problem, traced, path);
   require_constraints_at(known_point("final_state", bounds.last, m, horizon, !bounds.horizon.is_free()), problem,
-                         traced);
+                         traced, path);
 }
 
 }  // namespace dmocbench

@@ -22,19 +22,20 @@ EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeStat
   rules.mayer = mayer;
   const ProblemBounds bounds = problem.bounds();
   rules.free_horizon = bounds.horizon.is_free();
-  rules.first_clamped = bounds.first.all_fixed();
-  // With a free horizon the momentum of a given velocity may depend on T.
-  const bool moves = rules.free_horizon && traced.momentum_depends_on_time() && node_state != NodeState::velocity;
-  rules.last_clamped = bounds.last.all_fixed() && !moves;
+  // The momentum of a given velocity may depend on a free horizon, or on unknown parameters.
+  const bool has_momenta = node_state != NodeState::velocity;
+  const bool varies = has_momenta && traced.momentum_depends_on_unknowns();
+  const bool moves = has_momenta && rules.free_horizon && traced.momentum_depends_on_time();
+  rules.first_clamped = bounds.first.all_fixed() && !varies;
+  rules.last_clamped = bounds.last.all_fixed() && !moves && !varies;
   return rules;
 }
 
 std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProblem& closed, const EndRules& rules) {
-  const TracedProblem traced = closed.with_open_inputs();
-  const std::size_t parameters = traced.open_parameters().size();
+  const std::size_t parameters = closed.open_parameters().size();
   InputCounter unknowns(parameters);
   const auto take_end = [&](bool has_velocity, const BoundaryState& given) {
-    const Eigen::Index n = traced.configuration_size();
+    const Eigen::Index n = closed.configuration_size();
     End end{.q = unknowns.take(n), .p = {}, .v = given.v.cast<Expression>()};
     if (rules.node_state == NodeState::momentum) end.p = unknowns.take(n);
     if (rules.node_state == NodeState::velocity || has_velocity) end.v = unknowns.take(n);
@@ -44,6 +45,7 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
   const End last = take_end(rules.last_has_velocity(), problem.final_state());
   const Expression running = rules.mayer ? unknowns.take() : Expression(0.0);
   const Expression horizon = rules.free_horizon ? unknowns.take() : Expression(problem.horizon());
+  const TracedProblem traced = closed.with_open_inputs(unknowns.take(closed.unknown_count()));
   const State first_state{first.q, first.v, Expression(0.0)};
   const State last_state{last.q, last.v, horizon};
   const TracedProblem::EndValues ends = traced.at_ends(first_state, last_state);

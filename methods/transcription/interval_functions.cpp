@@ -6,7 +6,9 @@ namespace {
 
 /// The unknowns of an element, and those that the whole program adds.
 struct Unknowns : IntervalUnknowns {
-  ExpressionVector costs;  // z_k, z_{k+1} in Mayer form
+  ExpressionVector left_sums;   // z_k: the cost in Mayer form, integrals
+  ExpressionVector right_sums;  // z_{k+1}
+  ExpressionVector parameters;  // unknown ones
   LocalInputs inputs;
 };
 
@@ -16,8 +18,11 @@ Unknowns make_unknowns(const TracedProblem& problem, const Element& element, Eig
   InputCounter counter(parameters);
   Unknowns unknowns;
   static_cast<IntervalUnknowns&>(unknowns) = take_unknowns(counter, problem, element, stages);
-  unknowns.costs = counter.take(rules.mayer ? 2 : 0);
+  const Eigen::Index sums = problem.integral_count() + (rules.mayer ? 1 : 0);
+  unknowns.left_sums = counter.take(sums);
+  unknowns.right_sums = counter.take(sums);
   const Expression horizon = rules.free_horizon ? counter.take() : Expression(1.0);
+  unknowns.parameters = counter.take(problem.unknown_count());
   unknowns.inputs.parameters = parameters;
   unknowns.inputs.unknowns = counter.taken() - parameters;
   unknowns.h = horizon * Expression::input(unknowns.inputs.step());
@@ -35,9 +40,17 @@ ExpressionVector path_rows(const TracedProblem& problem, const std::vector<Contr
   return stacked(rows);
 }
 
-ExpressionVector mayer_rows(const Unknowns& unknowns, const Expression& cost) {
-  if (unknowns.costs.size() == 0) return {};
-  return ExpressionVector::Constant(1, unknowns.costs[1] - unknowns.costs[0] - cost);
+/// z_{k+1} - z_k less h Σ b_i c: of the cost in Mayer form, then of the integrals.
+ExpressionVector sum_rows(const TracedProblem& problem, const Unknowns& unknowns, const IntervalTrace& trace,
+                          const Tableau& tableau, const Expression& cost, bool mayer) {
+  ExpressionVector added(unknowns.left_sums.size());
+  if (mayer) added[0] = cost;
+  auto integrals = added.tail(problem.integral_count());
+  for (std::size_t i = 0; i < trace.stages.size() && integrals.size() > 0; ++i) {
+    const Expression weight = unknowns.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
+    integrals += weight * problem.at(trace.stages[i]).integrands;
+  }
+  return unknowns.right_sums - unknowns.left_sums - added;
 }
 
 Schedule stage_table(const std::vector<ControlledState>& stages) {
@@ -54,13 +67,13 @@ Schedule stage_table(const std::vector<ControlledState>& stages) {
 
 IntervalFunctions trace_interval(const TracedProblem& traced, const Element& element, const Tableau& tableau,
                                  const IntervalRules& rules) {
-  const TracedProblem problem = traced.with_open_inputs();
-  const Unknowns unknowns = make_unknowns(problem, element, tableau.stages(), rules);
+  const Unknowns unknowns = make_unknowns(traced, element, tableau.stages(), rules);
+  const TracedProblem problem = traced.with_open_inputs(unknowns.parameters);
   const IntervalTrace trace = element.trace(problem, tableau, unknowns);
   const ExpressionVector path = path_rows(problem, trace.stages, rules.bounded_velocities);
   const Expression running = Expression(rules.cost_scale) * trace.cost;
-  const ExpressionVector rows =
-      stacked({trace.left_rows, trace.right_rows, trace.stage_equations, path, mayer_rows(unknowns, running)});
+  const ExpressionVector rows = stacked({trace.left_rows, trace.right_rows, trace.stage_equations, path,
+                                         sum_rows(problem, unknowns, trace, tableau, running, rules.mayer)});
   const Expression cost = rules.mayer ? Expression(0.0) : running;
 
   IntervalFunctions functions;
@@ -73,6 +86,7 @@ IntervalFunctions trace_interval(const TracedProblem& traced, const Element& ele
   functions.path_rows = path.size();
   functions.mayer = rules.mayer;
   functions.free_horizon = rules.free_horizon;
+  functions.integrals = problem.integral_count();
   functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum}));
   functions.stages = stage_table(trace.stages);
   return functions;

@@ -20,11 +20,11 @@ struct IntervalRules {
 /// All functions of an interval, traced and differentiated once for all intervals.
 ///
 /// Inputs: `LocalInputs`, the open parameters first.
-/// Local unknowns: those of `IntervalUnknowns` in its order; in Mayer form z_k and z_{k+1}, the cost up to either node;
-/// T where it is free.
+/// Local unknowns: those of `IntervalUnknowns` in its order; z_k and z_{k+1}, the sums up to either node: the cost in
+/// Mayer form, then the integrals; T where it is free; unknown parameters.
 /// Local constraints (rows): left and right terms and stage equations of the element; path constraints, which are not
-/// equalities: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); in Mayer form z_{k+1} - z_k - cost. `adjoint`
-/// is ∂ℓ/∂(left node), then ∂ℓ/∂(right node).
+/// equalities of the element: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); z_{k+1} - z_k less what the
+/// interval adds to each sum. `adjoint` is ∂ℓ/∂(left node), then ∂ℓ/∂(right node).
 struct IntervalFunctions : LocalFunctions {
   bool has_stage_unknowns = true;    ///< of the element
   Eigen::Index node_rows = 0;        ///< equations that belong to nodes
@@ -32,6 +32,8 @@ struct IntervalFunctions : LocalFunctions {
   Eigen::Index path_rows = 0;        ///< path constraints, at all stages
   bool mayer = false;                ///< the cost so far is an unknown of the nodes
   bool free_horizon = false;         ///< T is an unknown
+
+  Eigen::Index integrals = 0;  ///< integral constraints
 
   Schedule momenta;  ///< left momentum, then right momentum
   Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i

@@ -78,6 +78,7 @@ LaneTranscription::LaneTranscription(const Transcription& program)
       hessian_entries_(static_cast<Eigen::Index>(program.hessian_structure().size())),
       steps_(each_for_all_lanes(program.step_inputs())),
       times_(each_for_all_lanes(program.time_inputs())) {
+  if (program.layout().shape().unknown_parameters > 0) throw Error("a batch needs given parameters; some are unknown");
   if (program.has_free_horizon()) throw Error("a batch needs a given horizon; that of this problem is free");
   const Layout& layout = program.layout();
   const auto add = [&](const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
@@ -139,7 +140,8 @@ double LaneTranscription::checked_horizon(const Eigen::VectorXd& parameters) con
   const auto are_same = [](const Bounds& a, const Bounds& b) {
     return a.lower.size() == b.lower.size() && a.lower == b.lower && a.upper == b.upper;
   };
-  if (!are_same(usual.q, now.q) || !are_same(usual.v, now.v) || !are_same(usual.u, now.u)) {
+  if (!are_same(usual.q, now.q) || !are_same(usual.v, now.v) || !are_same(usual.u, now.u) ||
+      !are_same(usual.path, now.path) || !are_same(usual.integrals, now.integrals)) {
     throw Error("the parameters of an instance change bounds, which are the same for a whole batch");
   }
   return horizon;

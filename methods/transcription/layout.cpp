@@ -29,11 +29,12 @@ void Layout::append_unknowns() {
   rates_ = append(unknowns, interval, interior_stages() * node_columns());
   controls_ = append(unknowns, node, shape_.shares_controls ? m : 0, true);
   inner_controls_ = append(unknowns, interval, (shape_.shares_controls ? shape_.stages - 2 : shape_.stages) * m, true);
-  cost_head_ = append(unknowns, node, shape_.mayer ? 1 : 0);
+  sums_ = append(unknowns, node, shape_.sums());
   single_unknowns_ = unknowns.size();
   if (shape_.first_has_velocity) append_singles(unknowns, 0);
   if (shape_.last_has_velocity) append_singles(unknowns, shape_.intervals);
-  if (shape_.free_horizon) unknowns.append(border, 0, 1);
+  const auto globals = static_cast<std::size_t>(shape_.unknown_parameters) + (shape_.free_horizon ? 1 : 0);
+  if (globals > 0) unknowns.append(border, 0, globals);
 }
 
 void Layout::append_rows() {
@@ -60,11 +61,13 @@ void Layout::place_interval() {
   for (Eigen::Index stage = 0; stage < shape_.stages; ++stage) {
     for (Eigen::Index i = 0; i < m; ++i) unknown_places_.emplace_back(control_head(stage, i));
   }
-  if (shape_.mayer) {
-    unknown_places_.emplace_back(cost_head_);
-    unknown_places_.emplace_back(cost_head_ + 1);
+  for (const std::size_t right : {0U, 1U}) {
+    for (Eigen::Index i = 0; i < shape_.sums(); ++i) unknown_places_.emplace_back(sum_head(i) + right);
   }
   if (shape_.free_horizon) unknown_places_.emplace_back(horizon(), true);
+  for (Eigen::Index i = 0; i < shape_.unknown_parameters; ++i) {
+    unknown_places_.emplace_back(unknown_parameter(i), true);
+  }
   for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) row_places_.emplace_back(interval_row_head(i));
 }
 
@@ -79,8 +82,9 @@ void Layout::place_ends() {
   };
   place_end(0, shape_.first_has_velocity, first_velocity(0));
   place_end(shape_.intervals, shape_.last_has_velocity, last_velocity(0));
-  if (shape_.mayer) end_unknown_places_.emplace_back(cost_head_ + shape_.intervals);
+  if (shape_.mayer) end_unknown_places_.emplace_back(cost_head() + shape_.intervals);
   if (shape_.free_horizon) end_unknown_places_.emplace_back(horizon());
+  for (Eigen::Index i = 0; i < shape_.unknown_parameters; ++i) end_unknown_places_.emplace_back(unknown_parameter(i));
 
   std::size_t own_row = single_rows_;
   const auto place_tie = [&](std::size_t node) {

@@ -24,23 +24,27 @@ struct LayoutShape {
   Eigen::Index node_rows = 0;                       ///< per node
   Eigen::Index stage_equations = 0;                 ///< per interval: the element's own
   Eigen::Index path_rows = 0;                       ///< per interval
-  bool mayer = false;               ///< nodes carry the cost so far, z_k, and intervals have a row for it
-  bool first_has_velocity = false;  ///< v_0, or v_N, is an unknown beside the nodes'
-  bool last_has_velocity = false;   ///< the velocity at T is an unknown of its own
-  bool free_horizon = false;        ///< T is an unknown
-  Eigen::Index conditions = 0;      ///< boundary conditions
+  bool mayer = false;                   ///< nodes carry the cost so far, z_k, and intervals have a row for it
+  bool first_has_velocity = false;      ///< v_0, or v_N, is an unknown beside the nodes'
+  bool last_has_velocity = false;       ///< the velocity at T is an unknown of its own
+  bool free_horizon = false;            ///< T is an unknown
+  Eigen::Index conditions = 0;          ///< boundary conditions
+  Eigen::Index integrals = 0;           ///< nodes carry each so far, and intervals have a row for it
+  Eigen::Index unknown_parameters = 0;  ///< each is an unknown of the whole horizon
 
-  /// Rows per interval: the element's own, path rows, that of the Mayer form.
-  [[nodiscard]] Eigen::Index interval_rows() const noexcept { return stage_equations + path_rows + (mayer ? 1 : 0); }
+  /// Sums that nodes carry: the cost in Mayer form, then the integrals.
+  [[nodiscard]] Eigen::Index sums() const noexcept { return integrals + (mayer ? 1 : 0); }
+  /// Rows per interval: the element's own, path rows, those of the sums.
+  [[nodiscard]] Eigen::Index interval_rows() const noexcept { return stage_equations + path_rows + sums(); }
 };
 
 /// Where the unknowns and rows of all intervals stand in the program's vectors.
 ///
 /// Vectors are stored column by column: q_1 of all nodes, q_2 of all nodes, ..., then p or v, interior rates, controls,
-/// z; at last v_0, v_N and T where they are unknowns. Every local quantity of an element is therefore contiguous over
-/// the intervals: that of interval k stands at `first` + k. For a quantity of the left node `first` is the head of its
-/// series, for the same quantity of the right node one more. Rows: those of the nodes, those of the intervals, then
-/// p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
+/// z; at last v_0, v_N, unknown parameters and T where they are unknowns. Every local quantity of an element is
+/// therefore contiguous over the intervals: that of interval k stands at `first` + k. For a quantity of the left node
+/// `first` is the head of its series, for the same quantity of the right node one more. Rows: those of the nodes, those
+/// of the intervals, then p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
 class Layout {
  public:
   /// Numbers all unknowns and rows of a program of this shape.
@@ -80,7 +84,19 @@ class Layout {
   }
   /// Of component i of U_stage.
   [[nodiscard]] std::size_t control_head(Eigen::Index stage, Eigen::Index i) const noexcept;
-  [[nodiscard]] std::size_t cost_head() const noexcept { return cost_head_; }  ///< of z, in Mayer form
+  [[nodiscard]] std::size_t cost_head() const noexcept { return sum_head(0); }  ///< of z, in Mayer form
+  /// Of the i-th sum, the cost first.
+  [[nodiscard]] std::size_t sum_head(Eigen::Index i) const noexcept {
+    return sums_ + static_cast<std::size_t>(i) * (shape_.intervals + 1);
+  }
+  /// Of integral i so far.
+  [[nodiscard]] std::size_t integral_head(Eigen::Index i) const noexcept {
+    return sum_head(shape_.sums() - shape_.integrals + i);
+  }
+  /// Of the equation of the i-th sum.
+  [[nodiscard]] std::size_t sum_row_head(Eigen::Index i) const noexcept {
+    return interval_row_head(shape_.interval_rows() - shape_.sums() + i);
+  }
   /// Of the i-th equation of the nodes.
   [[nodiscard]] std::size_t node_row_head(Eigen::Index i) const noexcept { return configuration_head(i); }
   /// Of the i-th equation of the intervals.
@@ -96,6 +112,10 @@ class Layout {
   /// The number of component i of the velocity at T, where that is an unknown.
   [[nodiscard]] std::size_t last_velocity(Eigen::Index i) const noexcept {
     return first_velocity((shape_.first_has_velocity ? shape_.configuration_size : 0) + i);
+  }
+  /// The number of the i-th unknown parameter.
+  [[nodiscard]] std::size_t unknown_parameter(Eigen::Index i) const noexcept {
+    return variable_count() - (shape_.free_horizon ? 1 : 0) - static_cast<std::size_t>(shape_.unknown_parameters - i);
   }
   /// The number of T, where that is an unknown.
   [[nodiscard]] std::size_t horizon() const noexcept { return variable_count() - 1; }
@@ -134,9 +154,9 @@ class Layout {
   std::size_t rates_ = 0;           // head of the interior rates
   std::size_t controls_ = 0;        // of the controls
   std::size_t inner_controls_ = 0;  // of those that no other interval shares
-  std::size_t cost_head_ = 0;
+  std::size_t sums_ = 0;
   std::size_t interval_rows_ = 0;
-  std::size_t single_unknowns_ = 0;  // where v_0, v_N, T begin
+  std::size_t single_unknowns_ = 0;  // where v_0, v_N, unknown parameters, T begin
   std::size_t single_rows_ = 0;      // where the rows of the ends begin
   IntervalStructure structure_;
   std::vector<SeriesPlace> unknown_places_;

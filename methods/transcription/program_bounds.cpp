@@ -25,15 +25,15 @@ void bound_controls(Bounds& variables, const Bounds& u, const Layout& layout) {
   }
 }
 
-/// Per stage the bounded velocities, then h >= 0.
-void bound_path_rows(Bounds& rows, const ProblemBounds& bounds, Eigen::Index path_constraints, const Layout& layout) {
+/// Per stage the bounded velocities, then h.
+void bound_path_rows(Bounds& rows, const ProblemBounds& bounds, const Bounds& path, const Layout& layout) {
   Eigen::Index row = layout.shape().stage_equations;
   const auto bound_next = [&](double lower, double upper) {
     set(rows, layout.interval_row_head(row++), layout.intervals(), lower, upper);
   };
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (const Eigen::Index i : bounds.bounded_velocities()) bound_next(bounds.v.lower[i], bounds.v.upper[i]);
-    for (Eigen::Index i = 0; i < path_constraints; ++i) bound_next(0.0, unbounded);
+    for (Eigen::Index i = 0; i < path.lower.size(); ++i) bound_next(path.lower[i], path.upper[i]);
   }
 }
 
@@ -71,6 +71,8 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
   ProgramBounds result{Bounds::none(static_cast<Eigen::Index>(layout.variable_count())),
                        Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.constraint_count())))};
   auto& [variables, rows] = result;
+  require_bounds_of_formulas(problem, bounds, traced.path_constraint_count(), traced.integral_count());
+  const Bounds path = bounds.of_path(traced.path_constraint_count());
   require_path_constraints_at_ends(problem, traced, bounds, horizon);
   const std::size_t last_node = layout.intervals();
   const Bounds first_momentum = end_momentum(ends.first_clamped, bounds.first, 0.0, traced, problem, "start");
@@ -104,9 +106,17 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
     if (ends.last_has_velocity()) set_entry(variables, layout.last_velocity(i), bounds.last.v, i);
   }
   bound_controls(variables, bounds.u, layout);
-  if (layout.shape().mayer) set(variables, layout.cost_head(), 1, 0.0, 0.0);
+  for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) set(variables, layout.sum_head(i), 1, 0.0, 0.0);
+  for (Eigen::Index i = 0; i < layout.shape().integrals; ++i) {
+    set_entry(variables, layout.integral_head(i) + last_node, bounds.integrals, i);
+  }
+  const std::vector<std::size_t> unknowns = problem.unknowns();
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const Parameter& parameter = problem.parameters()[unknowns[i]];
+    set(variables, layout.unknown_parameter(static_cast<Eigen::Index>(i)), 1, parameter.lower, parameter.upper);
+  }
   if (bounds.horizon.is_free()) set(variables, layout.horizon(), 1, bounds.horizon.lower, bounds.horizon.upper);
-  bound_path_rows(rows, bounds, traced.path_constraint_count(), layout);
+  bound_path_rows(rows, bounds, path, layout);
   return result;
 }
 

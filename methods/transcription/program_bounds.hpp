@@ -21,7 +21,8 @@ struct ProgramBounds {
 /// Bounds of all unknowns and constraints. A clamped end fixes q and, where nodes carry it, p = L_v(q, v) or v. For
 /// DMOC the momentum of a clamped end is the bound of that end's equation: p⁰ + (∂A/∂q_0 + W) = 0 (eq:gDLOCP3), -p^T +
 /// (∂A/∂q_N + W) = 0 (rem:inifinalvel). Path constraints have the bounds of the velocities, or are not negative
-/// (eq:gDLOCP5). `horizon` is the time of the last end. Throws `Error` if the momentum at an end is not finite, or as
+/// (eq:gDLOCP5), or `ProblemBounds::path`. Sums begin at 0, and integrals end within their bounds. `horizon` is the
+/// time of the last end. Throws `Error` if the momentum at an end is not finite, or as `require_bounds_of_formulas` and
 /// `require_path_constraints_at_ends`.
 [[nodiscard]] ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced,
                                            const ProblemBounds& bounds, double horizon, const EndRules& ends,

@@ -101,7 +101,7 @@ class MultiplierWriter {
   }
   /// z_{k+1} - z_k - cost = 0 carries the cost from node to node.
   void write_costs(double value) {
-    const auto head = static_cast<Eigen::Index>(layout_.interval_row_head(layout_.shape().interval_rows() - 1));
+    const auto head = static_cast<Eigen::Index>(layout_.sum_row_head(0));
     multipliers_.segment(head, static_cast<Eigen::Index>(layout_.intervals())).setConstant(value);
   }
   /// The rows p - L_v(q, v) of the ends that have them: stationarity in p.

@@ -55,7 +55,9 @@ class SubMatrix {
 
 SingleShooting::SingleShooting(Transcription& program)
     : program_(program), interval_(program.functions().rows.schedule), workspace_(interval_) {
-  if (program.functions().has_stage_unknowns || program.layout().shape().mayer) {
+  const LayoutShape& shape = program.layout().shape();
+  if (shape.integrals > 0) throw Error("single shooting has no integral constraints; take multiple_shooting");
+  if (program.functions().has_stage_unknowns || shape.mayer) {
     throw Error("single shooting condenses programs of multiple shooting in Bolza form only");
   }
   sort_unknowns();

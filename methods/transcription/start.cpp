@@ -43,7 +43,13 @@ Eigen::VectorXd unknowns_of(const Transcription& transcription, const Trajectory
   if (layout.shape().first_has_velocity) set(layout.first_velocity(0), motion.v.row(0).transpose());
   if (layout.shape().last_has_velocity) set(layout.last_velocity(0), motion.v.row(nodes - 1).transpose());
   if (transcription.has_free_horizon()) set(layout.horizon(), motion.node_times.tail<1>());
+  if (motion.unknowns.size() > 0) set(layout.unknown_parameter(0), motion.unknowns);
   return x;
+}
+
+Eigen::VectorXd guessed_unknowns(const Transcription& transcription) {
+  const std::vector<std::size_t> numbers = transcription.problem().unknowns();
+  return transcription.parameter_values()(std::vector<Eigen::Index>(numbers.begin(), numbers.end()));
 }
 
 /// A motion at the nodes and stages of a program with horizon T.
@@ -59,6 +65,8 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
   const Eigen::VectorXd widths = horizon * transcription.grid().relative_widths();
   Trajectory tables;
   tables.tableau = transcription.tableau();
+  tables.unknowns =
+      motion.unknowns.size() == problem.unknown_count() ? motion.unknowns : guessed_unknowns(transcription);
   tables.node_times = horizon * transcription.grid().relative_times();
   for (Eigen::MatrixXd* table : {&tables.q, &tables.p, &tables.v}) table->setZero(tables.node_times.size(), n);
   std::optional<LegendreTransform> legendre;  // where nodes carry momenta
@@ -93,15 +101,19 @@ void set_mean_rates(const Layout& layout, Eigen::Index n, const Eigen::VectorXd&
   }
 }
 
-/// Sets the cost so far such that the equations of the Mayer form hold.
-void sum_costs(Transcription& transcription, Eigen::VectorXd& x) {
+/// Sets the cost and the integrals so far such that their equations hold.
+void add_up(Transcription& transcription, Eigen::VectorXd& x) {
   const Layout& layout = transcription.layout();
+  const auto intervals = static_cast<Eigen::Index>(layout.intervals());
+  const auto sum_of = [&](Eigen::Index i) {
+    return x.segment(static_cast<Eigen::Index>(layout.sum_head(i)), intervals + 1);
+  };
+  for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) sum_of(i).setZero();
   Eigen::VectorXd constraints(static_cast<Eigen::Index>(transcription.constraint_count()));
-  transcription.constraints(x, constraints);  // z_{k+1} - z_k - cost, with every z = 0
-  const auto row = static_cast<Eigen::Index>(layout.interval_row_head(layout.shape().interval_rows() - 1));
-  const auto column = static_cast<Eigen::Index>(layout.cost_head());
-  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(layout.intervals()); ++k) {
-    x[column + k + 1] = x[column + k] - constraints[row + k];
+  transcription.constraints(x, constraints);  // z_{k+1} - z_k less what the interval adds, with every z = 0
+  for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) {
+    const auto row = static_cast<Eigen::Index>(layout.sum_row_head(i));
+    for (Eigen::Index k = 0; k < intervals; ++k) sum_of(i)[k + 1] = sum_of(i)[k] - constraints[row + k];
   }
 }
 
@@ -118,6 +130,7 @@ void require_same_grid(const Transcription& transcription, const Trajectory& tra
 /// Ṗ_i or V̇_i at all stages, in the order of the trajectory's stage tables.
 Eigen::MatrixXd second_rates(const Problem& problem, NodeState node_state, const Trajectory& trajectory) {
   if (node_state == NodeState::configuration) return {};
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   EquationsOfMotion motion(traced);
   PointFunction force(traced.configuration_size(), traced.control_size(),
@@ -153,7 +166,7 @@ Eigen::VectorXd sample(Transcription& transcription, const Motion& motion) {
   if (layout.node_state() != NodeState::configuration) {
     set_mean_rates(layout, tables.q.cols(), horizon * transcription.grid().relative_widths(), x);
   }
-  if (layout.shape().mayer) sum_costs(transcription, x);
+  if (layout.shape().sums() > 0) add_up(transcription, x);
   return x.cwiseMax(lower).cwiseMin(upper);
 }
 

@@ -41,6 +41,24 @@ void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Tr
   }
 }
 
+void read_integrals(const Layout& layout, const Eigen::VectorXd& primal, Trajectory& trajectory) {
+  trajectory.integrals.resize(layout.shape().integrals);
+  for (Eigen::Index i = 0; i < trajectory.integrals.size(); ++i) {
+    trajectory.integrals[i] = primal[static_cast<Eigen::Index>(layout.integral_head(i) + layout.intervals())];
+  }
+}
+
+/// z_N = Σ h Σ b_i c is worth the multiplier of every row z_{k+1} - z_k - h Σ b_i c.
+void read_prices(const Transcription& transcription, const Eigen::VectorXd& multipliers, Trajectory& trajectory) {
+  const Layout& layout = transcription.layout();
+  const Eigen::Index sums = layout.shape().sums();
+  trajectory.integral_prices.resize(layout.shape().integrals);
+  for (Eigen::Index i = 0; i < trajectory.integral_prices.size(); ++i) {
+    const std::size_t head = layout.sum_row_head(sums - layout.shape().integrals + i);
+    trajectory.integral_prices[i] = multipliers[static_cast<Eigen::Index>(head)] / transcription.cost_scale();
+  }
+}
+
 }  // namespace
 
 Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& primal,
@@ -58,6 +76,9 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
     trajectory.q.col(i) =
         primal.segment(static_cast<Eigen::Index>(layout.configuration_head(i)), trajectory.node_times.size());
   }
+  trajectory.unknowns = transcription.unknown_parameters(primal);
+  transcription.set_unknown_parameters(trajectory.unknowns);
+  read_integrals(layout, primal, trajectory);
   trajectory.p = read_momenta(transcription, primal, n);
   read_stages(transcription, primal, trajectory);
   add_velocities(transcription.traced_problem(), trajectory);
@@ -66,7 +87,9 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
     Costates psi = costates(transcription, primal, multipliers, trajectory.v);
     trajectory.psi_q = std::move(psi.psi_q);
     trajectory.psi_p = std::move(psi.psi_p);
-    if (transcription.functions().path_rows == 0 && transcription.functions().has_stage_unknowns) {
+    read_prices(transcription, multipliers, trajectory);
+    if (transcription.functions().path_rows == 0 && trajectory.integrals.size() == 0 &&
+        transcription.functions().has_stage_unknowns) {
       StageCostates stages = stage_costates(transcription, multipliers, trajectory);
       trajectory.stage_psi_q = std::move(stages.psi_q);
       trajectory.stage_psi_p = std::move(stages.psi_p);

@@ -36,7 +36,32 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .first_has_velocity = ends.first_has_velocity(),
           .last_has_velocity = ends.last_has_velocity(),
           .free_horizon = ends.free_horizon,
-          .conditions = traced.boundary_condition_count()};
+          .conditions = traced.boundary_condition_count(),
+          .integrals = traced.integral_count(),
+          .unknown_parameters = traced.unknown_count()};
+}
+
+/// Equalities along the motion take a control each. Intervals with stages at their nodes have one of a node both, which
+/// only controls of their own tell apart.
+void require_equalities_fit(const Problem& problem, const TracedProblem& traced, const Tableau& tableau,
+                            const ProblemBounds& bounds) {
+  const Bounds path = bounds.of_path(traced.path_constraint_count());
+  const bool has_stages_at_nodes = tableau.c.minCoeff() == 0.0 && tableau.c.maxCoeff() == 1.0;
+  Eigen::Index equalities = 0;
+  for (Eigen::Index i = 0; i < path.lower.size(); ++i) {
+    if (!path.is_fixed(i)) continue;
+    ++equalities;
+    const bool is_same = tableau.shares_controls || !traced.constraints_read_controls()[static_cast<std::size_t>(i)];
+    if (!has_stages_at_nodes || !is_same) continue;
+    throw Error(
+        fmt::format("{}: bounds().path makes path_constraints[{}] an equality, which with stages at the nodes "
+                    "two intervals would impose on the same numbers; take --tableau gauss",
+                    problem.name(), i));
+  }
+  if (equalities <= traced.control_size()) return;
+  throw Error(
+      fmt::format("{}: bounds().path makes {} path constraints equalities; there can be as many as controls, {}",
+                  problem.name(), equalities, traced.control_size()));
 }
 
 constexpr std::array cost_forms{Named<CostForm>{"bolza", CostForm::bolza}, Named<CostForm>{"mayer", CostForm::mayer}};
@@ -77,6 +102,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       jacobian_pattern_(assemble_pattern(
           jacobian_entries(functions_, layout_.row_places(), layout_.unknown_places(), grid.intervals()))),
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
+  require_equalities_fit(problem, traced_, tableau_, problem_bounds_);
   require_enough_intervals(problem, element);
   check_constraint_windows(problem, traced_, tableau_, grid);
   // The ends extend the patterns, which must be complete before the arrays of the intervals are allocated.
@@ -117,7 +143,7 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
     LayoutShape shape = layout_.shape();
     shape.intervals = intervals;
     const Layout layout(shape);
-    const auto inequalities = static_cast<long long>(intervals) * shape.path_rows;
+    const auto inequalities = static_cast<long long>(intervals) * inequalities_of_an_interval();
     const auto more = static_cast<long long>(intervals) - static_cast<long long>(layout_.intervals());
     return static_cast<long long>(layout.variable_count()) - fixed - more * fixed_in_interval -
            (static_cast<long long>(layout.constraint_count()) - inequalities);
@@ -135,10 +161,24 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
                           problem.name(), element.name(), intervals, smallest));
 }
 
+long long Transcription::inequalities_of_an_interval() const {
+  long long count = 0;
+  for (Eigen::Index i = 0; i < layout_.shape().path_rows; ++i) {
+    const auto row = static_cast<Eigen::Index>(layout_.interval_row_head(layout_.shape().stage_equations + i));
+    if (!bounds_.constraints.is_fixed(row)) ++count;
+  }
+  return count;
+}
+
 long long Transcription::fixed_variables_of_an_interval() const {
   return std::ranges::count_if(layout_.structure().unknowns.runs(), [&](const PlaceRun& run) {
     return run.kind == Place::Kind::interval && is_fixed(*this, static_cast<Eigen::Index>(run.first));
   });
+}
+
+Eigen::VectorXd Transcription::unknown_parameters(const VectorIn& x) const {
+  const Eigen::Index count = layout_.shape().unknown_parameters;
+  return count == 0 ? Eigen::VectorXd() : x.segment(static_cast<Eigen::Index>(layout_.unknown_parameter(0)), count);
 }
 
 double Transcription::horizon(const VectorIn& x) const {

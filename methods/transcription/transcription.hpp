@@ -136,6 +136,11 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] bool has_free_horizon() const noexcept { return functions_.free_horizon; }
   /// T at a point.
   [[nodiscard]] double horizon(const VectorIn& x) const;
+  /// The unknown parameters at a point, in the order of `Problem::unknowns`.
+  [[nodiscard]] Eigen::VectorXd unknown_parameters(const VectorIn& x) const;
+  /// Lets `traced_problem` have these values of the unknown parameters, where it has had those of the guess: of an
+  /// answer that is read and judged.
+  void set_unknown_parameters(const Eigen::VectorXd& values) { traced_.set_unknowns(values); }
   /// t_0 to t_N and h_0 to h_{N-1} at a point.
   [[nodiscard]] Eigen::VectorXd node_times(const VectorIn& x) const { return horizon(x) * grid_.relative_times(); }
   /// h_0 to h_{N-1} at a point.
@@ -169,6 +174,7 @@ class Transcription final : public NonlinearProgram {
   void set_end(const BoundaryState& state, EndBounds ProblemBounds::*end, const char* name);
   void require_enough_intervals(const Problem& problem, const Element& element) const;
   [[nodiscard]] long long fixed_variables_of_an_interval() const;
+  [[nodiscard]] long long inequalities_of_an_interval() const;
   /// Sets up the intervals at the first call, the ends at the second; the patterns must be complete.
   void add_part(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
                 const std::vector<SeriesPlace>& rows, const std::vector<SeriesPlace>& jacobian,

@@ -53,7 +53,7 @@ TEST_F(OptimumOfDoubleIntegrator, IsMeasuredBetweenThePointsWhereItIsBounded) {
 TEST_F(OptimumOfDoubleIntegrator, LeavesAPathConstraintByWhatADisplacementWouldRepair) {
   // h = 0.75 - q = -0.25 at the end: q, whose range is 1, is a quarter of it too large.
   const ViolationBetweenStages low = violating([](Statement& s) {
-    s.path = [](const ControlledState& x) { return ExpressionVector::Constant(1, 0.75 - x.q[0]); };
+    s.path_constraints = [](const ControlledState& x) { return ExpressionVector::Constant(1, 0.75 - x.q[0]); };
   });
   EXPECT_NEAR(low.state.share, 0.25, 1e-6);
   EXPECT_EQ(low.state.interval, 7);
@@ -61,7 +61,7 @@ TEST_F(OptimumOfDoubleIntegrator, LeavesAPathConstraintByWhatADisplacementWouldR
   // Its unit does not matter, nor does a derivative that vanishes: at q = ½, h = (q - ½)² - 0.01² is least.
   const auto around = [&](double unit) {
     return violating([unit](Statement& s) {
-             s.path = [unit](const ControlledState& x) {
+             s.path_constraints = [unit](const ControlledState& x) {
                const Expression d = x.q[0] - 0.5;
                return ExpressionVector::Constant(1, unit * (d * d - 1e-4));
              };
@@ -74,7 +74,9 @@ TEST_F(OptimumOfDoubleIntegrator, LeavesAPathConstraintByWhatADisplacementWouldR
 
 TEST_F(OptimumOfDoubleIntegrator, IsNoMotionWhereAConstraintIsNotANumber) {
   const ViolationBetweenStages undefined = violating([](Statement& s) {
-    s.path = [](const ControlledState& x) { return ExpressionVector::Constant(1, log(0.9 - x.q[0]) + 5.0); };
+    s.path_constraints = [](const ControlledState& x) {
+      return ExpressionVector::Constant(1, log(0.9 - x.q[0]) + 5.0);
+    };
   });
   EXPECT_TRUE(std::isinf(undefined.largest));
   EXPECT_FALSE(undefined.is_motion());
@@ -97,7 +99,9 @@ TEST_F(OptimumOfDoubleIntegrator, MissesByTheImpulseThatClippingTakesAway) {
 TEST(ViolationBetweenStages, OfASmoothMotionAlongAConstraintFallsWithTheSquareOfTheStep) {
   const tests::DoubleIntegrator base;
   const Restated slow(base, [](Statement& s) {
-    s.path = [](const ControlledState& x) { return ExpressionVector::Constant(1, 1.25 - x.v[0] - 0.2 * x.q[0]); };
+    s.path_constraints = [](const ControlledState& x) {
+      return ExpressionVector::Constant(1, 1.25 - x.v[0] - 0.2 * x.q[0]);
+    };
   });
   const auto share = [&](Eigen::Index intervals) {
     return violation_of(slow, solved_on(slow, {"tangent", 2}, intervals)).state.share;

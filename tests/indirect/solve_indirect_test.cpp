@@ -183,7 +183,7 @@ TEST(SolveIndirect, WhatTheMaximumPrincipleHereDoesNotCoverIsRefusedByName) {
   refuses("a free horizon", [](Statement& s) { s.horizon = {0.5, 2.0}; });
   refuses("bounds on the controls", [](Statement& s) { s.u = tests::all_between(1, -5.0, 5.0); });
   refuses("bounds on the state", [](Statement& s) { s.v = tests::all_between(1, -5.0, 5.0); });
-  refuses("path constraints", [](Statement& s) { s.path = [](const ControlledState& x) { return x.q; }; });
+  refuses("path constraints", [](Statement& s) { s.path_constraints = [](const ControlledState& x) { return x.q; }; });
   refuses("boundary conditions",
           [](Statement& s) { s.conditions = [](const State&, const State& last) { return last.v; }; });
   refuses("a final cost", [](Statement& s) { s.final_cost = [](const State& last) { return last.q[0]; }; });

@@ -166,7 +166,7 @@ std::unique_ptr<Problem> hurried_cart_pole() {
 void contradict(Statement& s) {
   s.first.free_velocity(0);
   s.last.free_velocity(0);
-  s.path = [](const ControlledState& x) {
+  s.path_constraints = [](const ControlledState& x) {
     ExpressionVector h(2);
     h << x.v[0] - 1.0, -1.0 - x.v[0];
     return h;

@@ -21,8 +21,10 @@ class SmallProblem : public Problem {
   [[nodiscard]] double horizon() const override { return horizon_; }
 
  protected:
-  SmallProblem(std::string name, BoundaryState first, BoundaryState last, double horizon, Eigen::Index controls)
-      : name_(std::move(name)),
+  SmallProblem(std::string name, BoundaryState first, BoundaryState last, double horizon, Eigen::Index controls,
+               std::vector<Parameter> parameters = {})
+      : Problem(std::move(parameters)),
+        name_(std::move(name)),
         first_(std::move(first)),
         last_(std::move(last)),
         horizon_(horizon),

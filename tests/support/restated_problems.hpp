@@ -11,10 +11,11 @@ namespace dmocbench::tests {
 class Restated final : public Problem {
  public:
   struct Statement : ProblemBounds {
-    std::function<ExpressionVector(const ControlledState&)> path;
+    std::function<ExpressionVector(const ControlledState&)> path_constraints;
     std::function<ExpressionVector(const State&, const State&)> conditions;
     std::function<Expression(const State&)> final_cost;
     std::function<Expression(const ControlledState&)> running_cost;
+    std::function<ExpressionVector(const ControlledState&)> integrands;
   };
 
   explicit Restated(const Problem& base, const std::function<void(Statement&)>& state) : base_(base) {
@@ -37,7 +38,10 @@ class Restated final : public Problem {
   [[nodiscard]] double horizon() const override { return base_.horizon(); }
   [[nodiscard]] ProblemBounds bounds() const override { return static_cast<const ProblemBounds&>(statement_); }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
-    return statement_.path ? statement_.path(x) : ExpressionVector();
+    return statement_.path_constraints ? statement_.path_constraints(x) : ExpressionVector();
+  }
+  [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override {
+    return statement_.integrands ? statement_.integrands(x) : ExpressionVector();
   }
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override {
     return statement_.conditions ? statement_.conditions(first, last) : ExpressionVector();
@@ -75,7 +79,7 @@ class Everything {
           s.q = all_between(2, -3.0, 3.0);
           s.v = Bounds{Eigen::Vector2d(-infinity, -2.0), Eigen::Vector2d(infinity, 2.0)};
           s.u = all_between(2, -4.0, 4.0);
-          s.path = [](const ControlledState& x) {
+          s.path_constraints = [](const ControlledState& x) {
             ExpressionVector h(2);
             h << 9.0 - x.q[0] * x.v[1] - x.u[0] * x.u[0] * x.t, 5.0 + x.q[1] - sin(x.v[0]);
             return h;

@@ -23,7 +23,9 @@ Expression window_about_half(const Expression& t, double width) {
 Restated with_path_constraint(const Problem& base,
                               const std::function<Expression(const ControlledState&)>& constraint) {
   return Restated(base, [constraint](Statement& s) {
-    s.path = [constraint](const ControlledState& x) { return ExpressionVector::Constant(1, constraint(x)); };
+    s.path_constraints = [constraint](const ControlledState& x) {
+      return ExpressionVector::Constant(1, constraint(x));
+    };
   });
 }
 

@@ -86,7 +86,7 @@ TEST_P(ViolationInWords, UnreachableFinalStateIsNamedWithTheBoundsThatHold) {
 TEST_P(ViolationInWords, NamesWhatIsPrescribedOfTheMotion) {
   const tests::MovingFrame base;
   const Restated path(base, [](Statement& s) {
-    s.path = [](const ControlledState& x) {
+    s.path_constraints = [](const ControlledState& x) {
       ExpressionVector h(2);
       h << Expression(1.0) + x.q[0] * x.q[0], x.q[0] - 100.0 * (1.0 + x.t) + 1e-9 * x.u[0];  // of ends nothing is known
       return h;

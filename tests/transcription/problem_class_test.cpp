@@ -126,8 +126,8 @@ TEST_P(ProblemClass, PenaltyOnTheFinalStateHasItsClosedForm) {
 TEST_P(ProblemClass, VelocityBoundAndPathConstraintAreTheSameProblem) {
   const tests::DoubleIntegrator base;
   const Restated bounded(base, [](Statement& s) { s.v = all_between(1, -tests::infinity, 1.2); });
-  const Restated constrained(base,
-                             [](Statement& s) { s.path = [](const ControlledState& x) { return one(1.2 - x.v[0]); }; });
+  const Restated constrained(
+      base, [](Statement& s) { s.path_constraints = [](const ControlledState& x) { return one(1.2 - x.v[0]); }; });
   const Solved a = solved(bounded, GetParam(), 64);
   const Solved b = solved(constrained, GetParam(), 64);
   EXPECT_NEAR(a.trajectory.cost, b.trajectory.cost, 1e-8 * a.trajectory.cost);
@@ -258,7 +258,7 @@ class EndsAgainstPathConstraints : public testing::Test {
       Path h, const std::function<void(Statement&)>& more = [](Statement&) {}) {
     const tests::DoubleIntegrator base;
     const Restated problem(base, [&](Statement& s) {
-      s.path = [h](const ControlledState& x) {
+      s.path_constraints = [h](const ControlledState& x) {
         ExpressionVector constraints(2);
         constraints << 2.0 - x.q[0], h(x);
         return constraints;
@@ -307,8 +307,8 @@ TEST_F(EndsAgainstPathConstraints, AreNoneOnTheEdge) {
 
 TEST_F(EndsAgainstPathConstraints, AreRefusedAlsoWhenTheyAreSetLater) {
   const tests::DoubleIntegrator base;
-  const Restated problem(base,
-                         [](Statement& s) { s.path = [](const ControlledState& x) { return one(x.q[0] + 0.5); }; });
+  const Restated problem(
+      base, [](Statement& s) { s.path_constraints = [](const ControlledState& x) { return one(x.q[0] + 0.5); }; });
   const auto program = tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(8));
   const auto set = [&](double q) {
     return refusal([&] { program->set_initial_state(BoundaryState::at_rest(Eigen::VectorXd::Constant(1, q))); });
@@ -367,7 +367,7 @@ TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
             }).find("at its guess in interval 0 (t = 0.0078125) a second derivative of running_cost is not a number"),
             std::string::npos);
   EXPECT_NE(sentence([](Statement& s) {
-              s.path = [](const ControlledState& x) {
+              s.path_constraints = [](const ControlledState& x) {
                 ExpressionVector h(2);
                 h << x.q[0], 2.0 + log(0.5 - x.q[0]);
                 return h;

@@ -22,12 +22,14 @@ class AmplNames {
     name_states();
     name_controls();
     if (shape_.mayer) at_nodes("cost_so_far");
+    for (Eigen::Index i = 0; i < shape_.integrals; ++i) at_nodes(fmt::format("integral_{}", i + 1));
     for (const auto& [is_there, end] :
          {std::pair(shape_.first_has_velocity, "first"), std::pair(shape_.last_has_velocity, "last")}) {
       for (const std::string& q : q_) {
         if (is_there) names_.push_back(fmt::format("v_{}_{}", q, end));
       }
     }
+    for (Eigen::Index i = 0; i < shape_.unknown_parameters; ++i) names_.push_back(fmt::format("parameter_{}", i + 1));
     if (shape_.free_horizon) names_.emplace_back("T");
     return std::move(names_);
   }
@@ -37,6 +39,7 @@ class AmplNames {
     for (Eigen::Index i = 0; i < shape_.stage_equations; ++i) in_intervals(fmt::format("equation_{}", i + 1));
     for (Eigen::Index i = 0; i < shape_.path_rows; ++i) in_intervals(fmt::format("path_{}", i + 1));
     if (shape_.mayer) in_intervals("cost_row");
+    for (Eigen::Index i = 0; i < shape_.integrals; ++i) in_intervals(fmt::format("integral_row_{}", i + 1));
     const bool has_own_ties = shape_.node_state == NodeState::momentum;
     for (const auto& [is_there, end] :
          {std::pair(shape_.first_has_velocity, "first"), std::pair(shape_.last_has_velocity, "last")}) {

@@ -118,11 +118,14 @@ void require_possible(const PrimitiveRequest& request, const PrimitiveLibrary& l
 
 void require_primitives(const Transcription& program) {
   const ProblemBounds bounds = program.problem().bounds();
-  if (bounds.first.all_fixed() && bounds.last.all_fixed() && !bounds.horizon.is_free() && !program.end_functions())
+  const LayoutShape& shape = program.layout().shape();
+  if (bounds.first.all_fixed() && bounds.last.all_fixed() && !bounds.horizon.is_free() && !program.end_functions() &&
+      shape.integrals == 0 && shape.unknown_parameters == 0) {
     return;
+  }
   throw Error(
-      fmt::format("{} has no primitives: both ends and the horizon must be fixed, without a final cost or boundary "
-                  "conditions",
+      fmt::format("{} has no primitives: both ends and the horizon must be fixed, without a final cost, boundary "
+                  "conditions, integral constraints or unknown parameters",
                   program.problem().name()));
 }
 

@@ -34,6 +34,7 @@ class WithoutBounds final : public Problem {
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return base_.path_constraints(x);
   }
+  [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override { return base_.integrands(x); }
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override {
     return base_.boundary_conditions(first, last);
   }

@@ -31,11 +31,13 @@ void require_feedback(const Transcription& program, const Eigen::VectorXd& prima
       static_cast<std::size_t>(multipliers.size()) != program.constraint_count()) {
     throw Error("feedback gains need the variables and multipliers of a solution of the same program");
   }
-  const char* reason = shape.free_horizon      ? "a free horizon"
-                       : shape.conditions > 0  ? "boundary conditions"
-                       : shape.shares_controls ? "controls that two intervals share"
-                       : shape.mayer           ? "the Mayer form"
-                                               : nullptr;
+  const char* reason = shape.free_horizon             ? "a free horizon"
+                       : shape.conditions > 0         ? "boundary conditions"
+                       : shape.shares_controls        ? "controls that two intervals share"
+                       : shape.mayer                  ? "the Mayer form"
+                       : shape.integrals > 0          ? "integral constraints"
+                       : shape.unknown_parameters > 0 ? "unknown parameters"
+                                                      : nullptr;
   if (reason != nullptr) {
     throw Error(std::string("there are no feedback gains with ") + reason +
                 ": the optimal control does not follow from the state at a node alone");

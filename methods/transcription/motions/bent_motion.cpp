@@ -18,7 +18,7 @@ Motion bent(const Motion& motion, const Eigen::MatrixXd& amplitudes, const Eigen
     }
     return point;
   };
-  return {at, motion.horizon};
+  return {at, motion.horizon, motion.unknowns};
 }
 
 }  // namespace dmocbench

@@ -36,11 +36,21 @@ Eigen::MatrixXd sampled_guess(const Problem& problem, Eigen::Index count) {
   return rows;
 }
 
+/// By how much values of h, a row each, keep their bounds; negative where one is violated.
+Eigen::MatrixXd margins(const Eigen::MatrixXd& h, const Bounds& bounds) {
+  const Eigen::MatrixXd above = h.rowwise() - bounds.lower.transpose();
+  return above.cwiseMin((bounds.upper.transpose().replicate(h.rows(), 1) - h));
+}
+
 /// Looks for windows of one entry of h.
 class WindowSearch {
  public:
-  WindowSearch(const Problem& problem, const Eigen::MatrixXd& guess, std::vector<double> stages)
-      : problem_(problem), guess_(guess), times_(guess.col(guess.cols() - 1)), stages_(std::move(stages)) {}
+  WindowSearch(const Problem& problem, const Bounds& bounds, const Eigen::MatrixXd& guess, std::vector<double> stages)
+      : problem_(problem),
+        bounds_(bounds),
+        guess_(guess),
+        times_(guess.col(guess.cols() - 1)),
+        stages_(std::move(stages)) {}
 
   /// Throws if a run of negative `values`, those of entry `i` along the guess, is a window without a stage.
   void check(const Eigen::VectorXd& values, Eigen::Index i, PathConstraints& path) const {
@@ -63,7 +73,7 @@ class WindowSearch {
     values.segment(first, end - first).minCoeff(&worst);
     Eigen::MatrixXd held = guess_.row(first + worst).replicate(2, 1);
     held.col(held.cols() - 1) << *(after - 1), *after;
-    if (!(path.at(held, 2).col(i).array() >= 0.0).all()) return;
+    if (!(margins(path.at(held, 2), bounds_).col(i).array() >= 0.0).all()) return;
     const std::vector<std::string> names = problem_.card().path_constraint_names;
     const auto number = static_cast<std::size_t>(i);
     throw Error(fmt::format(
@@ -74,6 +84,7 @@ class WindowSearch {
   }
 
   const Problem& problem_;
+  const Bounds& bounds_;
   const Eigen::MatrixXd& guess_;
   Eigen::VectorXd times_;
   std::vector<double> stages_;
@@ -90,8 +101,9 @@ void check_constraint_windows(const Problem& problem, const TracedProblem& trace
   const Eigen::Index count = std::max(per_interval * static_cast<Eigen::Index>(grid.intervals()), least) + 1;
   PathConstraints path(traced, count);
   const Eigen::MatrixXd guess = sampled_guess(problem, count);
-  const Eigen::MatrixXd values = path.at(guess, count);
-  const WindowSearch search(problem, guess, stage_times(tableau, grid, problem.horizon()));
+  const Bounds bounds = problem.bounds().of_path(traced.path_constraint_count());
+  const Eigen::MatrixXd values = margins(path.at(guess, count), bounds);
+  const WindowSearch search(problem, bounds, guess, stage_times(tableau, grid, problem.horizon()));
   for (Eigen::Index i = 0; i < values.cols(); ++i) search.check(values.col(i), i, path);
 }
 

@@ -122,7 +122,7 @@ Motion smooth_motion(const Trajectory& trajectory) {
     }
     return point;
   };
-  return {at, trajectory.node_times[trajectory.node_times.size() - 1]};
+  return {at, trajectory.node_times[trajectory.node_times.size() - 1], trajectory.unknowns};
 }
 
 }  // namespace dmocbench

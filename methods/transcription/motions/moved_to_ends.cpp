@@ -34,7 +34,7 @@ Motion moved_to_ends(const Motion& motion, const ProblemBounds& bounds) {
     point.v += r * (1.0 - 3.0 * s) * first.v + s * (3.0 * s - 2.0) * last.v;
     return point;
   };
-  return {at, horizon};
+  return {at, horizon, motion.unknowns};
 }
 
 }  // namespace dmocbench

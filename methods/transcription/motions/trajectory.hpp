@@ -35,6 +35,12 @@ struct Trajectory {
 
   double cost = 0.0;  ///< the true cost, not the scaled one
 
+  Eigen::VectorXd unknowns;   ///< unknown parameters, in the order of `Problem::unknowns`
+  Eigen::VectorXd integrals;  ///< those of `Problem::integrands` over [0, T]
+  /// By how much the least cost grows per unit of the active bound of each integral, as many; empty without
+  /// multipliers.
+  Eigen::VectorXd integral_prices;
+
   /// h_k = t_{k+1} - t_k.
   [[nodiscard]] double step(Eigen::Index k) const { return node_times[k + 1] - node_times[k]; }
   /// (q_k, v_k), without a control.

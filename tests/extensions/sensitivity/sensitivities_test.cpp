@@ -164,7 +164,7 @@ TEST(Sensitivities, WherePathConstraintsAreActiveMoveWithThem) {
     SCOPED_TRACE(method);
     const Family family = [&](double share) {
       const tests::Restated problem(base, [&](tests::Restated::Statement& statement) {
-        statement.path = [=](const ControlledState& x) {
+        statement.path_constraints = [=](const ControlledState& x) {
           return ExpressionVector::Constant(1, share * share * largest * largest - x.v[0] * x.v[0]);
         };
       });
