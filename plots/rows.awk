@@ -16,7 +16,8 @@
 #   awk -f rows.awk -v missing=step,state_error TABLE
 #       the first of these columns that the table lacks
 # A table may hold rows of one problem with several settings or from several libraries. They are problems of their own
-# here: the name of one with settings is followed by them, as in hovercraft_mass_2.
+# here: the name of one with settings is followed by them, as in hovercraft_mass_2. The quantities of a sweep, which are the
+# columns after `instance`, are no settings of this kind.
 BEGIN {
   FS = OFS = ","
   conditions = split(where, condition, ",")
@@ -42,8 +43,14 @@ function clean() {
 }
 function note_columns(i) { for (i = 1; i <= NF; ++i) position[$i] = i }
 # The library and the settings of a row in words.
-function statement(words) {
-  words = $position["library"] ($position["library"] != "" && $position["settings"] != "" ? "_" : "") $position["settings"]
+function statement(words, assignments, count, i, name, settings) {
+  count = split($position["settings"], assignments, " ")
+  for (i = 1; i <= count; ++i) {
+    name = substr(assignments[i], 1, index(assignments[i], "=") - 1)
+    if (!("instance" in position && name in position && position[name] > position["instance"])) settings = settings " " assignments[i]
+  }
+  words = $position["library"] settings
+  sub(/^ /, "", words)
   gsub(/[= ]/, "_", words)
   return words
 }

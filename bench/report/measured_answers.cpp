@@ -40,9 +40,9 @@ bool has_columns(const Table& table, std::initializer_list<std::string_view> nam
 /// Whether a table has one fit per scheme and quantity: tables that tell of more, such as situations, have more
 /// columns.
 bool has_fits(const Table& table) {
-  constexpr std::array<std::string_view, 12> known{"problem",  "method", "tableau",        "stages",
-                                                   "quantity", "slope",  "standard_error", "finest",
-                                                   "coarsest", "points", "floor",          "verdict"};
+  constexpr std::array<std::string_view, 16> known{
+      "problem", "library",  "settings",   "method",   "tableau",        "stages", "quantity", "slope",
+      "finest",  "coarsest", "coarse_end", "fine_end", "standard_error", "points", "floor",    "verdict"};
   return has_columns(table, {"problem", "method", "quantity", "slope", "standard_error"}) &&
          std::ranges::all_of(table.columns(),
                              [&](const std::string& column) { return std::ranges::count(known, column) > 0; });
