@@ -51,6 +51,28 @@ std::string linked(const Row& claim) {
                      escaped(in_words(problem_and_name(claim.text("claim")).first)));
 }
 
+/// The first figure that a claim names as its evidence; empty without one.
+std::string figure_of(const Row& claim) {
+  const std::string evidence = claim.text("evidence");
+  constexpr std::string_view folder = "figures/";
+  const std::size_t begin = evidence.find(folder);
+  const std::size_t end = evidence.find(".svg", begin);
+  if (begin == std::string::npos || end == std::string::npos) return "";
+  return evidence.substr(begin + folder.size(), end - begin - folder.size());
+}
+
+/// Links to the figures of the claims; the script of the page puts the figures into them.
+std::string small_figures(const std::vector<const Row*>& claims) {
+  std::string html;
+  for (const Row* const claim : claims) {
+    const std::string figure = figure_of(*claim);
+    if (!figure.empty())
+      html +=
+          fmt::format("<a class=\"small\" href=\"#{}\">{}</a>\n", anchor("figure", figure), escaped(in_words(figure)));
+  }
+  return html.empty() ? "" : "<div class=\"smalls\">" + html + "</div>";
+}
+
 /// As a sentence begins.
 std::string capitalised(std::string text) {
   if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
@@ -67,9 +89,10 @@ std::string answer_html(const Question& question, const Table& claims) {
     measured.push_back(fmt::format("{} {}: {}", linked(*claim), badge(claim->text("verdict")),
                                    escaped_prose(first_clauses(claim->text("measured"), question.clauses))));
   }
-  std::string html =
-      fmt::format("<li><b>{}.</b> {}: {}.", question.topic, escaped_prose(capitalised(answers.front()->text("states"))),
-                  fmt::join(measured, "; "));
+  const std::string section = section_of(*answers.front());
+  std::string html = fmt::format(
+      "<li><b>{}</b>{}. {}: {}.", question.topic, section.empty() ? "" : fmt::format(" <i>({})</i>", escaped(section)),
+      escaped_prose(capitalised(answers.front()->text("states"))), fmt::join(measured, "; "));
   std::vector<std::string> verdicts;
   const std::vector<const Row*> beside = claims_named(claims, question.beside);
   verdicts.reserve(beside.size());
@@ -77,7 +100,7 @@ std::string answer_html(const Question& question, const Table& claims) {
     verdicts.push_back(fmt::format("{} {}", linked(*claim), badge(claim->text("verdict"))));
   if (!verdicts.empty())
     html += fmt::format(" <i>{}: {}</i>", escaped(in_words(question.beside)), fmt::join(verdicts, ", "));
-  return html + "</li>\n";
+  return html + small_figures(answers) + "</li>\n";
 }
 
 }  // namespace
@@ -90,6 +113,11 @@ std::string answers_html(const Table& claims) {
 
 std::string badge(const std::string& verdict) {
   return fmt::format("<span class=\"verdict {}\">{}</span>", anchor("v", verdict), escaped(verdict));
+}
+
+std::string section_of(const Row& claim) {
+  const std::string where = claim.text("where");
+  return where.substr(0, where.find(','));
 }
 
 std::pair<std::string, std::string> problem_and_name(const std::string& claim) {

@@ -14,6 +14,9 @@ namespace dmocbench {
 /// A verdict as a small label.
 [[nodiscard]] std::string badge(const std::string& verdict);
 
+/// The first place in the paper that a claim names, such as "section 4.2.1".
+[[nodiscard]] std::string section_of(const Row& claim);
+
 /// "orbital_transfer" and "state_slope" of "orbital_transfer/state_slope".
 [[nodiscard]] std::pair<std::string, std::string> problem_and_name(const std::string& claim);
 

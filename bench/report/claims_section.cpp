@@ -51,7 +51,7 @@ std::string filter_html(const Table& claims) {
   }
   return "<form class=\"filter\" hidden>" + choice_html("Verdict", "verdict", verdicts) +
          choice_html("Problem", "problem", problems) + choice_html("Whose", "whose", owners) +
-         "<output aria-live=\"polite\"></output></form>\n";
+         "<label>Search <input type=\"search\" data-search></label>\n<output aria-live=\"polite\"></output></form>\n";
 }
 
 /// "21 reproduced, 4 differs" of each owner.
@@ -67,17 +67,45 @@ std::string counts_html(const Table& claims) {
   return html + "</ul>\n";
 }
 
+bool is_of_paper(const Row& claim) { return claim.text("whose") == "paper" || claim.text("whose") == "remark"; }
+
+/// The paper's statements and remarks by section, in the order of its text.
+std::string paper_claims_html(const ResultsFolder& results) {
+  std::map<std::string, std::string> by_section;
+  for (const Row& claim : results.claims.rows()) {
+    if (is_of_paper(claim)) by_section[section_of(claim)] += claim_html(claim, results);
+  }
+  std::string html;
+  for (const auto& [section, group] : by_section)
+    html += fmt::format("<h3>The paper, {}</h3>\n{}", escaped(section), group);
+  return html;
+}
+
+/// The other claims, closed, by whose they are.
+std::string other_claims_html(const ResultsFolder& results) {
+  std::map<std::string, std::pair<int, std::string>> by_owner;
+  for (const Row& claim : results.claims.rows()) {
+    if (is_of_paper(claim)) continue;
+    auto& [count, group] = by_owner[claim.text("whose")];
+    ++count;
+    group += claim_html(claim, results);
+  }
+  std::string html;
+  for (const auto& [owner, claims] : by_owner)
+    html += fmt::format("<details class=\"group\"><summary><b>{}</b> ({})</summary>\n{}</details>\n",
+                        escaped(in_words(owner)), claims.first, claims.second);
+  return html;
+}
+
 }  // namespace
 
 std::string claims_section(const ResultsFolder& results) {
   const Table& claims = results.claims;
   if (claims.rows().empty()) return "";
-  std::string html =
-      "<section id=\"claims\"><h2>Claims</h2>\n<p>A predicate on the tables decides on every verdict. Each line opens "
-      "what was measured, why, by which rows of which tables, and the commands that make it again.</p>\n" +
-      counts_html(claims) + filter_html(claims);
-  for (const Row& claim : claims.rows()) html += claim_html(claim, results);
-  return html + "</section>\n";
+  return "<section id=\"claims\"><h2>Claims</h2>\n<p>A predicate on the tables decides every verdict. Each line "
+         "opens to the measurement, the reason, the rows of tables, and the commands that produce them.</p>\n" +
+         counts_html(claims) + filter_html(claims) + paper_claims_html(results) + other_claims_html(results) +
+         "</section>\n";
 }
 
 }  // namespace dmocbench

@@ -48,7 +48,7 @@ std::string reached_html(const std::vector<ReachedOptimum>& methods, const std::
       escaped(in_words(problem)));
   for (const ReachedOptimum& reached : methods) {
     html += fmt::format("<tr{}><td>{}<td>{}<td>{}<td>{}<td>{}\n", reached.near == 0 ? " class=\"unsolved\"" : "",
-                        escaped(in_words(reached.method)), reached.rows, reached.solved, reached.near,
+                        escaped(method_in_words(reached.method)), reached.rows, reached.solved, reached.near,
                         reached.smallest_difference ? fmt::format("{:.2g}", *reached.smallest_difference) : "");
   }
   return html + "</tbody></table></div>\n";

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "methods/runtime/parsed.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 
@@ -110,6 +111,20 @@ std::string in_words(std::string_view name) {
   std::string words(name);
   std::ranges::replace(words, '_', ' ');
   return words;
+}
+
+std::string method_in_words(std::string_view method) {
+  for (const Family& family : registered_families()) {
+    if (method == family.name) return std::string(family.label);
+    if (!family.takes_integrator || !method.starts_with(std::string(family.name) + "_")) continue;
+    const std::string_view integration = method.substr(family.name.size() + 1);
+    const std::size_t steps = integration.rfind('_');
+    if (steps == std::string_view::npos) break;
+    const std::string_view count = integration.substr(steps + 1);
+    return fmt::format("{}, {}, {} {}", family.label, in_words(integration.substr(0, steps)), count,
+                       count == "1" ? "step" : "steps");
+  }
+  return in_words(method);
 }
 
 std::string shortened(const std::string& field) {

@@ -23,6 +23,9 @@ namespace dmocbench {
 /// "two link manipulator" of "two_link_manipulator".
 [[nodiscard]] std::string in_words(std::string_view name);
 
+/// "Multiple shooting, rk4, 1 step" of the method "multiple_shooting_rk4_1", "DMOC" of "dmoc"; other names in words.
+[[nodiscard]] std::string method_in_words(std::string_view method);
+
 /// A field of a table for readers: numbers with six digits.
 [[nodiscard]] std::string shortened(const std::string& field);
 

@@ -88,7 +88,7 @@ std::string line_html(const Scheme& scheme, const Measured& measured) {
   const std::string steps =
       stages.empty() ? tableau
                      : fmt::format("{}, {} per step", tableau, stages == "1" ? "1 stage" : stages + " stages");
-  return fmt::format("<li><b>{} by {}</b>{}: {}.</li>\n", escaped(in_words(problem)), escaped(in_words(method)),
+  return fmt::format("<li><b>{} by {}</b>{}: {}.</li>\n", escaped(in_words(problem)), escaped(method_in_words(method)),
                      steps.empty() ? "" : escaped(fmt::format(" ({})", steps)), fmt::join(parts, "; "));
 }
 

@@ -134,17 +134,32 @@ std::string times_in_words(const ResultsFolder& results) {
 std::string comparison_html(const ResultsFolder& results) {
   std::size_t rows = 0;
   for (const ReportedTable& table : results.tables) rows += table.table.rows().size();
-  return fmt::format(
-      "<p>{} by the methods {}: {} in {}, {}, {}.</p>\n", counted(fields_of(results, "problem").size(), "problem"),
-      escaped(listed(fields_of(results, "method"))), counted(rows, "row"), counted(results.tables.size(), "table"),
-      counted(results.figures.size(), "figure"), counted(results.claims.rows().size(), "claim"));
+  std::set<std::string> methods;
+  for (const std::string& method : fields_of(results, "method")) methods.insert(method_in_words(method));
+  return fmt::format("<p>{} by the methods {}: {} in {}, {}, {}.</p>\n",
+                     counted(fields_of(results, "problem").size(), "problem"), escaped(listed(methods)),
+                     counted(rows, "row"), counted(results.tables.size(), "table"),
+                     counted(results.figures.size(), "figure"), counted(results.claims.rows().size(), "claim"));
+}
+
+/// Links to what the page holds.
+std::string contents_html(const ResultsFolder& results) {
+  std::vector<std::string> links;
+  const auto add = [&links](bool is_there, std::string_view id, std::string_view words) {
+    if (is_there) links.push_back(fmt::format("<a href=\"#{}\">{}</a>", id, words));
+  };
+  add(!results.claims.rows().empty(), "claims", "the paper's claims and their verdicts");
+  add(!results.motions.empty(), "gallery", "a gallery of the problems with their motions");
+  add(!results.figures.empty(), "figures", "all figures");
+  add(!results.tables.empty(), "tables", "all tables");
+  return links.empty() ? "" : fmt::format("<p>Continue with {}.</p>\n", fmt::join(links, ", "));
 }
 
 }  // namespace
 
 std::string overview_section(const ResultsFolder& results) {
   std::string html = "<section id=\"overview\"><h1>DMOC against collocation</h1>\n";
-  html += comparison_html(results) + warnings_html(results) +
+  html += comparison_html(results) + contents_html(results) + warnings_html(results) +
           (results.claims.rows().empty() ? measured_answers_html(results) : answers_html(results.claims)) +
           unsolved_html(results) + "<dl class=\"facts\">\n";
   const auto add = [&html](std::string_view term, const std::string& description) {

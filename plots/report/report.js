@@ -19,16 +19,32 @@ addEventListener("hashchange", open_target);
 for (const form of document.querySelectorAll(".filter")) {
   const claims = [...document.querySelectorAll(".claim")];
   const choices = [...form.querySelectorAll("select")];
+  const search = form.querySelector("[data-search]"), groups = [...document.querySelectorAll(".group")];
   const apply = () => {
+    const wanted = search.value.trim().toLowerCase();
     for (const claim of claims) {
-      claim.hidden = choices.some((choice) => choice.value && claim.dataset[choice.dataset.filter] !== choice.value);
+      claim.hidden = choices.some((choice) => choice.value && claim.dataset[choice.dataset.filter] !== choice.value)
+        || (wanted !== "" && !claim.textContent.toLowerCase().includes(wanted));
     }
+    // A closed group whose claims were chosen opens.
+    const narrows = wanted !== "" || choices.some((choice) => choice.value);
+    for (const group of groups) group.open = narrows && [...group.querySelectorAll(".claim")].some((claim) => !claim.hidden);
     form.querySelector("output").value = claims.filter((claim) => !claim.hidden).length + " of " + claims.length + " claims";
   };
   form.addEventListener("change", apply);
+  search.addEventListener("input", apply);
   form.addEventListener("submit", (event) => event.preventDefault());
   form.hidden = false;
   apply();
+}
+
+// --- Answers show their figures small.
+for (const link of document.querySelectorAll("a.small")) {
+  const drawn = document.getElementById(link.hash.slice(1))?.querySelector("img");
+  if (!drawn) continue;
+  const name = link.textContent;
+  link.replaceChildren(drawn.cloneNode(true));
+  link.title = name;
 }
 
 // --- A claim that is opened shows its figures in place.

@@ -71,6 +71,53 @@ TEST(Html, ShortensNumbersAndLeavesTexts) {
   EXPECT_EQ(shortened("iteration limit"), "iteration limit");
 }
 
+TEST(Html, NamesMethodsAsFiguresDo) {
+  EXPECT_EQ(method_in_words("dmoc"), "DMOC");
+  EXPECT_EQ(method_in_words("multiple_shooting_rk4_1"), "Multiple shooting, rk4, 1 step");
+  EXPECT_EQ(method_in_words("single_shooting_midpoint_2"), "Single shooting, midpoint, 2 steps");
+  EXPECT_EQ(method_in_words("my_own"), "my own");
+}
+
+/// Claims of the paper and of the suite, and two figures, one of which a claim of the paper names.
+ResultsFolder judged_folder() {
+  ResultsFolder results = folder_with(two_solves());
+  results.claims = Table::from_csv(
+      "claim,where,whose,states,measured,verdict,evidence\n"
+      "orbital_transfer/equal_solutions,\"section 3.4, th:equi\",paper,same,1e-13,reproduced,t.csv; "
+      "figures/orbital_transfer_equal.svg\n"
+      "orbital_transfer/ours,,ours,more,5,differs,t.csv\n");
+  results.figures = {{"orbital_transfer_equal", "<svg/>"}, {"orbital_transfer_sweep", "<svg/>"}};
+  return results;
+}
+
+TEST(Report, AnswersOnTheFirstScreenWithSectionVerdictAndFigure) {
+  const std::string page = report_page(judged_folder(), "");
+  const std::string overview = page.substr(0, page.find("</section>"));
+  EXPECT_TRUE(has(overview, "<b>Accuracy</b> <i>(section 3.4)</i>"));
+  EXPECT_TRUE(has(overview, "<span class=\"verdict v-reproduced\">reproduced</span>"));
+  EXPECT_TRUE(has(overview, "<a class=\"small\" href=\"#figure-orbital-transfer-equal\">"));
+  EXPECT_TRUE(has(overview, "<a href=\"#figures\">all figures</a>"));
+  EXPECT_FALSE(has(overview, "#gallery"));
+}
+
+TEST(Report, PutsThePapersClaimsFirstAndClosesTheOthers) {
+  const std::string page = report_page(judged_folder(), "");
+  const std::size_t paper =
+      page.find("<h3>The paper, section 3.4</h3>\n<details class=\"claim\" id=\"claim-orbital-transfer-equal");
+  const std::size_t others = page.find("<details class=\"group\"><summary><b>ours</b> (1)</summary>");
+  ASSERT_NE(paper, std::string::npos);
+  ASSERT_NE(others, std::string::npos);
+  EXPECT_LT(paper, others);
+  EXPECT_GT(page.find("id=\"claim-orbital-transfer-ours\""), others);
+}
+
+TEST(Report, GroupsFiguresByThePapersSectionsThenByKind) {
+  const std::string page = report_page(judged_folder(), "");
+  EXPECT_TRUE(has(page, "<dt>The paper, section 3.4<dd><a href=\"#figure-orbital-transfer-equal\">"));
+  EXPECT_TRUE(has(page, "<dt>sweep<dd><a href=\"#figure-orbital-transfer-sweep\">"));
+  EXPECT_LT(page.find("<h3>The paper, section 3.4</h3>\n<figure"), page.find("<h3>sweep</h3>\n<figure"));
+}
+
 TEST(Report, MarksRowsThatWereNotSolvedAndTellsWhatAllRowsShare) {
   const std::string page = report_page(folder_with(two_solves()), "");
   EXPECT_TRUE(has(page, "<tr class=\"unsolved\"><td>iteration limit"));
@@ -117,12 +164,12 @@ TEST(Report, TellsOrdersAndSolvesWhereNobodyHasJudged) {
     return page.substr(0, page.find("</section>"));
   };
   EXPECT_TRUE(has(overview(),
-                  "<b>arm by dmoc</b> (gauss, 1 stage per step): <a href=\"#table-convergence-slopes-csv\">"
+                  "<b>arm by DMOC</b> (gauss, 1 stage per step): <a href=\"#table-convergence-slopes-csv\">"
                   "fitted orders</a> state 2.012 ± 0.017, control 1.900, costate: floor."));
-  EXPECT_TRUE(has(overview(), "<b>arm by dmoc</b>: 1 of 2 solves solved."));
+  EXPECT_TRUE(has(overview(), "<b>arm by DMOC</b>: 1 of 2 solves solved."));
   EXPECT_FALSE(has(overview(), "state 7"));
   results.claims = Table::from_csv("claim,verdict,whose,states,measured\narm/other,differs,paper,nothing,5\n");
-  EXPECT_FALSE(has(overview(), "arm by dmoc"));
+  EXPECT_FALSE(has(overview(), "arm by DMOC"));
 }
 
 TEST(Report, RunsNothingThatStandsInATable) {
@@ -229,7 +276,7 @@ TEST(Report, AnswersFiveQuestionsByClaimsOnItsFirstScreen) {
       "leg/equal_solutions,differs,paper,they are equal,to 1e-2\narm/other,differs,paper,nothing,5\n");
   const std::string page = report_page(results, "");
   const std::string overview = page.substr(0, page.find("<section id=\"claims\""));
-  EXPECT_TRUE(has(overview, "<b>Accuracy.</b> They are equal: "));
+  EXPECT_TRUE(has(overview, "<b>Accuracy</b>. They are equal: "));
   EXPECT_TRUE(has(overview, "reproduced</span>: to <span class=\"number\">1e-9</span>; "));
   EXPECT_TRUE(has(overview, "differs</span>: to <span class=\"number\">1e-2</span>."));
   EXPECT_FALSE(has(overview, "on 3 grids") || has(overview, "Structure"));
