@@ -48,7 +48,7 @@ enum class FactorisationStatus : std::uint8_t {
 ///
 ///   (H + diag(d)) δx + Jᵀ δλ = -gradient,   J δx - diag(e) δλ = -constraints,
 ///
-/// and to tell whether the solution is a minimum along the equalities. Fixed variables do not move: δx = 0.
+/// and to report whether the solution is a minimum along the equalities. Fixed variables do not move: δx = 0.
 class KktSystem {
  public:
   virtual ~KktSystem() = default;
@@ -57,7 +57,7 @@ class KktSystem {
   KktSystem(KktSystem&&) = delete;
   KktSystem& operator=(KktSystem&&) = delete;
 
-  /// Before the matrices of another solve: forgets what was observed in the last one, so that solves do not depend on
+  /// Before the matrices of another solve: forgets the observations of the last one, so that solves do not depend on
   /// each other.
   virtual void begin_solve() {}
 

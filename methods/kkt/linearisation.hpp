@@ -15,7 +15,7 @@ struct Linearisation {
   Eigen::VectorXd point;
   double objective = 0.0;
   Eigen::VectorXd constraints;
-  Eigen::VectorXd gradient;              ///< empty where only values were asked for
+  Eigen::VectorXd gradient;              ///< empty where only values were requested
   Eigen::SparseMatrix<double> jacobian;  ///< m x n
 
   [[nodiscard]] bool has_finite_values() const { return std::isfinite(objective) && constraints.allFinite(); }
@@ -43,7 +43,7 @@ void differentiate(NonlinearProgram& program, Linearisation& at);
 
 /// Lower triangle of (H + δI, Eᵀ; E, 0), where E are the rows of the Jacobian that count. Fixed variables and the other
 /// rows are replaced by unit rows (1 and -1), so that the pattern is the same at every point and the number of negative
-/// eigenvalues that belongs to a positive definite H + δI on the null space of E is that of all rows.
+/// eigenvalues that belongs to a positive definite H + δI on the null space of E equals the number of rows.
 /// `hessian`: lower triangle, n x n; `jacobian`: m x n; `free`: n entries; `counts`: m entries.
 [[nodiscard]] Eigen::SparseMatrix<double> kkt_matrix(const Eigen::SparseMatrix<double>& hessian, double shift,
                                                      const Eigen::SparseMatrix<double>& jacobian,

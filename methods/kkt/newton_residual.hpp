@@ -21,13 +21,13 @@ class NewtonResidual {
 
   void compute(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const KktStep& step);
 
-  /// The residual that was computed last. As a right-hand side it asks for the correction of the step.
+  /// The residual that was computed last. As a right-hand side it gives the correction of the step.
   [[nodiscard]] KktRightHandSide value() const noexcept { return {.gradient = gradient_, .constraints = constraints_}; }
 
   /// The residual divided by its limit: the sum of `accuracy` times the largest entry of the right-hand side, the
   /// rounding of the sums that the residual is left of, and the largest of the program's `RoundingFloors`. Gradient and
   /// constraints have limits of their own; the larger ratio counts. Infinite if a number is not finite. `matrix` and
-  /// `step` are those of the last `compute`.
+  /// `step` are the arguments of the last `compute`.
   [[nodiscard]] double excess(const KktMatrix& matrix, const KktStep& step, double accuracy) const;
 
  private:

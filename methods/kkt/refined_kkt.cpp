@@ -50,7 +50,7 @@ FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const KktRightHan
   return robust;
 }
 
-/// Refines a step of the fast system, or believes that it is accurate as those before it were.
+/// Refines a step of the fast system, or accepts it without a check if the steps before it were accurate.
 bool RefinedKkt::is_accurate(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const KktStep& step) {
   if (unchecked_ > 0) {
     --unchecked_;

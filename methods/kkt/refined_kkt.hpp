@@ -17,7 +17,7 @@ namespace dmocbench::kkt {
 /// - A step is refined until its residual is small enough. If refinement does not reach that, the sparse factorisation
 ///   solves the system.
 /// - A step that is `untrusted` or `singular` goes to the sparse factorisation at once.
-/// - `wrong_inertia` is believed where it is certain. Of the others, the sparse factorisation checks those that
+/// - `wrong_inertia` is accepted where it is certain. Of the others, the sparse factorisation checks those that
 ///   `RefusalChecks` chooses.
 ///
 /// A residual costs a good part of an elimination (`bench/speed/speed`), so the two steps after an accurate one are not

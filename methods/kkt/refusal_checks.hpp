@@ -7,11 +7,11 @@ namespace dmocbench::kkt {
 /// shifted for nothing, and Newton's method takes many short steps in the place of a few.
 ///
 /// - Every fourth refusal of one matrix is checked: a Hessian usually has the right inertia after two or three shifts.
-/// - After 32 matrices that were refused, all refusals of the next ones are, until one of them says enough: a wrong
-///   refusal, or several of one matrix that were right. One alone, mostly that of the matrix without a shift, says
-///   little; four such matrices are enough. Where all were right, twice as many matrices are believed before the next
+/// - After 32 matrices that were refused, all refusals of the next ones are, until one of them decides: a wrong
+///   refusal, or several of one matrix that were right. One alone, mostly of the matrix without a shift, proves
+///   little; four such matrices are enough. Where all were right, twice as many matrices are accepted before the next
 ///   check. Two matrices in a row that are not refused begin the count anew.
-/// - Once a refusal was wrong, all refusals are checked, until matrices say in the same way that they are right.
+/// - Once a refusal was wrong, all refusals are checked, until matrices show in the same way that they are right.
 class RefusalChecks {
  public:
   /// Before the matrices of another solve.
@@ -23,7 +23,7 @@ class RefusalChecks {
   }
   /// The refusal that was checked last was wrong.
   void contradict() noexcept { was_wrong_ = true; }
-  /// After a step; what follows is another matrix.
+  /// After a step; the next matrix is another one.
   void end_matrix() noexcept {
     if (refusals_ > 0) {
       count_refused_matrix();

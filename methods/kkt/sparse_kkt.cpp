@@ -38,7 +38,7 @@ std::vector<int> dissection_order(const NonlinearProgram& program) {
   const auto append = [&](const Place& place, bool is_row) {
     const bool of_node = place.kind == Place::Kind::node;
     const std::size_t rank = place.kind == Place::Kind::border ? next : ranks[2 * place.index + (of_node ? 0 : 1)];
-    // Rows of a node stand before its unknowns, those of an interval behind.
+    // Rows of a node come before its unknowns, rows of an interval after them.
     keys.emplace_back(2 * rank + (is_row == of_node ? 0 : 1), static_cast<int>(keys.size()));
   };
   structure->unknowns.for_each([&](const Place& place) { append(place, false); });

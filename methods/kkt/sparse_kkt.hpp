@@ -16,7 +16,7 @@ namespace dmocbench::kkt {
 /// intervals, which are eliminated one after the other. A line that has to wait for a better pivot then waits for a few
 /// nodes only, not for the rest of the horizon.
 ///
-/// The position of every line, unknowns first, then rows; empty if the program tells no interval structure.
+/// The position of every line, unknowns first, then rows; empty if the program has no interval structure.
 [[nodiscard]] std::vector<int> dissection_order(const NonlinearProgram& program);
 
 /// The KKT system of any program, by the sparse factorisation of MUMPS: the yardstick of the elimination by
@@ -24,13 +24,13 @@ namespace dmocbench::kkt {
 class SparseKkt final : public KktSystem {
  public:
   enum class Order : std::uint8_t {
-    found,  ///< by MUMPS, which knows nothing of intervals: fewer operations, found in five times their time
-    along_the_horizon,  ///< by `dissection_order`, if the program tells an interval structure
+    found,              ///< by MUMPS, without regard to intervals: fewer operations, found in five times their time
+    along_the_horizon,  ///< by `dissection_order`, if the program has an interval structure
   };
 
   enum class Inertia : std::uint8_t {
     minimum,  ///< the step must lead to a minimum along the constraints; otherwise `wrong_inertia`
-    any,      ///< the step is wanted whatever the point is that it leads to
+    any,      ///< the step may lead to any stationary point
   };
 
   explicit SparseKkt(const NonlinearProgram& program, Order order = Order::found, Inertia inertia = Inertia::minimum);

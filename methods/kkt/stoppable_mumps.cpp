@@ -1,6 +1,6 @@
-// Functions that MUMPS calls, and its own, in the place of those of the libraries, as the dynamic linker looks into the
-// program first: what takes long or fails inside of MUMPS ends as an exception, which passes through it, and through
-// Ipopt where that called it, as one of `new` would. Work arrays of the call are lost.
+// Functions that MUMPS calls, and its own, in place of the libraries' functions, as the dynamic linker looks into the
+// program first: a failure or a long computation inside MUMPS ends as an exception, which passes through it, and
+// through Ipopt where that called it, as one of `new` would. Work arrays of the call are lost.
 #include <array>
 #include <cstddef>
 #include <new>
@@ -23,13 +23,13 @@ namespace {
 /// The function of that name of the library that is behind ours.
 template <class Function>
 Function* of_library(const char* name, void* where = RTLD_NEXT) {
-  return reinterpret_cast<Function*>(dlsym(where, name));  // NOLINT(*-reinterpret-cast): dlsym knows no functions
+  return reinterpret_cast<Function*>(dlsym(where, name));  // NOLINT(*-reinterpret-cast): dlsym returns void*
 }
 
 /// Whether MUMPS factorises in this thread.
 thread_local bool is_factorising = false;
 
-/// Frees what the module of MUMPS that counts loads keeps throughout a factorisation: it would refuse the next one.
+/// Frees the memory of MUMPS' load counter after an interrupted factorisation: it would refuse the next one.
 void free_loads() {
   using End = void(int* info, int* slaves, int* error);
   static auto* const end = of_library<End>("__dmumps_load_MOD_dmumps_load_end", RTLD_DEFAULT);
@@ -61,7 +61,7 @@ void dmumps_c(DMUMPS_STRUC_C* data) {
 }
 
 /// The product of matrices of BLAS, C = α A B + β C. Where pivots fail, one factorisation takes minutes; this is the
-/// function that MUMPS calls most often in it, some hundredths of a second apart, so here it is asked for a stop.
+/// function that MUMPS calls most often in it, some hundredths of a second apart, so stop requests are checked here.
 void dgemm_(const char* of_a, const char* of_b, const int* m, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
             const int* ldc, std::size_t length_a, std::size_t length_b);  // NOLINT(readability-identifier-naming)
@@ -69,7 +69,7 @@ void dgemm_(const char* of_a, const char* of_b, const int* m, const int* n, cons
             const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
             const int* ldc, std::size_t length_a, std::size_t length_b) {
   static auto* const multiply = of_library<decltype(dgemm_)>("dgemm_");
-  constexpr double worth_asking = 1e5;  // products, which take ten times as long as to ask
+  constexpr double worth_asking = 1e5;  // products, which take ten times as long as the check
   if (is_factorising && 1.0 * *m * *n * *k > worth_asking) dmocbench::stop_if_requested();
   multiply(of_a, of_b, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc, length_a, length_b);
 }

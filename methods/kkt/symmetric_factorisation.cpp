@@ -70,9 +70,9 @@ struct SymmetricFactorisation::Mumps {
   Mumps(Mumps&&) = delete;
   Mumps& operator=(Mumps&&) = delete;
 
-  /// False if the matrix is singular. Where workspace is lacking, tries again with more, up to some ten times of what
-  /// the pattern needs: pivots that are postponed so often make minutes of a millisecond. Throws `std::bad_alloc` where
-  /// memory is lacking, `Stopped`, `Error` otherwise.
+  /// False if the matrix is singular. Where workspace is lacking, tries again with more, up to about ten times as much
+  /// as the pattern needs: pivots that are postponed so often make minutes of a millisecond. Throws `std::bad_alloc`
+  /// where memory is lacking, `Stopped`, `Error` otherwise.
   bool run(int job) {
     constexpr int most_workspace_percent = 1000;
     while (true) {
@@ -127,7 +127,7 @@ bool SymmetricFactorisation::factorise(const Eigen::SparseMatrix<double>& lower)
       if (!mumps_->analysed) return false;
     }
     return mumps_->run(job_factorise) && mumps_->data.infog[control(28)] == 0;  // pivots that are mere rounding
-  } catch (...) {                                                               // what it was doing is half done
+  } catch (...) {                                                               // its work is half done
     mumps_ = std::make_shared<Mumps>(std::move(mumps_->positions));
     throw;
   }

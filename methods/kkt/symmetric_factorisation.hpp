@@ -13,7 +13,7 @@ namespace dmocbench {
 /// `StopScope` of their thread, while they wait and while they work.
 class SymmetricFactorisation {
  public:
-  /// Eliminates in a given order, which is kept: `positions` says for every row of the matrix when it is eliminated,
+  /// Eliminates in a given order, which is kept: `positions` gives for every row of the matrix when it is eliminated,
   /// from 0 on; empty to let MUMPS choose. A row whose pivot is too small is postponed.
   explicit SymmetricFactorisation(const std::vector<int>& positions = {});
 
@@ -21,7 +21,7 @@ class SymmetricFactorisation {
   static constexpr double largest_entry = 1e100;
 
   /// Factorises the matrix whose lower triangle is given. False if it is singular, or so nearly that postponed pivots
-  /// ask for more than some ten times the workspace of the pattern, or an entry is not finite or above
+  /// need more than about ten times the workspace of the pattern, or an entry is not finite or above
   /// `largest_entry`: MUMPS aborts where a number is infinite. The order of elimination, if none was given, is chosen
   /// at the first call and kept while the pattern stays the same. Throws `std::bad_alloc` if there is not enough
   /// memory, `Stopped`, and `Error` if MUMPS fails otherwise; the object may be used again.

@@ -4,8 +4,8 @@
 #include "methods/kkt/intervals/kernel_blocks.hpp"
 #include "methods/kkt/intervals/products.hpp"
 
-// One step of both sweeps for sizes that the compiler does not know. The formulas are those of fixed_size_step.hpp and
-// README.md, as products of matrices (products.hpp) instead of loops.
+// One step of both sweeps for sizes that are unknown at compile time. The formulas are the same as in
+// fixed_size_step.hpp and README.md, as products of matrices (products.hpp) instead of loops.
 // NOLINTBEGIN(*-avoid-c-arrays): arrays that live in registers
 namespace dmocbench::kkt {
 inline namespace DMOCBENCH_LANES {
@@ -38,8 +38,8 @@ struct StepWork<Shape> {
   LaneMatrix<S, next_size<S>, column_count<S>> gradient;           // of the interval's own cost with respect to Z
   Block transition{nullptr, 1, 0};                                 // the next state as a function of (w, X, 1)
   LaneMatrix<S, state_size<S>, column_count<S>> whole_transition;  // its place if the record lacks rows of it
-  LaneMatrix<S, state_size<S>, column_count<S>> costate;   // derivative of what the next state costs, of (w, X, 1)
-  LaneMatrix<S, inequality_count, column_count<S>> lines;  // the inequalities, weighted by 1/e
+  LaneMatrix<S, state_size<S>, column_count<S>> costate;           // derivative of the next state's cost, of (w, X, 1)
+  LaneMatrix<S, inequality_count, column_count<S>> lines;          // the inequalities, weighted by 1/e
   LaneMatrix<S, column_count<S>, column_count<S>>
       condensed;                                       // quadratic form of interval and cost-to-go; lower triangle
   LaneMatrix<S, free_size<S>, scaled_columns> scaled;  // w x (w, X, 1, ν): eliminated rows divided by pivots
@@ -167,8 +167,8 @@ inline void make_transition(const LocalSystem<Shape>& local, StepWork<Shape>& wo
 
 /// Derivatives of the interval's cost with respect to Z, and of the cost-to-go with respect to the next state, as
 /// functions of (w, X, 1). If the shape is plain, the dependent entries of Z are part of the next state, and their
-/// derivatives of that one: the Hessian of the interval is added to that of the cost-to-go, which `advance` replaces,
-/// in the active lanes only.
+/// derivatives of that state: the Hessian of the interval is added to the Hessian of the cost-to-go, which `advance`
+/// replaces, in the active lanes only.
 inline void differentiate_interval(const LocalSystem<Shape>& local, const Lanes::Mask* active, CostToGo<Shape>& V,
                                    StepWork<Shape>& work) {
   const auto [n, Z, X, w, N] = sizes_of(local.shape);
@@ -291,7 +291,7 @@ inline void advance(const Shape& shape, const Lanes::Mask* active, StepWork<Shap
   }
 }
 
-/// w = -(gain)(X, 1, ν): L⁻ᵀ applied to what `factorise_free` left.
+/// w = -(gain)(X, 1, ν): L⁻ᵀ applied to the result of `factorise_free`.
 inline void store_gain(const Shape& shape, StepWork<Shape>& work, const MatrixView<Lanes>& gain) {
   const int w = free_size(shape);
   const int columns = 2 * state_size(shape) + 1;

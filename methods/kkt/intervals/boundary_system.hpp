@@ -29,12 +29,12 @@ class BoundarySystem {
     const SegmentValue& value;
     const Eigen::MatrixXd& last_carry;  ///< s_N lacks `last_carry` x_N (node_sums x node, see `moves_by_increment`)
     const Eigen::VectorXd& terminal_weights;
-    Eigen::Index negative;  ///< how many eigenvalues of what was eliminated are negative, beyond those of a minimum
+    Eigen::Index negative;  ///< negative eigenvalues of the eliminated blocks, beyond their number at a minimum
   };
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const Horizon& horizon);
 
-  /// True if rounding leaves no doubt about the last system's inertia. The matrix is that of the program in other
+  /// True if rounding leaves no doubt about the last system's inertia. The matrix is the program's in other
   /// coordinates, whatever the terminal weights are: other weights would find the same inertia.
   [[nodiscard]] bool is_certain() const noexcept { return is_certain_; }
 
@@ -85,7 +85,7 @@ class BoundarySystem {
 
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_hand_side_;
-  Eigen::MatrixXd reduced_;  // without what is fixed
+  Eigen::MatrixXd reduced_;  // without the fixed unknowns
   Eigen::VectorXd reduced_solution_;
   SymmetricWork work_;
   bool is_certain_ = false;

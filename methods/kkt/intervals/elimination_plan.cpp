@@ -33,7 +33,7 @@ Eigen::MatrixXd equality_jacobian(const IntervalEntries& entries, const NewtonAr
 /// The order of rows and columns that complete pivoting chooses, for one or several matrices at once: a pivot is as
 /// large as it can be in the matrix where it is smallest. None if a matrix is singular to rounding. With
 /// `columns_in_order` only rows are exchanged: the columns keep their order, and the first ones become the dependent
-/// unknowns. `Order::pivots` are those of the first matrix.
+/// unknowns. `Order::pivots` belong to the first matrix.
 std::optional<Order> find_order(std::vector<Eigen::MatrixXd> matrices, bool columns_in_order) {
   const auto numbers = [](Eigen::Index count) {
     return Eigen::VectorXi::LinSpaced(count, 0, static_cast<int>(count) - 1);
@@ -182,7 +182,7 @@ std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries, 
   auto order = find_order(equalities, false);
   if (!order) return std::nullopt;
   const Shape& shape = entries.shape;
-  // The dependent unknowns are those of the next node.
+  // The dependent unknowns are the next node's.
   const bool is_plain = shape.rows == shape.node && (order->columns.head(shape.rows).array() < shape.node).all();
   if (is_plain) {
     // The same unknowns in their natural order, for which there are faster kernels.

@@ -2,8 +2,8 @@
 
 #include "methods/kkt/intervals/kernel_blocks.hpp"
 
-// One step of both sweeps for a plain shape whose sizes the compiler knows, by the formulas of README.md. All loops are
-// unrolled, and what they work on can live in registers.
+// One step of both sweeps for a plain shape whose sizes are known at compile time, by the formulas of README.md. All
+// loops are unrolled, and their operands can live in registers.
 namespace dmocbench::kkt {
 inline namespace DMOCBENCH_LANES {
 
@@ -229,7 +229,7 @@ DMOCBENCH_INLINE void advance(const S& shape, const Lanes::Mask* active, const S
   advance_by([&](Lanes& target, const Lanes& value) { target = chosen(*active, value, target); }, shape, work, V);
 }
 
-/// w = -(gain)(X, 1, ν): L⁻ᵀ applied to what `factorise_free` left.
+/// w = -(gain)(X, 1, ν): L⁻ᵀ applied to the result of `factorise_free`.
 template <class S>
 DMOCBENCH_INLINE void store_gain(const S& shape, const StepWork<S>& work, const MatrixView<Lanes>& gain) {
   const int w = free_size(shape);

@@ -16,7 +16,7 @@ using Block = LocalEntry::Block;
 
 /// The role of a run of unknowns, or of rows.
 struct Quantity {
-  int number = -1;  ///< among the quantities of its kind; -1 for those of single nodes, and rows of the border
+  int number = -1;  ///< among the quantities of its kind; -1 for quantities of single nodes, and rows of the border
   bool is_inequality = false;
 };
 
@@ -62,7 +62,7 @@ class EntryTable {
 
  private:
   static int count(const std::vector<Eigen::Index>& list) { return static_cast<int>(list.size()); }
-  /// Adds numbers to a list, and says where the first of them stands.
+  /// Adds numbers to a list, and returns the position of the first.
   static int append(const PlaceRun& run, std::size_t length, std::vector<Eigen::Index>& list) {
     const int at = count(list);
     for (std::size_t i = 0; i < length; ++i) list.push_back(static_cast<Eigen::Index>(run.first + i));
@@ -326,7 +326,7 @@ void IntervalEntries::write_inequality_multipliers(const NewtonArrays& arrays, E
 
 tl::expected<IntervalEntries, std::string> interval_entries(const NonlinearProgram& program) {
   const IntervalStructure* const structure = program.interval_structure();
-  if (structure == nullptr) return tl::unexpected(std::string("it tells no interval structure"));
+  if (structure == nullptr) return tl::unexpected(std::string("it has no interval structure"));
   if (structure->intervals == 0) return tl::unexpected(std::string("it has no intervals"));
   return EntryTable(program, *structure).make();
 }

@@ -14,7 +14,7 @@
 
 namespace dmocbench::kkt {
 
-/// An entry of an interval's blocks in natural order: unknowns (x_{k+1}, y_k, x_k, s_k, θ), equalities (those of node
+/// An entry of an interval's blocks in natural order: unknowns (x_{k+1}, y_k, x_k, s_k, θ), equalities (first of node
 /// k, then the interval's own).
 struct LocalEntry {
   enum class Block : unsigned char { equality, carry, hessian, inequality };
@@ -22,7 +22,7 @@ struct LocalEntry {
   int row;
   int column;
   Source source;
-  Eigen::Index first;  ///< that of interval k stands at `first` + k
+  Eigen::Index first;  ///< the entry of interval k stands at `first` + k
 };
 
 /// An entry of the KKT matrix that belongs to the ends of the horizon: between rows and unknowns of the first and the
@@ -49,23 +49,23 @@ struct IntervalEntries {
   Shape shape{};
   Eigen::Index intervals = 0;
 
-  // The first of an unknown, or of a row, of all nodes or intervals: that of node or interval k stands at first + k.
+  // The first of an unknown, or of a row, of all nodes or intervals: it stands at first + k for node or interval k.
   std::vector<Eigen::Index> node_unknowns;
   std::vector<Eigen::Index> interval_unknowns;
-  std::vector<Eigen::Index> equality_rows;  ///< those of nodes, then those of intervals
+  std::vector<Eigen::Index> equality_rows;  ///< of nodes, then of intervals
   std::vector<Eigen::Index> inequality_rows;
   std::vector<bool> is_fixed;  ///< one per unknown of an interval
 
   std::vector<Eigen::Index> global_unknowns;
   std::array<std::vector<Eigen::Index>, 2> end_unknowns;  ///< further unknowns of the first and of the last node
-  std::vector<Eigen::Index> end_rows;                     ///< further rows of the ends, and those of the border
+  std::vector<Eigen::Index> end_rows;                     ///< further rows of the ends, and rows of the border
   std::vector<LocalEntry> local;
   std::vector<PaddedRun> padded;
   std::vector<EndEntry> ends;
 
   /// The number of the unknown that interval 0 has in a column of its blocks; s_k has none.
   [[nodiscard]] Eigen::Index unknown_in(int column) const;
-  /// Whether a column is that of a fixed unknown of an interval.
+  /// Whether a column belongs to a fixed unknown of an interval.
   [[nodiscard]] bool is_fixed_column(int column) const;
 
   // For arrays with `width` numbers per entry, one of each program.
@@ -74,7 +74,7 @@ struct IntervalEntries {
   void copy_padded(const NewtonArrays& arrays, Eigen::Index width, Eigen::VectorXd& to) const;
   /// The steps of fixed unknowns, which are zero.
   void write_fixed(Eigen::Index width, double* primal) const;
-  /// (J δx + constraints) / e for the rows of every inequality. Unknowns of the whole horizon ask for width 1.
+  /// (J δx + constraints) / e for the rows of every inequality. Unknowns of the whole horizon require width 1.
   void write_inequality_multipliers(const NewtonArrays& arrays, Eigen::Index width, const double* primal,
                                     double* multipliers) const;
 };

@@ -68,15 +68,15 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
     }
     if (found_.status == FactorisationStatus::untrusted) {
       if (!may_choose_order) return found_.status;
-      // A pivot that is large in one interval may be zero in another, where a velocity changes its sign, say.
+      // A pivot that is large in one interval may be zero in another, for example where a velocity changes its sign.
       std::vector<Eigen::Index> intervals{middle};
       for (Eigen::Index i = 0; i < sampled_intervals; ++i)
         intervals.push_back(i * (entries_.intervals - 1) / (sampled_intervals - 1));
       if (!choose_plan(arrays, intervals)) return FactorisationStatus::singular;
       continue;
     }
-    // A conjugate point of a segment with a free end, or a sign lost to rounding, is no reason to change the Hessian.
-    // To try the other weights costs less than the sparse factorisation that is asked about a singular system.
+    // A conjugate point of a segment with a free end, or a sign lost to rounding, does not justify changing the
+    // Hessian. Trying the other weights costs less than the sparse factorisation that a singular system would require.
     if (found_.status == FactorisationStatus::singular) weights_.distrust_next_failure();
     if (found_.is_certain || !weights_.next_multiple()) return found_.status;
   }
@@ -120,8 +120,8 @@ void IntervalKkt::find_last_carry(const NewtonArrays& arrays) {
   }
 }
 
-/// From the last segment to the first. Counts the negative eigenvalues of what is eliminated, beyond those of a
-/// minimum; false if rounding hides them.
+/// From the last segment to the first. Counts the negative eigenvalues of the eliminated blocks, beyond their number at
+/// a minimum; false if rounding hides them.
 bool IntervalKkt::join_segments() {
   const Eigen::Index X = state_size(entries_.shape);
   bool is_last = true;
@@ -167,7 +167,7 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const KktStep& step) {
     Eigen::Map<Eigen::MatrixXd>(group.multiplier, lane_count, states_.rows()) =
         multipliers_.middleCols(first, lane_count).transpose();
   }
-  // The forward sweep writes the steps of free unknowns, `BoundarySystem` those of the ends.
+  // The forward sweep writes the steps of free unknowns, `BoundarySystem` writes the steps of the ends.
   entries_.write_fixed(1, step.primal.data());
   for_each_part(groups_.size(), [&](std::size_t g) {
     kernel_.forward(plan_, arrays, groups_[g].group(), step.primal.data(), step.multipliers.data());

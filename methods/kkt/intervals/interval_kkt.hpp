@@ -19,14 +19,14 @@
 namespace dmocbench::kkt {
 
 /// The KKT system of a program with an interval structure, eliminated interval by interval in time and memory that grow
-/// linearly with their number; README.md tells how.
+/// linearly with their number; README.md explains how.
 class IntervalKkt : public KktSystem {
  public:
   /// The reason in a sentence for a program whose structure does not allow it (interval_entries.hpp).
   using Made = tl::expected<std::unique_ptr<IntervalKkt>, std::string>;
   [[nodiscard]] static Made make(const NonlinearProgram& program, SegmentKernelChoice choose = segment_kernel_for);
 
-  /// `entries` and `boundary` are those of the program; `choose` selects the kernel for its shape. `make` does all.
+  /// `entries` and `boundary` belong to the program; `choose` selects the kernel for its shape. `make` does all.
   IntervalKkt(IntervalEntries entries, BoundarySystem boundary, SegmentKernelChoice choose);
 
   void begin_solve() override { weights_.forget(); }
@@ -67,8 +67,8 @@ class IntervalKkt : public KktSystem {
   std::vector<GroupMemory> groups_;
   SegmentValue segment_value_;
   SegmentChain chain_;
-  Eigen::Index negative_ = 0;         // eigenvalues of what was eliminated, beyond those of a minimum
-  bool is_minimum_in_parts_ = false;  // the pivots of every segment and every joint are those of a minimum
+  Eigen::Index negative_ = 0;         // eigenvalues of the eliminated blocks, beyond their number at a minimum
+  bool is_minimum_in_parts_ = false;  // the pivots of every segment and every joint belong to a minimum
   Eigen::MatrixXd states_;            // at the first nodes of the segments, one column each
   Eigen::MatrixXd multipliers_;
 };

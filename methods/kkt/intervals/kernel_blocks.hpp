@@ -4,7 +4,7 @@
 #include "methods/kkt/intervals/shape.hpp"
 #include "methods/runtime/lanes.hpp"
 
-// A step is inlined into its sweep so that its blocks can live in registers; CMake says otherwise for sanitizers.
+// A step is inlined into its sweep so that its blocks can live in registers; CMake changes this for sanitizers.
 #ifndef DMOCBENCH_INLINE
 #define DMOCBENCH_INLINE [[gnu::always_inline]] inline
 #endif
@@ -22,16 +22,16 @@ inline Lanes least_so_far(const Lanes& so_far, const Lanes& value) {
 }
 inline Lanes magnitude(const Lanes& a) { return larger(a, -a); }
 
-/// What a pivot near zero adds to the number of negative ones: more than there are unknowns, so that nobody takes the
-/// sum for a number of pivots.
+/// The amount that a pivot near zero adds to the number of negative ones: more than there are unknowns, so that it
+/// cannot be taken for a number of pivots.
 inline constexpr double uncertain = 1e15;
 
-/// The signs of the pivots that were met so far: those of the Hessians of free unknowns.
+/// The signs of the pivots that were met so far: the pivots of the Hessians of free unknowns.
 struct PivotSigns {
   Lanes hold = Lanes::all(1.0);  // 1, or -1 once one was not positive
   Lanes negative{};              // their number
 
-  /// Takes note of a pivot, whose entry of the Hessian is `diagonal`. What to divide by: one in its place where it is
+  /// Takes note of a pivot, whose entry of the Hessian is `diagonal`. Returns the divisor: one in its place where it is
   /// rounding, so that it disturbs no other lane.
   DMOCBENCH_INLINE Lanes note(const Lanes& pivot, const Lanes& diagonal) {
     const Lanes one = Lanes::all(1.0);
@@ -86,8 +86,8 @@ struct Memory {
   }
 };
 
-/// A matrix of lanes, column by column, whose sizes are functions of the shape. Where the compiler knows the shape it
-/// is an array in place, of which the compiler knows that it overlaps no other, so that it can keep much of it in
+/// A matrix of lanes, column by column, whose sizes are functions of the shape. Where the shape is known at compile
+/// time it is an array in place, which provably overlaps no other, so that the compiler can keep much of it in
 /// registers.
 template <class S, auto rows, auto columns, bool is_in_place = is_always_plain<S>>
 class LaneMatrix {

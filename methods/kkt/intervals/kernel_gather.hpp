@@ -97,13 +97,13 @@ inline Lanes load_lanes(const double* from) {
   return lanes;
 }
 
-/// Asks for the cache lines that hold some steps of every lane. These are hundreds of places in memory, more than the
+/// Prefetches the cache lines that hold some steps of every lane. These are hundreds of places in memory, more than the
 /// processor follows by itself. An address outside of the array does no harm.
 inline void prefetch(const double* array, const SegmentGroup& group, int step) {
   for (std::size_t lane = 0; lane < lane_count; ++lane) __builtin_prefetch(array + group.first[lane] + step);
 }
 
-/// `gather` of interleaved lanes: what a step reads stands as the blocks want it.
+/// `gather` of interleaved lanes: the input of a step has the order of the blocks.
 inline void gather_interleaved(const EliminationPlan& plan, const NewtonArrays& arrays, const StepBlock& steps,
                                const MatrixView<Lanes>& locals) {
   for (const Gather& item : plan.gathers) {

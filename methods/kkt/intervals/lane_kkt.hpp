@@ -27,7 +27,7 @@ namespace dmocbench::kkt {
 /// All arrays are interleaved (lane_loops.hpp). No lane changes a digit of another.
 class LaneKkt {
  public:
-  /// What became of a lane's system.
+  /// The outcome of a lane's system.
   enum class Outcome : std::uint8_t {
     solved,
     wrong_inertia,  ///< the Hessian is not positive definite on the null space of the equalities
@@ -77,7 +77,7 @@ class LaneKkt {
   TerminalWeights fresh_weights_;
   std::vector<TerminalWeights> weights_;    // one per lane
   Mask has_other_weights_{};                // than its matrix began with
-  Mask tries_others_{};                     // one after the other, until one tells or none is left
+  Mask tries_others_{};                     // one after the other, until one decides or none is left
   std::array<int, lane_count> refusals_{};  // in a row
   std::array<int, lane_count> calm_{};      // systems in a row that were not refused
   std::vector<TerminalWeights::Diagonal> free_diagonals_;

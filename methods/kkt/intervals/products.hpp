@@ -64,7 +64,7 @@ struct Product {
   ProductSizes sizes;
 };
 
-// Sums that are made at once: as many as there are registers for, beside those for the factors.
+// Sums that are made at once: as many as there are registers for, after the registers for the factors.
 inline constexpr int tile_rows = Lanes::width == 8 ? 6 : 4;
 inline constexpr int tile_columns = Lanes::width == 8 ? 4 : 3;
 
@@ -150,7 +150,7 @@ inline void subtract_product(const Block& result, const ConstBlock& left, const 
   carry_out({Product::Update::subtract, result, left, right, sizes});
 }
 
-/// Zeros where products of the lower part of a matrix write above its diagonal: these add to what is there.
+/// Zeros where products of the lower part of a matrix write above its diagonal: these add to the old values.
 inline void clear_above_diagonal(const Block& matrix, int size) {
   for (int j = 0; j < size; ++j) {
     for (int i = j < tile_columns ? 0 : j - tile_columns + 1; i < j; ++i) matrix(i, j) = Lanes{};

@@ -122,7 +122,7 @@ bool SegmentChain::join_and_count(const SegmentValue& segment) {
 }
 
 bool SegmentChain::join(const SegmentValue& segment, Between between) {
-  // A size that the compiler knows, or a bound of it, needs no memory from the heap, which would take longer than the
+  // A size known at compile time, or a bound of it, needs no memory from the heap, which would take longer than the
   // arithmetic. Every further size costs compile time.
   constexpr int usual = 4;
   constexpr int most = 16;

@@ -28,13 +28,13 @@ class SegmentChain {
  public:
   /// `terminal_weights` are the ρ_i (terminal_weights.hpp).
   void start(const SegmentValue& last, const Eigen::VectorXd& terminal_weights);
-  /// Puts a segment in front whose pivots were all positive. False if eliminating the state between is no minimum;
+  /// Puts a segment in front whose pivots were all positive. False if eliminating the state between gives no minimum;
   /// then the chain stays as it was.
   [[nodiscard]] bool join(const SegmentValue& segment);
-  /// Puts any segment in front, and counts. False if rounding hides the inertia of what is eliminated; then the chain
+  /// Puts any segment in front, and counts. False if rounding hides the inertia of the eliminated block; then the chain
   /// stays as it was.
   [[nodiscard]] bool join_and_count(const SegmentValue& segment);
-  /// How many eigenvalues of what the joins eliminated are negative, beyond those of a minimum.
+  /// Negative eigenvalues of the blocks that the joins eliminated, beyond their number at a minimum.
   [[nodiscard]] Eigen::Index negative() const noexcept { return negative_; }
 
   [[nodiscard]] const SegmentValue& total() const noexcept { return total_; }

@@ -9,8 +9,8 @@ namespace dmocbench::kkt {
 
 namespace {
 
-/// Beyond this number of intervals, their records no longer fit the second-level cache, and eliminating once more is no
-/// slower than fetching them (`build/bench/speed/solves` at N = 8192 and 16384).
+/// Beyond this number of intervals, their records no longer fit the second-level cache, and eliminating once more is
+/// not slower than fetching them (`build/bench/speed/solves` at N = 8192 and 16384).
 constexpr std::size_t most_recorded = 12288;
 /// The same of eight instances: as many records.
 constexpr std::size_t most_recorded_of_instances = most_recorded / lane_count;

@@ -38,13 +38,13 @@ struct Scatter {
 
 /// A pivot of the free unknowns' Hessian below this share of its diagonal entry is rounding.
 inline constexpr double smallest_pivot_share = 1e-13;
-/// Above this share rounding leaves no doubt about its sign, nor about those of the pivots that follow.
+/// Above this share rounding leaves no doubt about its sign, nor about the signs of the pivots that follow.
 inline constexpr double certain_pivot_share = 1e-6;
 
-/// What the pivots of the free unknowns' Hessians in a group of segments tell.
+/// The result of the pivots of the free unknowns' Hessians in a group of segments.
 enum class FreePivots : unsigned char {
   positive,           ///< all are positive, beyond rounding
-  some_negative,      ///< some are negative, none is near zero: their number tells the inertia
+  some_negative,      ///< some are negative, none is near zero: their number gives the inertia
   too_many_negative,  ///< of a segment more than its state has entries: whatever its end is, there is no minimum
   near_zero,          ///< some are not positive, and some so near zero that rounding decides
 };
@@ -72,7 +72,7 @@ struct SegmentGroup {
   double* records = nullptr;                       ///< recorded_steps * RecordBlocks::size(), written backward
   double* checkpoints = nullptr;                   ///< per chunk, if they are several: the value at its end
   double* workspace = nullptr;                     ///< SegmentKernel::workspace_size numbers
-  bool has_constants = false;                      ///< the workspace holds what is the same in every sweep of the plan
+  bool has_constants = false;  ///< the workspace holds the numbers that all sweeps of the plan share
 
   // The value of a segment as a function of its first state X and of the multiplier ν of its last one (README.md):
   // ½XᵀPX + pᵀX + νᵀ(ΦᵀX + γ) - ½νᵀΓν. State x (X, 1, ν) holds P, p, Φ; ν x (1, ν) holds γ, Γ.

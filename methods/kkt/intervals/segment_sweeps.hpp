@@ -105,15 +105,15 @@ inline double smallest_of(const Lanes& lanes) {
   return smallest;
 }
 
-/// Whether a sweep goes on: while for all segments, or for one instance at least, the remaining steps can change what
-/// the pivots tell. `state`: how many entries a state has.
+/// Whether a sweep goes on: while for all segments, or for one instance at least, the remaining steps can change
+/// the result of the pivots. `state`: how many entries a state has.
 inline bool is_worth_while(const SegmentGroup& group, const PivotSigns& signs, int state) {
   if (group.is_interleaved) return smallest_of(-signs.hold) < 0.0;
   const Lanes::Mask are_few = signs.negative < Lanes::all(state + 1);
   return smallest_of(chosen(are_few, Lanes::all(1.0), signs.hold)) > 0.0;
 }
 
-/// What the pivots of all segments tell, and how many of each are negative.
+/// The result of the pivots of all segments, and how many of each are negative.
 inline void read_signs(const PivotSigns& signs, int state, SegmentGroup& group) {
   double negative = 0.0;
   bool has_too_many = false;
@@ -134,7 +134,7 @@ inline void read_signs(const PivotSigns& signs, int state, SegmentGroup& group) 
   }
 }
 
-/// Eliminates the intervals of one step in front of the cost-to-go, and records what the forward sweep needs of them.
+/// Eliminates the intervals of one step in front of the cost-to-go, and records the data for the forward sweep.
 /// `active`: null if all lanes have an interval; the cost-to-go of lanes that have none stays.
 template <class S>
 DMOCBENCH_INLINE void step_backward(const LocalSystem<S>& local, const Lanes::Mask* active, CostToGo<S>& V,
@@ -180,7 +180,7 @@ template <class S>
   CostToGo<S> V = cost_to_go;  // a copy that nothing else refers to can live in registers
   const bool has_shorter_lanes = sweep.group.shortest < sweep.group.steps;
   const Lanes::Mask active = active_at(sweep.group, sweep.group.steps - 1);
-  // Whether to go on is asked before every block, and in segments that are no longer before every step.
+  // Whether to go on is tested before every block, and in segments of one block before every step.
   const bool is_one_block = sweep.group.steps <= block_steps;
   const auto goes_on = [&] { return is_worth_while(sweep.group, V.signs, state_size(shape)); };
   // Blocks are cut from the end; only the first may be shorter, so `read_block` stays inside the array.
@@ -239,8 +239,8 @@ void sweep_backward(const EliminationPlan& plan, const NewtonArrays& arrays, Seg
   }
 }
 
-/// The steps of a chunk, whose records are there, from the state in `sweep.forward`, which then is that of the next
-/// one.
+/// The steps of a chunk, whose records are there, from the state in `sweep.forward`, which then is the state of the
+/// next one.
 template <class S>
 void substitute_chunk(const Sweep<S>& sweep, int chunk, double* primal_step, double* multiplier_step) {
   const S shape = sweep.shape;

@@ -10,7 +10,7 @@ struct Shape {
   int node_sums;     ///< entries of s, which is also the number of rows of a node
   int global;        ///< entries of θ
   int interval;      ///< entries of y
-  int rows;          ///< equalities: those of a node and those of an interval
+  int rows;          ///< equalities of a node and of an interval together
   int inequalities;  ///< inequalities of an interval
   /// The dependent entries of Z are the unknowns of the next node, in their order.
   bool is_plain = false;
@@ -58,7 +58,7 @@ constexpr Sizes sizes_of(const auto& shape) {
 }
 
 /// True if the dependent entries of Z are known to be the next node's unknowns, in their order. They are then part of
-/// the next state, and their Hessian is added to that of the cost-to-go before the transition is applied, so that the
+/// the next state, and their Hessian is added to the cost-to-go's before the transition is applied, so that the
 /// transition is applied once.
 template <class S>
 inline constexpr bool is_always_plain = false;

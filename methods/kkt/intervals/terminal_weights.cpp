@@ -17,9 +17,9 @@ constexpr std::array multiples{1.0, 30.0, 1e3, 1e6};
 /// The multiple to begin with after a failure: smaller ones may be too small, the largest may drown the stiffness.
 constexpr std::size_t middle = 2;
 /// Failures of the largest multiple that are then accepted without trying smaller ones, after all multiples have
-/// failed once. Fewer than make `RefinedKkt` ask the sparse factorisation, which costs more than all multiples do.
+/// failed once. Fewer than make `RefinedKkt` use the sparse factorisation, which costs more than all multiples do.
 constexpr int patience = 2;
-/// A weight that drowned the stiffness tells that it was at most this share of the weight.
+/// A stiffness lost to rounding under a weight was at most this share of the weight.
 constexpr double drowned_share = 1e-3;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
@@ -116,7 +116,7 @@ void TerminalWeights::rescale(const std::vector<double>& compliances) {
 }
 
 bool TerminalWeights::next_multiple() {
-  // A weight that may be too small says nothing of the Hessian, so no failure is believed before that of the largest.
+  // A weight that may be too small proves nothing about the Hessian, so only a failure of the largest counts.
   const bool is_largest = level_ + 1 == multiples.size();
   if (tried_ + 1 == multiples.size() || (is_largest && believed_ > 0)) {
     believed_ = believed_ > 0 ? believed_ - 1 : patience;

@@ -24,7 +24,7 @@ class TerminalWeights {
   /// For another order of elimination: which unknowns of the intervals it leaves free. (Unknowns that equalities
   /// determine, such as stage rates, may cost nothing; their compliance is not the segment's.)
   void use(const EliminationPlan& plan);
-  /// Forgets what was observed and tried.
+  /// Forgets all observations and trials.
   void forget();
   /// Adapts the weights to a new matrix.
   void rescale(const NewtonArrays& arrays);
@@ -32,14 +32,14 @@ class TerminalWeights {
   void rescale(const std::vector<double>& compliances);
 
   /// The diagonal entry of the matrix that a moving unknown of the intervals has: `added` (of d) and, where it has one,
-  /// that of the Hessian. Their sum c, interval by interval, makes its compliance Σ 1/(|c| + smallest_curvature).
+  /// the Hessian's. Their sum c, interval by interval, makes its compliance Σ 1/(|c| + smallest_curvature).
   struct Diagonal {
     LocalEntry added{};
     std::optional<LocalEntry> hessian;
     bool is_free = true;
   };
   static constexpr double smallest_curvature = 1e-12;
-  /// Those of unknowns that the order of elimination leaves free.
+  /// The diagonal entries of unknowns that the order of elimination leaves free.
   [[nodiscard]] std::vector<Diagonal> free_diagonals() const;
   /// After a failure: takes the next larger multiple, behind the largest the smallest; it stays if it succeeds. False
   /// if none is left for this matrix. The largest is always among those that were tried.
@@ -70,7 +70,7 @@ class TerminalWeights {
   std::vector<double> compliances_;  // of the free ones, for the last matrix
   std::size_t level_ = 0;            // which multiple
   std::size_t tried_ = 0;            // others, for this matrix
-  int believed_ = 0;                 // next failures of the largest that are believed without smaller ones
+  int believed_ = 0;                 // next failures of the largest that are accepted without smaller ones
   double scale_ = 1.0;
   Eigen::VectorXd stiffness_;  // relative to the scale
   Eigen::VectorXd observed_;   // since the last matrix
