@@ -116,11 +116,11 @@ class ProgramForIpopt final : public Ipopt::TNLP {
         tolerances_(program, options.tolerance),
         has_rule_of_its_own_(has_rule_of_its_own) {}
 
-  /// Whether Ipopt was told to stop because its point meets our rule.
+  /// Whether Ipopt was stopped because its point meets our rule.
   [[nodiscard]] bool has_converged() const { return has_converged_; }
-  /// Whether it was told to stop because the time was up.
+  /// Whether it was stopped because the time was up.
   [[nodiscard]] bool is_late() const { return is_late_; }
-  /// The last point whose gradient was asked for: an iterate. Empty before the first.
+  /// The last point whose gradient was evaluated: an iterate. Empty before the first.
   [[nodiscard]] const Eigen::VectorXd& last_point() const { return last_point_; }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac_g, Index& nnz_h_lag, IndexStyleEnum& index_style) override {
@@ -228,8 +228,8 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   Eigen::VectorXd last_point_;
 };
 
-/// Listens to Ipopt's reports on its linear systems: where these fail for want of memory, Ipopt's status says only that
-/// a step could not be computed.
+/// Listens to Ipopt's reports on its linear systems: where these fail for want of memory, Ipopt's status reports only
+/// that a step could not be computed.
 class MemoryReports final : public Ipopt::Journal {
  public:
   MemoryReports() : Journal("memory", Ipopt::J_NONE) { SetPrintLevel(Ipopt::J_LINEAR_ALGEBRA, Ipopt::J_WARNING); }
@@ -277,7 +277,7 @@ Status status_of(Ipopt::ApplicationReturnStatus status) {
   return found != meanings.end() ? found->second : Status::solver_error;  // exceptions and internal errors
 }
 
-/// Sets an option whose type only Ipopt knows: as an integer, a number or a string, whichever it takes.
+/// Sets an option whose type is defined by Ipopt: as an integer, a number or a string, whichever it takes.
 void pass_on(Ipopt::OptionsList& list, const std::string& name, const std::string& value) {
   const auto whole = parsed<int>(value);
   if (whole && list.SetIntegerValue(name, *whole)) return;

@@ -7,7 +7,7 @@
 
 namespace dmocbench {
 
-/// What a minor iteration reduces.
+/// The quantity that a minor iteration reduces.
 enum class MinorPhase : std::uint8_t {
   feasibility = 1,  ///< lowers the sum of infeasibilities
   optimality = 2,   ///< lowers the quadratic objective

@@ -34,10 +34,10 @@ NamedOption named_option(std::string_view name, Choice& result, const Table& cho
 /// An option that is a whole number.
 [[nodiscard]] NamedOption named_option(std::string_view name, std::uint32_t& result);
 
-/// Sets typed options from text, name=value. Throws `Error` that names the solver, the option and what it takes.
+/// Sets typed options from text, name=value. Throws `Error` that names the solver, the option and its permitted values.
 void read_named_options(std::string_view solver, const NamedOptions& given, const std::vector<NamedOption>& options);
 
-/// The same, but for names that are none of these: it returns them with their text.
+/// The same, except that it returns unknown names with their text.
 [[nodiscard]] NamedOptions read_known_options(std::string_view solver, const NamedOptions& given,
                                               const std::vector<NamedOption>& options);
 

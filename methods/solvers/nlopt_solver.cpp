@@ -64,7 +64,7 @@ std::pair<const Setting&, double> read_option(const std::string& name, const std
   return {setting, value};
 }
 
-/// What NLopt says. It judges no KKT residual, so it cannot claim more than that it stopped: "acceptable", for our
+/// The status by NLopt. It computes no KKT residual, so it can only report that it stopped: "acceptable", for our
 /// residual to confirm.
 Status claim_of(nlopt_result result) {
   switch (result) {
@@ -201,7 +201,7 @@ class SlsqpRun {
       return self.stop(Status::solver_error);
     }
   }
-  /// SLSQP asks for the constraints where it has just asked for the objective, with the same wish for derivatives.
+  /// SLSQP evaluates the constraints right after the objective, both with derivatives or both without.
   template <OneSidedConstraints SlsqpRun::*some>
   static void constraints(unsigned /*m*/, double* values, unsigned /*n*/, const double* /*x*/, double* gradient,
                           void* data) noexcept {

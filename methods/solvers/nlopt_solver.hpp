@@ -8,10 +8,10 @@
 namespace dmocbench {
 
 /// SLSQP of NLopt: Kraft's sequential quadratic programming, dense, with a quasi-Newton (BFGS) matrix in place of the
-/// Hessian. It takes our exact first derivatives and never asks for second ones.
+/// Hessian. It takes our exact first derivatives and never needs second ones.
 ///
 /// NLopt sees the free variables only, and a start moved into their bounds. SLSQP tests no KKT residual and gives no
-/// multipliers, so we estimate them wherever it asks for a gradient (`least_squares_multipliers`) and end the solve
+/// multipliers, so we estimate them wherever it evaluates a gradient (`least_squares_multipliers`) and end the solve
 /// as soon as the KKT residual meets the tolerance; the point that came nearest to it is the answer. Where SLSQP makes
 /// no further progress it starts again from that point, as long as that helps. Its line search compares merits, so it
 /// stalls where they differ by rounding only: at a KKT residual of about the square root of rounding times curvature,
@@ -20,10 +20,10 @@ namespace dmocbench {
 /// identity.
 ///
 /// `most_iterations` limits the points that are visited: an iteration takes one, and more where its line search
-/// shortens the step. SLSQP does not tell its iterations. The seconds include our estimates. `stop_requested` is asked
-/// once per point; `verbose` shows nothing. Its options by name: ftol_rel, ftol_abs, xtol_rel, xtol_abs, maxeval,
-/// maxtime. By default xtol_rel is the rounding of a double and the other tolerances are off; where one is given,
-/// SLSQP does not start again.
+/// shortens the step. SLSQP does not report its iterations. The seconds include our estimates. `stop_requested` is
+/// called once per point; `verbose` shows nothing. Its options by name: ftol_rel, ftol_abs, xtol_rel, xtol_abs,
+/// maxeval, maxtime. By default xtol_rel is the rounding of a double and the other tolerances are off; where one is
+/// given, SLSQP does not start again.
 class NloptSolver final : public SolverWithoutMemory {
  public:
   /// An iteration factorises dense matrices of this size; more free variables are refused with status "too large".

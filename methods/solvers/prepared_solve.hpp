@@ -18,10 +18,10 @@ namespace dmocbench {
 /// Solves one program again and again: for other values of its parameters, ends, bounds and horizon (which are set on
 /// the program between two solves, see `Transcription`), from other starts and multipliers.
 ///
-/// What depends on the structure alone, and all memory, is made once. With `interior_point` nothing is allocated after
-/// the first solve, unless a solve needs more than all before it did (a filter with more entries, the sparse
-/// factorisation, the descent on the violation, a longer message). A solve does not depend on the ones before it, but
-/// for the order of elimination, which is kept as long as its pivots hold. Other solvers keep nothing.
+/// Everything that depends on the structure alone, and all memory, is made once. With `interior_point` nothing is
+/// allocated after the first solve, unless a solve needs more than all before it did (a filter with more entries, the
+/// sparse factorisation, the descent on the violation, a longer message). A solve does not depend on the ones before
+/// it, except for the order of elimination, which is kept as long as its pivots hold. Other solvers keep nothing.
 ///
 /// Every object has memory of its own: several of them, each with a program of its own, may solve in several threads at
 /// the same time. (Programs may share a problem, which they only read.) One object must not solve in two threads at
@@ -51,7 +51,7 @@ class PreparedSolve {
   [[nodiscard]] const Solution& solution() const noexcept { return solution_; }
   /// Whose method it is.
   [[nodiscard]] const Solver& solver() const noexcept { return *solver_; }
-  /// What it solves.
+  /// The program that it solves.
   [[nodiscard]] NonlinearProgram& program() const noexcept { return program_; }
 
  private:

@@ -9,8 +9,8 @@
 
 namespace dmocbench {
 
-/// What `method` returns, while no other thread uses MUMPS (`lock_mumps`). Where a stop request or the limit of time
-/// comes before its turn, the answer is `start`. The wait is no time of the solver.
+/// The result of `method`, called while no other thread uses MUMPS (`lock_mumps`). Where a stop request or the limit of
+/// time comes before its turn, the answer is `start`. The wait does not count as the solver's time.
 template <class Method>
 Solution run_alone(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
                    const Method& method) {

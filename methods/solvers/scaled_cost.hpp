@@ -4,7 +4,7 @@
 
 namespace dmocbench {
 
-/// A program with its cost times a factor; its multipliers are those of the original times the factor.
+/// A program with its cost times a factor; its multipliers are the original's times the factor.
 class ScaledCost final : public ForwardingProgram {
  public:
   /// `program` must outlive it.

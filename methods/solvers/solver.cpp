@@ -18,7 +18,7 @@ namespace dmocbench {
 
 namespace {
 
-constexpr double shortest_limit = 1e-9;  // in seconds; 0 is no limit
+constexpr double shortest_limit = 1e-9;  // in seconds; 0 means no limit
 
 /// " Entry 3 of the start is nan."; empty if the start is finite.
 std::string fault_of_start(const Eigen::VectorXd& start) {

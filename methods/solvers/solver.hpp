@@ -19,10 +19,10 @@ namespace dmocbench {
 class Confirmation;
 class CountedProgram;
 
-/// Options of one solver by name, as a command line gives them. They win over what is set otherwise.
+/// Options of one solver by name, as a command line gives them. They take precedence over other settings.
 using NamedOptions = std::map<std::string, std::string>;
 
-/// A method at work on one program, with what it uses again from solve to solve (`PreparedSolve`).
+/// A method at work on one program, with the data it reuses from solve to solve (`PreparedSolve`).
 class PreparedRun {
  public:
   virtual ~PreparedRun() = default;
@@ -31,9 +31,9 @@ class PreparedRun {
   PreparedRun(PreparedRun&&) = delete;
   PreparedRun& operator=(PreparedRun&&) = delete;
 
-  /// The method itself, from what `Solver::solve` has checked. Writes its own word for the status, the last point (none
-  /// if it refuses the program), the multipliers if it has them, and its counts of iterations; a message only where it
-  /// can say more than the status. The memory of the solution's vectors is used again.
+  /// The method itself, from checked arguments of `Solver::solve`. Sets its own status, the last iterate (none
+  /// if it rejects the program), the multipliers if it has them, and its counts of iterations; a message only where it
+  /// adds to the status. The memory of the solution's vectors is used again.
   virtual void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
                    std::optional<double> barrier_parameter, Solution& solution) = 0;
 
@@ -66,12 +66,12 @@ class Solver {
   /// nearly the same, one per constraint, or empty for none, and μ > 0 to begin with, or none for the solver's own
   /// choice. The latter is without meaning where a program has neither bounds nor inequalities: it has no barrier.
   ///
-  /// The same for every solver: checks what is given, counts and times the evaluations, measures the time of
-  /// `PreparedRun::run`, judges its answer (`judge_infeasibility`, `Confirmation`) and says in a sentence what
-  /// happened.
+  /// The same for every solver: checks the arguments, counts and times the evaluations, measures the time of
+  /// `PreparedRun::run`, judges its answer (`judge_infeasibility`, `Confirmation`) and reports the outcome in a
+  /// sentence.
   ///
-  /// Where the cost is so small that the tolerance says nothing of it (`Confirmation::factor_of_cost`), it is solved
-  /// once more with the cost times that factor, and the message says so. Counts and times are those of the second
+  /// Where the cost is so small that the tolerance does not constrain it (`Confirmation::factor_of_cost`), it is solved
+  /// once more with the cost times that factor, and the message reports it. Counts and times belong to the second
   /// solve, the limit of time holds for both.
   [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start,
                                const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
@@ -90,14 +90,14 @@ class Solver {
 
  private:
   friend class PreparedSolve;
-  /// The limit of time of a solve that begins now: that of the options and of the innermost `StopScope`.
+  /// The limit of time of a solve that begins now: the smaller of the options' and the innermost `StopScope`'s.
   [[nodiscard]] double seconds_allowed() const;
-  /// Ends what a solve computes outside of its iterations with the limits of the solve.
+  /// Applies the limits of the solve to computations outside its iterations.
   [[nodiscard]] StopScope scope(const CountedProgram& counted) const;
-  /// Throws `Error` that names what does not fit the program.
+  /// Throws `Error` that names the argument that does not fit the program.
   static void check(const NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
                     std::optional<double> barrier_parameter);
-  /// Adds what was measured, judges the answer (`Confirmation::judge`) and says what happened. Returns
+  /// Adds the measurements, judges the answer (`Confirmation::judge`) and sets the message. Returns
   /// `Confirmation::factor_of_cost`; where that is not 1, the answer is not confirmed.
   double complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation, bool asks_newton,
                   Solution& solution) const;
@@ -113,15 +113,16 @@ class SolverWithoutMemory : public Solver {
  protected:
   using Solver::Solver;
 
-  /// What `PreparedRun::run` writes.
+  /// The result of `PreparedRun::run`.
   [[nodiscard]] virtual Solution run(CountedProgram& program, const Eigen::VectorXd& start) const = 0;
 };
 
 /// Names of all solvers, the default first.
 [[nodiscard]] std::vector<std::string> solver_names();
 
-/// The solver of that name. Ipopt and NLopt get the named options as they stand; of those of our own solvers typed ones
-/// are made. Throws `Error` that lists the names if there is none, or if an option is out of range or not the solver's.
+/// The solver with that name. Ipopt and NLopt get the named options as they stand; our own solvers get typed options
+/// made from them . Throws `Error` that lists the names if it is unknown, or if an option is out of range or not the
+/// solver's.
 [[nodiscard]] std::unique_ptr<Solver> make_solver(std::string_view name, const SolverOptions& options = {},
                                                   const NamedOptions& named = {});
 

@@ -15,15 +15,15 @@ struct AutoOptions {
   NamedOptions ipopt;                   ///< of the second
 };
 
-/// The options from their names: those of `interior_point` (`interior_point_options`) go there, all others to Ipopt.
+/// The options from their names: options of `interior_point` (`interior_point_options`) go there, all others to Ipopt.
 /// Throws `Error` as that does.
 [[nodiscard]] AutoOptions auto_options(const NamedOptions& named);
 
 /// `interior_point` first and, where that fails, Ipopt from the point where it ended (from the start where it has
 /// none, as where it refuses the program). `Solution::solver` names the one whose answer it is.
 ///
-/// Counts and times are those of both together: evaluations, seconds, major iterations. The limit of time holds for
-/// both together, that of iterations for each. Linear systems are told where `interior_point` gives the answer.
+/// Counts and times include both: evaluations, seconds, major iterations. The limit of time holds for
+/// both together, the limit of iterations for each. Linear systems are counted where `interior_point` gives the answer.
 class AutoSolver final : public Solver {
  public:
   /// Throws `Error` if Ipopt does not take one of the named options.

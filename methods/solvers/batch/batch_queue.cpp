@@ -49,7 +49,7 @@ void SharedBatch::take(std::span<const Answer> answers) {
   }
 }
 
-/// What `use` makes of the instance as a program of its own.
+/// The result of `use` for the instance as a program of its own.
 template <class Use>
 auto SharedBatch::with_instance(const BatchInstance& instance, const Use& use) {
   if (options_.set_parameters) options_.set_parameters(instance.parameters);

@@ -16,7 +16,7 @@
 
 namespace dmocbench::batch {
 
-/// A lock that knows whether the calling thread holds it.
+/// A lock that records whether the calling thread holds it.
 class KnownLock {
  public:
   void lock() {
@@ -40,7 +40,7 @@ struct Answer {
   Solution solution;
 };
 
-/// What all threads of a batch share: the source, the program that evaluates single solves, and how it went.
+/// The state that all threads of a batch share: the source, the program that evaluates single solves, and how it went.
 class SharedBatch {
  public:
   SharedBatch(NonlinearProgram& program, BatchSource& source, const BatchOptions& options)
@@ -48,12 +48,12 @@ class SharedBatch {
 
   /// While no thread works.
   void begin_generation() noexcept;
-  /// Whether there is no further generation.
+  /// Whether all generations have ended.
   [[nodiscard]] bool has_ended() const { return has_ended_; }
   [[nodiscard]] bool is_stopped() const { return is_stopped_; }
 
   /// Fills a group of instances, as far as there are any; returns how many. Threads wait for each other where the
-  /// source is asked what instances there are, but not where it searches.
+  /// source hands out instances, but not where it searches.
   [[nodiscard]] std::size_t hand_out(std::span<Assignment> group);
   void take(std::span<const Answer> answers);
   [[nodiscard]] Solution solve_alone(const BatchInstance& instance);
@@ -62,7 +62,7 @@ class SharedBatch {
   /// Where the time of a thread went.
   void add_seconds(const BatchSeconds& seconds);
 
-  /// Work of a thread; what it throws ends the batch.
+  /// Work of a thread; an exception ends the batch.
   template <class Work>
   void guard(const Work& work) noexcept {
     try {
@@ -71,7 +71,7 @@ class SharedBatch {
       fail(std::current_exception());
     }
   }
-  /// Once all threads have ended; throws what the first of them has thrown.
+  /// Once all threads have ended; rethrows the first exception.
   [[nodiscard]] BatchSummary summary();
 
   [[nodiscard]] const NonlinearProgram& program() const { return program_; }
@@ -85,7 +85,7 @@ class SharedBatch {
   NonlinearProgram& program_;
   BatchSource& source_;
   const BatchOptions& options_;
-  KnownLock handing_out_;   // `source_` but for `search` and `take`; `handed_out_`
+  KnownLock handing_out_;   // `source_` except `search` and `take`; `handed_out_`
   std::mutex taking_;       // `BatchSource::take`, `error_`, seconds
   std::mutex program_use_;  // `program_`
   std::size_t handed_out_ = 0;
@@ -97,7 +97,7 @@ class SharedBatch {
   std::exception_ptr error_;
 };
 
-/// Where eight lanes, those of one thread, fetch instances and leave answers. Both go to and fro in groups, so that
+/// Where eight lanes, which share a thread, fetch instances and leave answers. Both go to and fro in groups, so that
 /// threads seldom meet.
 class BatchQueue {
  public:
@@ -115,7 +115,7 @@ class BatchQueue {
   void confirm(const Assignment& assignment, Solution& solution) { batch_.confirm(assignment.instance, solution); }
   [[nodiscard]] bool is_stopped() const { return batch_.is_stopped(); }
   void count_round() { batch_.count_round(); }
-  /// When all lanes are idle: delivers what is left. Where the time went.
+  /// When all lanes are idle: delivers the remaining answers and adds the seconds.
   void end_generation(const BatchSeconds& seconds);
 
  private:

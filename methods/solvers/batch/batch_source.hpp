@@ -31,12 +31,12 @@ class BatchSource {
 
   /// While no thread works; false if there are no more instances.
   [[nodiscard]] virtual bool begin_generation() = 0;
-  /// Says what the instance with a number is, in the order of the numbers; false if the generation has no more. One
+  /// Describes the next instance, in the order of their numbers; false if the generation has no more. One
   /// thread at a time does this or `fill`.
   [[nodiscard]] virtual bool hand_out(Assignment& assignment) = 0;
-  /// What takes time and changes nothing that threads share, so that all of them do it at once.
+  /// The slow part, which changes nothing that threads share, so that all of them do it at once.
   virtual void search(Assignment& /*assignment*/) const {}
-  /// Ends what `hand_out` began, in any order.
+  /// Completes the work of `hand_out`, in any order.
   virtual void fill(Assignment& /*assignment*/) {}
   /// Takes an answer; one thread at a time.
   virtual void take(std::size_t index, const Solution& solution) = 0;

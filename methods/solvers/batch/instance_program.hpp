@@ -5,10 +5,10 @@
 namespace dmocbench::batch {
 
 /// One instance of a program as a program of its own: fixed unknowns have the values of its start, equalities its
-/// values. For what is done one by one; the program that evaluates must outlive it.
+/// values. For work done one by one; the program that evaluates must outlive it.
 class InstanceProgram final : public ForwardingProgram {
  public:
-  /// `start`: variable_count() entries; `equality_values`: constraint_count() entries, or none for those of the
+  /// `start`: variable_count() entries; `equality_values`: constraint_count() entries, or none for the values of the
   /// program.
   InstanceProgram(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& equality_values)
       : ForwardingProgram(program),

@@ -12,7 +12,7 @@
 namespace dmocbench::batch {
 
 /// A bound of one entry in all lanes: a stretch of `interior_point::BoundFormulas`. Points are vectors of all lanes
-/// (`LaneVector`) or that of one.
+/// (`LaneVector`) or of one.
 struct LaneBound {
   using Number = OfLanes;
 
@@ -58,7 +58,7 @@ struct LaneBound {
 
 /// The bounds of eight barrier problems side by side. Unknowns and, behind them, the slacks of inequalities make one
 /// vector, the primal one; z are the multipliers of the bounds, one vector. All instances of a batch have the same
-/// bounds, but for entries whose two bounds are equal, which have none here.
+/// bounds, except entries whose two bounds are equal, which have none here.
 class LaneBounds : public interior_point::BoundFormulas<LaneBound> {
  public:
   /// `inequalities`: the constraints that have slacks, in the order of these.

@@ -30,7 +30,7 @@ struct LaneValues {
 /// behind them the slacks of inequalities.
 class LaneProblem {
  public:
-  /// `program` tells the structure and must outlive this.
+  /// `program` has an interval structure and must outlive this.
   LaneProblem(const NonlinearProgram& program, std::unique_ptr<LaneProgram> lanes);
 
   [[nodiscard]] LaneProgram& program() noexcept { return *lanes_; }
@@ -44,8 +44,8 @@ class LaneProblem {
     return variables_ + static_cast<Eigen::Index>(inequalities_.size());
   }
 
-  /// The values that the equalities of the instance in a lane have, constraint_count() entries; none for those of the
-  /// program.
+  /// The values that the equalities of the instance in a lane have, constraint_count() entries; none for the values of
+  /// the program.
   void set_equality_values(std::size_t lane, const Eigen::VectorXd& values);
 
   /// The values at a point. In the `fresh` lanes the slacks are first set to a(x), inside their bounds by the share

@@ -6,7 +6,7 @@
 
 namespace dmocbench::batch {
 
-/// The lane goes back to the point where its search began. False if there is no restoration for it.
+/// The lane goes back to the point where its search began. False if it cannot be restored.
 bool LaneRun::begin_restoration(std::size_t number) {
   Lane& lane = lanes_[number];
   const double theta = values_.theta[index_of(number)];

@@ -335,7 +335,7 @@ void LaneRun::give_up(std::size_t number) {
   queue_.solve_one_by_one(lane.assignment, solution_);
 }
 
-/// Whether the tolerance may not see the cost: nothing of its gradient reaches what a residual may be.
+/// Whether the tolerance may miss the cost: its gradient is below the permitted residual.
 bool LaneRun::has_small_cost(std::size_t number) const {
   const auto gradient = problem_.gradient().of(number);
   for (Eigen::Index j = 0; j < problem_.variable_count(); ++j) {

@@ -25,12 +25,12 @@ namespace dmocbench::batch {
 
 namespace constants = interior_point::constants;
 
-/// The interior-point method on eight instances side by side: what `InteriorPointRun` (interior_point_solver.cpp) does
-/// with one, without second-order corrections, and with the first half of its restoration (lane_restoration.cpp).
-/// Numbers in brackets are the equations, A-1 to A-9 the steps, of Wächter and Biegler (2006).
+/// The interior-point method on eight instances side by side: the steps of `InteriorPointRun`
+/// (interior_point_solver.cpp) for one, without second-order corrections, and with the first half of its restoration
+/// (lane_restoration.cpp). Numbers in brackets are the equations, A-1 to A-9 the steps, of Wächter and Biegler (2006).
 ///
-/// All lanes go through the same round: system, line search, derivatives, judgement. Each has a phase, which says what
-/// a round means to it; a lane whose inertia was wrong waits for the next round with a larger shift.
+/// All lanes go through the same round: system, line search, derivatives, judgement. Each has a phase, which defines
+/// the meaning of a round for it; a lane whose inertia was wrong waits for the next round with a larger shift.
 class LaneRun {
  public:
   /// The batch must outlive it.
@@ -43,9 +43,9 @@ class LaneRun {
   enum class LanePhase : std::uint8_t {
     idle,        ///< no instance
     fresh,       ///< its start is to be evaluated
-    estimating,  ///< the next system is that of the least-squares multipliers, (36)
-    newton,      ///< the next system is that of a Newton step, (13)
-    restoring,   ///< the next system is that of a step of least length to where the linearised constraints hold
+    estimating,  ///< the next system gives the least-squares multipliers, (36)
+    newton,      ///< the next system gives a Newton step, (13)
+    restoring,   ///< the next system gives the shortest step to where the linearised constraints hold
   };
   struct Lane {
     LanePhase phase = LanePhase::idle;
@@ -133,7 +133,7 @@ class LaneRun {
   LaneVector gradient_;                               // of the right-hand side, with the barrier
   LaneVector compliance_;                             // (Σ_s + δ_w)⁻¹, one per constraint
   LaneVector residuals_;                              // of the right-hand side
-  // What a judgement looks at.
+  // Input of the judgement.
   std::array<interior_point::OptimalityErrors, instance_lanes> errors_;
   OfLanes size_of_gradient_;  // not finite where an entry is not
   OfLanes largest_multiplier_;

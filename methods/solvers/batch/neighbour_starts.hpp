@@ -10,7 +10,7 @@
 namespace dmocbench {
 
 /// Sets the `coordinates` of an instance, by which the nearest neighbour is found: the same number for every instance,
-/// in units that make distances in all directions comparable. False if there is no such instance.
+/// in units that make distances in all directions comparable. False if the instance does not exist.
 using PlaceInstance = std::function<bool(std::size_t index, Eigen::VectorXd& coordinates)>;
 /// Fills an instance whose start is the answer of its nearest neighbour. `neighbour` is null if there is none; the
 /// instance then starts as in `solve_batch`.

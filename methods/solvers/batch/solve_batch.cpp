@@ -24,7 +24,7 @@ namespace batch {
 
 namespace {
 
-/// What the functions of a caller say, in one generation.
+/// The functions of a caller as a source with one generation.
 class PlainSource final : public BatchSource {
  public:
   PlainSource(const NextInstance& next, const TakeSolution& take) : next_(next), take_(take) {}

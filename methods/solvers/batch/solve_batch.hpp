@@ -15,18 +15,18 @@ namespace dmocbench {
 
 /// One instance of a program: the same structure, other numbers.
 struct BatchInstance {
-  /// Where the solve begins, variable_count() entries. Those of fixed unknowns are the values that they have in this
+  /// Where the solve begins, variable_count() entries. Fixed unknowns have these values in this
   /// instance (the states of clamped ends, `ClampedEnds`).
   Eigen::VectorXd start;
-  /// The values of equalities, constraint_count() entries; none for those of the program.
+  /// The values of equalities, constraint_count() entries; none for the program's.
   Eigen::VectorXd equality_values;
   /// λ of an instance that is nearly the same, constraint_count() entries: a warm start. None for a cold one.
   Eigen::VectorXd multipliers;
-  /// As many as `LaneProgram::parameter_count`; none for those of the program.
+  /// As many as `LaneProgram::parameter_count`; none for the program's.
   Eigen::VectorXd parameters;
 };
 
-/// What a batch understands; the same meaning as in `SolverOptions`.
+/// Options of a batch, with the same meaning as in `SolverOptions`.
 struct BatchOptions {
   double tolerance = 1e-10;   ///< for the KKT residual of the scaled program
   int most_iterations = 500;  ///< of an instance
@@ -35,14 +35,14 @@ struct BatchOptions {
   bool falls_back = true;
   /// How many threads share the instances; 0 for `thread_count()`.
   std::size_t threads = 0;
-  /// Asked once per iteration; true ends the batch: instances that are not finished are "interrupted", and no others
+  /// Called once per iteration; true ends the batch: instances that are not finished are "interrupted", and no others
   /// are fetched.
   std::function<bool()> stop_requested = {};
   /// Gives the program that evaluates single solves the parameters of an instance; needed where there are any.
   std::function<void(const Eigen::VectorXd& parameters)> set_parameters = {};
 };
 
-/// What a batch spends time on.
+/// The phases of a batch.
 enum class BatchPhase : std::uint8_t {
   tapes,           ///< values and derivatives of the program
   linear_systems,  ///< assembling and solving them
@@ -58,12 +58,13 @@ using BatchSeconds = std::array<double, batch_phases>;
 
 /// How a batch went.
 struct BatchSummary {
-  std::size_t instances = 0;  ///< how many were asked for
+  std::size_t instances = 0;  ///< how many were given
   std::size_t solved = 0;     ///< how many of them were solved
   /// Finished by `interior_point`, because lanes restore feasibility in the simplest way only, and have no sparse
   /// factorisation.
   std::size_t solved_one_by_one = 0;
-  /// Iterations of eight lanes together; those of all instances, divided by eight times this, is how full lanes were.
+  /// Iterations of eight lanes together; all instances' iterations, divided by eight times this, give the share of busy
+  /// lanes.
   std::size_t rounds = 0;
   /// Of all threads together.
   BatchSeconds seconds{};
@@ -78,16 +79,16 @@ using TakeSolution = std::function<void(std::size_t index, const Solution& solut
 /// and several such groups on threads; see README.md. An instance that has converged leaves its lane to the next one.
 ///
 /// `next` and `take` are called from several threads, each by one at a time, while `program` is in use: neither may
-/// touch it. A thread asks for several instances and delivers several answers at a time.
+/// touch it. A thread takes several instances and delivers several answers at a time.
 /// Answers come in any order, each with the index of its instance: 0, 1, ... Memory does not grow with their number.
 /// An answer depends on its instance alone, to the last digit: neither on its neighbours nor on the number of threads.
 /// It is solved only if the residuals of its optimality conditions are below the tolerance, and a Newton step would not
 /// move it (`confirm`). An instance of wrong sizes is an "invalid program", one with a number that is not finite an
 /// "evaluation failed".
 ///
-/// `usual` is the start of any ordinary instance: the order of elimination is chosen there. Throws `Error` that says
-/// why, where the structure of the program does not fit: both ends of the horizon must be given, and the horizon. What
-/// `next` and `take` throw ends the batch, and is thrown again.
+/// `usual` is the start of any ordinary instance: the order of elimination is chosen there. Throws `Error` with the
+/// reason if the program's structure does not fit: both ends of the horizon and its length must be given. An exception
+/// of `next` or `take` ends the batch, and is thrown again.
 BatchSummary solve_batch(NonlinearProgram& program, const MakeLanes& make_lanes, const Eigen::VectorXd& usual,
                          const NextInstance& next, const TakeSolution& take, const BatchOptions& options = {});
 

@@ -47,7 +47,7 @@ struct BoundStretch {
   /// From the bounds; positive inside.
   [[nodiscard]] auto distances(const Primal& of) const { return side * (entries(of) - values); }
 
-  // What `BoundFormulas` makes of the numbers of a stretch.
+  // How `BoundFormulas` combines the numbers of a stretch.
   [[nodiscard]] static double all(double value) { return value; }
   [[nodiscard]] static double sum(const auto& numbers) { return numbers.sum(); }
   [[nodiscard]] static double smaller(double than, const auto& numbers) { return std::min(than, numbers.minCoeff()); }
@@ -78,7 +78,7 @@ class BarrierBounds : public BoundFormulas<BoundStretch> {
 [[nodiscard]] double pushed_inside(double value, double lower, double upper, double share);
 
 /// Calls `visit(i)` for every entry i that has a bound on one side at least, in ascending order. Most have none, and
-/// are skipped many at a time, those of long vectors by several threads.
+/// are skipped many at a time, long vectors by several threads.
 template <class Visit>
 void for_each_bounded(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Visit& visit) {
   constexpr Eigen::Index at_once = 32;

@@ -31,7 +31,7 @@ void select(const Eigen::VectorXd& from, const std::vector<Eigen::Index>& entrie
   for (Eigen::Index j = 0; j < to.size(); ++j) to[j] = from[entries[static_cast<std::size_t>(j)]];
 }
 
-/// Those of the variables are left empty where none of them counts.
+/// Bounds of the variables are left empty where none of them counts.
 Primal bounds_of(const Eigen::VectorXd& variables, bool are_bounded, const Eigen::VectorXd& rows,
                  const std::vector<Eigen::Index>& inequalities) {
   Primal bounds;

@@ -22,7 +22,7 @@ struct Evaluation : PointValues {
 ///
 ///   minimise φ_μ(x, s) = f(x) - μ Σ ln d(x, s)  such that  c(x, s) = 0,
 ///
-/// d the distances from the bounds, with the derivatives at the last point that they were asked for.
+/// d the distances from the bounds, with the derivatives at the last point where they were evaluated.
 class BarrierProgram {
  public:
   explicit BarrierProgram(NonlinearProgram& program);
@@ -58,7 +58,7 @@ class BarrierProgram {
 
   /// From the gradient of the Lagrangian, see above, and the values at an iterate.
   [[nodiscard]] OptimalityErrors optimality_errors(const Iterate& at, const Primal& gradient, const Evaluation& values);
-  /// Whether an iterate, with the errors that the last `optimality_errors` told of it, may be the answer.
+  /// Whether an iterate, with the errors that the last `optimality_errors` returned for it, may be the answer.
   [[nodiscard]] bool meets(const StopRule& rule, const OptimalityErrors& errors, const Iterate& at,
                            const Primal& gradient, const Evaluation& values) const;
 

@@ -11,12 +11,12 @@
 
 namespace dmocbench::interior_point {
 
-/// What the method does with the bounds of a barrier problem, of one instance or of several side by side. d is the
-/// distance of an entry from its bound, z its multiplier; of two signs the upper one is that of lower bounds.
+/// The formulas for the bounds of a barrier problem, of one instance or of several side by side. d is the
+/// distance of an entry from its bound, z its multiplier; of two signs the upper one is for lower bounds.
 ///
-/// `Stretch` tells where some bounds on the same side are found, as `BoundStretch` does: `side`, `set`, and the arrays
-/// `entries(point)`, `distances(point)`, `multipliers(z)`. A point, a step or a gradient is whatever it takes for one;
-/// a `Number` is one of every instance.
+/// `Stretch` gives the places where some bounds on the same side are found, as `BoundStretch` does: `side`, `set`, and
+/// the arrays `entries(point)`, `distances(point)`, `multipliers(z)`. A point, a step or a gradient has the type that
+/// it takes; a `Number` is one of every instance.
 template <class Stretch>
 class BoundFormulas {
  public:

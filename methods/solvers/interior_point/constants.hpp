@@ -1,7 +1,7 @@
 #pragma once
 
 /// The constants of the method, by their names in Wächter and Biegler (2006), with the equation, step or section that
-/// they stand in there. γ_θ and γ_φ are the filter's (`Filter::margin`), those of Algorithm IC the shift's
+/// they stand in there. γ_θ and γ_φ are the filter's (`Filter::margin`), the constants of Algorithm IC the shift's
 /// (`InertiaShift`), s_max is the stop rule's (`StopRule::scale`).
 namespace dmocbench::interior_point::constants {
 
@@ -31,7 +31,7 @@ inline constexpr double kappa_resto = 0.9;  // the share of θ that it may leave
 inline constexpr double largest_z = 1e3;    // larger multipliers of bounds become 1 behind it
 // Its steps towards feasibility alone; ours.
 inline constexpr double shortest_feasibility_step = 1e-10;
-inline constexpr double sufficient_decrease = 1e-4;  // of the violation, as a share of what a whole step takes away
+inline constexpr double sufficient_decrease = 1e-4;  // of the violation, as a share of the decrease by a whole step
 inline constexpr double very_short_step = 1e-3;
 inline constexpr int most_blocked_steps = 20;  // very short ones in a row, where bounds leave no room
 

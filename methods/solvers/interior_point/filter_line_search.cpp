@@ -64,7 +64,7 @@ double FilterLineSearch::smallest_length(double theta, double derivative) const 
 
 bool FilterLineSearch::accept(const PointValues& from, const PointValues& to, double derivative, double length) {
   const double rounding = rounding_of_phi_ * (std::abs(from.objective) + std::abs(from.phi - from.objective));
-  // Where the violation leaps, the linearised constraints say nothing of the point, however low its cost.
+  // Where the violation leaps, the linearised constraints are meaningless there, however low its cost.
   const bool leaps = to.theta > std::max(constants::most_growth * from.theta, theta_at_start_);
   const bool is_usable = std::isfinite(to.theta) && std::isfinite(to.phi) && !leaps;
   const bool passes = is_usable && filter_.accepts(to.theta - rounding_of_theta_, to.phi - rounding);
@@ -84,7 +84,7 @@ bool FilterLineSearch::decreases(const PointValues& from, const PointValues& to,
   const bool is_descent = derivative < 0.0 && switching_left(length, derivative) > switching_right(from.theta);  // (19)
   const double rise = to.phi - from.phi;
   if (from.theta <= theta_min_ && (is_descent || is_rounding)) {
-    // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.
+    // Where the constraints hold up to rounding, φ may have to rise for them to hold better still.
     const bool is_decrease = rise <= constants::eta_phi * length * derivative + rounding;  // (20)
     return is_decrease || (is_rounding && is_nearer);
   }
@@ -95,7 +95,8 @@ bool FilterLineSearch::decreases(const PointValues& from, const PointValues& to,
 }
 
 /// Empties the filter after several searches in a row whose last refusal was the filter's. Without its pairs only θ_max
-/// keeps the violation from growing step by step as the cost falls: it becomes that of the start, or of this point.
+/// keeps the violation from growing step by step as the cost falls: it becomes the violation of the start, or of this
+/// point.
 void FilterLineSearch::end_search(double theta) {
   blocked_searches_ = is_blocked_ ? blocked_searches_ + 1 : 0;
   is_blocked_ = false;

@@ -28,7 +28,7 @@ class FilterLineSearch {
   [[nodiscard]] double smallest_length(double theta, double derivative) const;
 
   /// Whether the point `to` is acceptable, a step of this length away from the point `from`. `derivative` and `length`
-  /// are those of the Newton step, also where its correction is tried. The filter takes up `from` where A-7 says so.
+  /// belong to the Newton step, also where its correction is tried. The filter takes up `from` by rule A-7.
   [[nodiscard]] bool accept(const PointValues& from, const PointValues& to, double derivative, double length);
 
   /// Begins restoration, A-9, at a point, which the filter takes up. Restoration has to reduce its violation to the

@@ -33,7 +33,7 @@ namespace {
 constexpr double push_of_descent = 1e-8;
 constexpr double correctable = 2.0;  // see try_second_order_correction
 
-/// One solve by the method of Wächter and Biegler (README.md). Numbers in brackets are those of its equations, A-1 to
+/// One solve by the method of Wächter and Biegler (README.md). Numbers in brackets are its equations, A-1 to
 /// A-9 the steps of its Algorithm A.
 class InteriorPointRun final : public PreparedRun {
  public:
@@ -169,7 +169,7 @@ class InteriorPointRun final : public PreparedRun {
   }
 
   /// Accepts the point at `length` along a step if filter and decrease allow it. `derivative` and `newton_length` are
-  /// those of the Newton step, also where its correction is tried.
+  /// the Newton step's, also where its correction is tried.
   [[nodiscard]] bool try_step(const Primal& step, double length, double derivative, double newton_length) {
     if (!evaluate_trial(step, length)) return false;
     if (!line_search_.accept(values_, trial_values_, derivative, newton_length)) return false;
@@ -292,7 +292,7 @@ class InteriorPointRun final : public PreparedRun {
   std::string message_;
 };
 
-/// What there is to say of a program whose linear systems cannot be factorised as asked.
+/// The answer for a program whose linear systems cannot be factorised as requested.
 class RefusedRun final : public PreparedRun {
  public:
   explicit RefusedRun(std::string message) : message_(std::move(message)) {}

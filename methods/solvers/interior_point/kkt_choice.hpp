@@ -11,8 +11,8 @@
 
 namespace dmocbench::interior_point {
 
-/// The solver of the linear systems that the choices name, or a sentence that says why the program's structure does
-/// not allow it.
+/// The solver of the linear systems that the choices name, or a sentence with the reason why the program's structure
+/// does not allow it.
 [[nodiscard]] tl::expected<std::unique_ptr<kkt::KktSystem>, std::string> make_kkt(NonlinearProgram& program,
                                                                                   const InteriorPointOptions& choices);
 

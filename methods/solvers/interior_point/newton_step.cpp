@@ -162,7 +162,7 @@ bool NewtonStep::solve_least_squares(const Eigen::VectorXd& gradient, const Eige
   return solve(no_hessian_, 1.0, gradient, constraints, step);
 }
 
-/// The steps of slacks and of multipliers of bounds, from those of x and λ.
+/// The steps of slacks and of multipliers of bounds, from the steps of x and λ.
 void NewtonStep::set_eliminated_steps(const Iterate& at, double mu, Iterate& step) const {
   const std::vector<Eigen::Index>& inequalities = program_.inequalities();
   step.s.resize(static_cast<Eigen::Index>(inequalities.size()));

@@ -8,7 +8,7 @@
 namespace dmocbench::interior_point {
 
 /// The multiple δ_w of the unit matrix that makes the Hessian positive definite on the null space of the equalities:
-/// raised until the inertia is right, starting from a third of what was last needed (Algorithm IC of Wächter and
+/// raised until the inertia is right, starting from a third of the last shift (Algorithm IC of Wächter and
 /// Biegler). Unlike there, the system without a shift is not tried first where a third was too little the last time.
 class InertiaShift {
  public:
@@ -27,7 +27,7 @@ class InertiaShift {
 
   double shift_ = 0.0;
   double last_ = 0.0;
-  bool grows_ = false;  // the last system needed more than a third of what the one before it needed
+  bool grows_ = false;  // the last system needed more than a third of the shift before it
 };
 
 /// The linear systems of the method. All have the form (13) of Wächter and Biegler,
@@ -86,7 +86,7 @@ class NewtonStep {
   double diagonal_shift_ = 0.0;  // δ_w in it
   Eigen::VectorXd compliance_;   // (Σ_s + δ_w)⁻¹, one per constraint
   Eigen::VectorXd constraints_;
-  Eigen::VectorXd no_hessian_;  // made when they are first needed, as what follows
+  Eigen::VectorXd no_hessian_;  // made when they are first needed, as the next one
   Eigen::VectorXd no_gradient_;
   Eigen::VectorXd no_constraints_;
   Iterate of_least_squares_;

@@ -59,7 +59,7 @@ void LimitedMemoryHessian::update(const Eigen::VectorXd& step, const Eigen::Vect
   if (updates_.size() == most_updates) {
     for (const Update& update : updates_) diagonal_ += update.added.cwiseAbs2() - update.removed.cwiseAbs2();
     updates_.clear();
-    curved = diagonal_.cwiseProduct(step);  // the old curvature along the step is that of the new start
+    curved = diagonal_.cwiseProduct(step);  // the old curvature along the step belongs to the new start
   }
   updates_.push_back({damped / std::sqrt(step.dot(damped)), curved / std::sqrt(step.dot(curved))});
 }

@@ -18,10 +18,10 @@ class Convexification {
   static constexpr double least_shift = 1e-4;
 
   /// 0 if H is positive definite there already; otherwise at most a tenth more than is needed, and at least
-  /// `least_shift`: where there is no curvature at all, a smaller shift would allow steps of any length. `free` says
-  /// which variables may move, `equalities` which rows count. Where no shift is enough, the largest one tried.
-  /// None where an entry is not finite or above `SymmetricFactorisation::largest_entry`, or when `is_stopped`, asked
-  /// after each trial, says so.
+  /// `least_shift`: without any curvature, a smaller shift would allow steps of any length. `free` marks
+  /// the variables that may move, `equalities` the rows that count. Where no shift is enough, the largest one tried.
+  /// None where an entry is not finite or above `SymmetricFactorisation::largest_entry`, or when `is_stopped`, called
+  /// after each trial, returns true.
   [[nodiscard]] std::optional<double> shift_for(const Eigen::SparseMatrix<double>& hessian,
                                                 const Eigen::SparseMatrix<double>& jacobian,
                                                 const std::vector<bool>& free, const std::vector<bool>& equalities,

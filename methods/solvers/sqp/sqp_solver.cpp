@@ -173,7 +173,7 @@ class SequentialRun {
     adapt_shift(search.step_length);
   }
 
-  /// Short steps ask for more curvature than the quadratic program needs.
+  /// Short steps need more curvature than the quadratic program needs.
   void adapt_shift(double step_length) {
     constexpr double short_step = 0.2;
     constexpr double growth = 4.0;

@@ -11,13 +11,13 @@
 
 namespace dmocbench {
 
-/// What the user of `SqpSolver` may choose.
+/// Options of `SqpSolver`.
 struct SequentialOptions {
   sqp::Crash crash = sqp::Crash::none;                   ///< the basis of the first quadratic program
   sqp::PricingRule pricing = sqp::PricingRule::largest;  ///< which column enters
   std::uint32_t seed = 1;                                ///< of the random pricing rule
   bool limited_memory = false;                           ///< a quasi-Newton matrix instead of the exact Hessian
-  std::function<void(const MinorIteration&)> on_minor_iteration = {};  ///< told of every one
+  std::function<void(const MinorIteration&)> on_minor_iteration = {};  ///< called for every one
 };
 
 /// The basis of that name, "none" or "basis". Throws `Error` that lists the names if there is none.
@@ -29,7 +29,7 @@ struct SequentialOptions {
 
 /// Sequential quadratic programming with an active-set method that starts each first quadratic program from the slack
 /// basis, as the solver of the paper does: every minor iteration is counted and can be watched
-/// (`SequentialOptions::on_minor_iteration`). README.md in this folder says what a minor iteration is and what to
+/// (`SequentialOptions::on_minor_iteration`). README.md in this folder explains minor iterations and what to
 /// expect.
 class SqpSolver final : public SolverWithoutMemory {
  public:

@@ -29,7 +29,7 @@ class BasisFactorisation {
  private:
   static constexpr std::size_t most_replacements = 50;
 
-  /// B_new = B E with E the identity but for one column.
+  /// B_new = B E with E the identity except for one column.
   struct Replacement {
     Eigen::Index position = 0;
     double pivot = 1.0;
@@ -50,7 +50,7 @@ struct BasisChoice {
 };
 
 /// Starts from `basics` and exchanges them for `others` until no entry of the table exceeds a small bound. Then
-/// Z = (-table; I) is well conditioned whatever the first basis was: a rank-revealing factorisation of both lists
+/// Z = (-table; I) is well conditioned for any first basis: a rank-revealing factorisation of both lists
 /// together. Where `basics` are singular it starts from the slack basis; a slack that cannot be replaced stays. The
 /// exchanges are no minor iterations, since no point moves.
 [[nodiscard]] BasisChoice choose_basis(const QuadraticProgram& program, std::vector<Eigen::Index> basics,

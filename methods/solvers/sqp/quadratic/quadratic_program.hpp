@@ -19,8 +19,8 @@ using HessianProduct = std::function<Eigen::MatrixXd(const Eigen::Ref<const Eige
 ///
 ///   minimise gᵀd + ½ dᵀHd  such that  A d - s = 0,  lower <= (d, s) <= upper,
 ///
-/// where the slack s_i stands for the linearised constraint i; that of an equality is fixed. Bounds are those of the
-/// nonlinear program shifted to the present point, so d = 0 lies within the bounds on d.
+/// where the slack s_i stands for the linearised constraint i; the slack of an equality is fixed. Bounds are the bounds
+/// of the nonlinear program shifted to the present point, so d = 0 lies within the bounds on d.
 struct QuadraticProgram {
   HessianProduct hessian_times;         ///< H is positive definite on the null space of the equality rows
   Eigen::VectorXd gradient;             ///< g, n entries

@@ -13,7 +13,7 @@ namespace dmocbench::sqp {
 
 namespace {
 
-/// Thrown where an observer asks to stop.
+/// Thrown where an observer requests a stop.
 struct StoppedByObserver {};
 
 /// The columns that may move and thereby lower the objective, without the basic and (if `but_superbasics`) the
@@ -44,7 +44,7 @@ RatioTest ratio_test(const QuadraticIterate& iterate, const std::vector<Eigen::I
   return ratio_test(columns, limit, iterate.tolerance());
 }
 
-/// Tells the observer; throws `StoppedByObserver`.
+/// Calls the observer; throws `StoppedByObserver`.
 void report(const QuadraticIterate& iterate, MinorIteration minor, const MinorObserver& observer) {
   const WorkingSet& sets = iterate.sets();
   minor.infeasibility = iterate.infeasibility();

@@ -11,7 +11,7 @@ namespace dmocbench::sqp {
 
 namespace {
 
-/// A pivot of the Cholesky factorisation that is this small beside its diagonal entry is rounding.
+/// A pivot of the Cholesky factorisation that is this small compared with its diagonal entry is rounding.
 constexpr double smallest_relative_pivot = 100.0 * std::numeric_limits<double>::epsilon();
 
 Eigen::MatrixXd without(const Eigen::MatrixXd& matrix, Eigen::Index place) {

@@ -15,7 +15,7 @@ class ReducedHessian {
   /// positive definite; it is then left as it was.
   [[nodiscard]] bool append(const Eigen::VectorXd& border, double diagonal);
 
-  /// The column at `place` leaves. False if what remains is not positive definite.
+  /// The column at `place` leaves. False if the remainder is not positive definite.
   [[nodiscard]] bool remove(Eigen::Index place);
 
   /// The column at `place` goes into the basis in exchange for a basic column, which stays where it is: the superbasic
