@@ -75,7 +75,7 @@ Node* without_factor(Node* x) {
   }
 }
 
-/// The nodes are those of the formulas, operands first.
+/// `nodes` are the formulas' nodes, operands first.
 std::vector<Expression> find_arguments(std::span<const Expression> formulas, std::span<Node* const> nodes,
                                        const ExpressionVector& x) {
   const std::vector<Dependence> dependence = dependences(nodes, x);

@@ -9,7 +9,7 @@
 
 namespace dmocbench {
 
-/// What the nonlinear operations of some formulas read of x: y = A x + b with coefficients A that do not depend on x.
+/// The arguments of the nonlinear operations of some formulas: y = A x + b with coefficients A that do not depend on x.
 ///
 /// The formulas are functions of y alone, f(x) = g(A x + b), so that f_x = g_y A and f_xx = Aᵀ g_yy A. An interval
 /// reads its ends through a midpoint and a velocity: g is differentiated there, where it is short, and A, which holds
@@ -27,7 +27,7 @@ class AffineArguments {
 
   /// g, one per formula, in inputs of their own: `inputs()`.
   [[nodiscard]] const std::vector<Expression>& formulas() const noexcept { return formulas_; }
-  /// y as inputs that no formula reads, and what they stand for.
+  /// y as inputs that no formula reads, and their definitions.
   [[nodiscard]] const Definitions& definitions() const noexcept { return definitions_; }
   /// A, a row per argument.
   [[nodiscard]] const ExpressionMatrix& coefficients() const noexcept { return coefficients_; }

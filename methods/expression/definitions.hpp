@@ -9,8 +9,8 @@ namespace dmocbench {
 
 /// Inputs that stand for formulas: `inputs[i]` for `formulas[i]`, which reads none of the inputs.
 struct Definitions {
-  ExpressionVector inputs;    ///< what other formulas read
-  ExpressionVector formulas;  ///< what is meant, as many
+  ExpressionVector inputs;    ///< read by other formulas
+  ExpressionVector formulas;  ///< their definitions, as many
 };
 
 /// The formulas with `replacements` in the place of `nodes`, as many.

@@ -9,10 +9,10 @@
 
 namespace dmocbench {
 
-/// A traced real number: a value type that records how it was computed instead of what it is.
+/// A traced real number: a value type that records its computation instead of its value.
 ///
 /// Arithmetic on expressions builds a graph. Equal nodes are shared (an operation on the same operands is the same
-/// node), and what is known while tracing is folded: constants, x + 0, 1 · x, 0 · x = 0, x - x = 0, numeric factors,
+/// node), and values known while tracing are folded: constants, x + 0, 1 · x, 0 · x = 0, x - x = 0, numeric factors,
 /// signs, and a factor times its own reciprocal. A structural zero therefore costs nothing, and NaN propagates from
 /// those inputs that the folded graph still reads.
 ///
@@ -67,7 +67,7 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
   /// Stands for the quotient from now on.
   Expression& operator/=(const Expression& right);
 
-  // Compilers show the line that deletes a function, and with it what to write instead.
+  // Compilers show the line that deletes a function, and with it the replacement.
   friend Expression abs(const Expression& x) = delete;                        // not smooth: write smooth_abs(x, eps)
   friend Expression fabs(const Expression& x) = delete;                       // not smooth: write smooth_abs(x, eps)
   friend Expression max(const Expression& x, const Expression& y) = delete;   // not smooth: write smooth_max(x, y, eps)

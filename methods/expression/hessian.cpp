@@ -98,7 +98,7 @@ class Congruence {
   }
 
   PairProducts products_;
-  std::vector<std::vector<Eigen::Index>> columns_;         // those of every row of A that do not vanish
+  std::vector<std::vector<Eigen::Index>> columns_;         // nonzero columns of every row of A
   std::vector<std::pair<Expression, Expression>> shares_;  // a factor, and its product with the entry
   ExpressionMatrix sum_;
 };

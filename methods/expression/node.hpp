@@ -20,7 +20,7 @@ class NodeTable;
 
 /// The identity of a formula: nodes with equal keys are the same formula.
 struct NodeKey {
-  Operation operation = Operation::constant;        ///< what it computes
+  Operation operation = Operation::constant;        ///< how it is computed
   double value = 0.0;                               ///< of a constant, or the exponent of a power
   std::size_t index = 0;                            ///< of an input
   std::array<Node*, 2> operands{nullptr, nullptr};  ///< null where the operation has fewer
@@ -34,10 +34,10 @@ struct NodeKey {
 /// One operation of a graph, shared by all formulas that contain it; its readers are counted.
 class Node {
  public:
-  /// A node of this key that the table of its thread knows.
+  /// A node of this key in the table of its thread.
   Node(const NodeKey& key, NodeTable& table) noexcept : key_(key), table_(&table) {}
 
-  /// What it computes.
+  /// The operation that computes it.
   [[nodiscard]] Operation operation() const noexcept { return key_.operation; }
   /// Of a constant, or the exponent of a power.
   [[nodiscard]] double value() const noexcept { return key_.value; }
@@ -87,7 +87,7 @@ class NodeTable {
   [[nodiscard]] static NodeTable& of_this_thread();
 
   /// The node with this key, which is created if there is none. Throws `Error` if an operand belongs to another
-  /// thread's table; throws `Stopped` where a `StopScope` of the thread says so.
+  /// thread's table; throws `Stopped` where a `StopScope` of the thread requires it.
   [[nodiscard]] Node* find_or_create(const NodeKey& key);
   /// The constant 0, which stays, because every new `Expression` and empty vector reads it.
   [[nodiscard]] Node* zero() const noexcept { return zero_; }

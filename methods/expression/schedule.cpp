@@ -125,7 +125,7 @@ class Writer {
     return static_cast<std::uint32_t>(steps_.size() - 1);
   }
 
-  // By the numbers of the nodes: what they stand for, their readers, outputs among them, and the positions of their
+  // By the numbers of the nodes: their meanings, their readers, outputs among them, and the positions of their
   // steps.
   std::vector<Node*> meant_;
   std::vector<std::size_t> readers_;

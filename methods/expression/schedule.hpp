@@ -18,7 +18,7 @@ class Schedule {
  public:
   /// One value of the schedule. `left` and `right` are positions of earlier steps.
   struct Step {
-    Operation operation = Operation::constant;  ///< what is computed
+    Operation operation = Operation::constant;  ///< how it is computed
     std::uint32_t left = 0;                     ///< index of the first operand's step
     std::uint32_t right = 0;                    ///< index of the second operand's step
     double value = 0.0;                         ///< of a constant, or the exponent of a power
@@ -35,7 +35,7 @@ class Schedule {
 
   /// All steps, operands before those that read them.
   [[nodiscard]] const std::vector<Step>& steps() const noexcept { return steps_; }
-  /// Positions of the outputs among the steps, in the order in which they were asked for.
+  /// Positions of the outputs among the steps, in the order in which they were given.
   [[nodiscard]] const std::vector<std::uint32_t>& outputs() const noexcept { return outputs_; }
   /// One more than the largest number of an input that is read; 0 if none is.
   [[nodiscard]] std::size_t input_count() const noexcept { return input_count_; }

@@ -65,7 +65,7 @@ double Spline::operator()(double x) const {
 }
 
 Expression Spline::operator()(const Expression& x) const {
-  // Each cubic counts from its own point to the next one. Whether a point is passed is asked once, so that everywhere
+  // Each cubic counts from its own point to the next one. Whether a point is passed is tested once, so that everywhere
   // exactly one of the factors is 1 and the others are 0, to the last bit.
   Expression sum;
   Expression passed(1.0);

@@ -9,8 +9,8 @@ namespace dmocbench {
 /// A table as a formula: the natural cubic spline s through the points (x_i, y_i).
 ///
 /// s and its first two derivatives are continuous everywhere; s'' vanishes at both ends, and beyond them s is a
-/// straight line. Derivatives of the traced formula are those of s; the third one, which second derivatives of
-/// equations of motion read where a table stands in a Lagrangian, is constant between two points and jumps there.
+/// straight line. Derivatives of the traced formula are the derivatives of s; the third one, which second derivatives
+/// of equations of motion read where a table stands in a Lagrangian, is constant between two points and jumps there.
 ///
 /// A traced value takes about ten operations for every interval of the table: some ten to fifty points are a table,
 /// thousands should be thinned out first.

@@ -75,9 +75,9 @@ class Tape {
   ///
   /// `inputs[i]` holds the values of input i and is read at the entries of these intervals only; inputs that the
   /// schedule does not read may be null. `outputs[j]` receives the values of output j, each at the entry of its
-  /// interval. Outputs must not overlap inputs or each other. Allocates nothing, but for the evaluation that turns the
-  /// tape into machine code and the next one by every workspace. Throws `Error` if there are too few inputs or outputs,
-  /// or if the workspace belongs to another tape.
+  /// interval. Outputs must not overlap inputs or each other. Allocates nothing, except in the evaluation that turns
+  /// the tape into machine code and the next one by every workspace. Throws `Error` if there are too few inputs or
+  /// outputs, or if the workspace belongs to another tape.
   void evaluate(std::size_t count, std::span<const Input> inputs, std::span<double* const> outputs,
                 Workspace& workspace) const {
     evaluate(0, count, inputs, outputs, workspace);
@@ -124,7 +124,7 @@ class Tape {
   std::size_t input_count_ = 0;
   std::size_t output_count_ = 0;
   std::size_t operation_count_ = 0;
-  std::uint64_t serial_ = 0;  // tells tapes apart; a copy is the same tape
+  std::uint64_t serial_ = 0;  // distinguishes tapes; a copy is the same tape
   InstructionSet set_ = InstructionSet::baseline;
   std::shared_ptr<LateCode> late_code_;  // null if it stays interpreted
 };

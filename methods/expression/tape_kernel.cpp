@@ -19,7 +19,7 @@ namespace dmocbench {
 
 namespace {
 
-/// All numbers of a block: the compiler knows the length of its loops.
+/// All numbers of a block: the length of its loops is known at compile time.
 struct FullWidth {
   static constexpr std::size_t value = tape_block_width;
   static constexpr bool is_full = true;

@@ -63,7 +63,7 @@ inline constexpr std::size_t most_operands = 4;
 struct TapeInstruction {
   std::uint32_t code;                                 ///< an `instruction_code`
   std::uint32_t result;                               ///< the slot that is written
-  std::uint32_t second_result;                        ///< the cosine beside a sine
+  std::uint32_t second_result;                        ///< the cosine with a sine
   std::array<std::uint32_t, most_operands> operands;  ///< the slots that are read
   double exponent;                                    ///< of a power
 };

@@ -13,10 +13,10 @@
 /// Eigen's traits of a traced number.
 template <>
 struct Eigen::NumTraits<dmocbench::Expression> : Eigen::GenericNumTraits<dmocbench::Expression> {
-  using Real = dmocbench::Expression;        ///< as Eigen asks: of a real number, itself
-  using NonInteger = dmocbench::Expression;  ///< as Eigen asks: what quotients are
-  using Nested = dmocbench::Expression;      ///< as Eigen asks: how operands are kept
-  using Literal = double;                    ///< as Eigen asks: what constants in its code are
+  using Real = dmocbench::Expression;        ///< required by Eigen: of a real number, itself
+  using NonInteger = dmocbench::Expression;  ///< required by Eigen: type of quotients
+  using Nested = dmocbench::Expression;      ///< required by Eigen: how operands are kept
+  using Literal = double;                    ///< required by Eigen: type of constants in its code
   enum {
     IsComplex = 0,
     IsInteger = 0,
@@ -41,7 +41,7 @@ struct Eigen::ScalarBinaryOpTraits<dmocbench::Expression, double, Operation> {
 namespace dmocbench {
 
 namespace detail {
-/// Throws `Error` that tells the sizes unless the factors of a product fit.
+/// Throws `Error` with the sizes unless the factors of a product fit.
 void require_factors(Eigen::Index rows, Eigen::Index columns, Eigen::Index other_rows, Eigen::Index other_columns);
 /// Throws `Error` that names the vector, its size and the entry.
 [[noreturn]] void throw_no_entry(char name, Eigen::Index entry, Eigen::Index size);
@@ -86,13 +86,13 @@ template <class Left, class Right>
   }
 }
 
-/// A vector whose name errors tell: an entry that it has not is an `Error`, not a read of foreign memory.
+/// A vector whose name appears in errors: an entry that it does not have is an `Error`, not a read of foreign memory.
 template <char name>
 class NamedVector : public ExpressionVector {
  public:
   /// No entries.
   NamedVector() = default;
-  /// Whatever has entries: vectors, and Eigen's formulas of vectors.
+  /// Anything with entries: vectors, and Eigen's formulas of vectors.
   NamedVector(const ExpressionVector& entries) : ExpressionVector(entries) {}  // NOLINT(*-explicit-*)
   /// These entries.
   NamedVector(ExpressionVector&& entries) noexcept : ExpressionVector(std::move(entries)) {}  // NOLINT(*-explicit-*)

@@ -22,9 +22,9 @@ class LateCode {
   static constexpr std::size_t most_operations = 16384;
 
   /// Intervals evaluated before code is made: half as many again as repay it, so that short solves never make any. The
-  /// time saved per interval is about proportional to the number of operations; so is the time to make the code, beside
-  /// a fixed time for memory from the system. `build/bench/speed/speed --benchmark_filter="making|separate"` measures
-  /// both.
+  /// time saved per interval is about proportional to the number of operations; so is the time to make the code, apart
+  /// from a fixed time for memory from the system. `build/bench/speed/speed --benchmark_filter="making|separate"`
+  /// measures both.
   [[nodiscard]] static constexpr std::uint64_t worthwhile_intervals(std::size_t operations) noexcept {
     return 10'000 + 600'000 / static_cast<std::uint64_t>(operations);
   }
@@ -52,8 +52,8 @@ class LateCode {
   std::atomic<const NativeCode*> ready_{nullptr};
 };
 
-/// The machine code of a tape: all that a tape knows of this folder. Null where a tape stays interpreted: if `use` says
-/// so, there is no code for the set, or the schedule computes nothing or too much.
+/// The machine code of a tape: a tape's only interface to this folder. Null where a tape stays interpreted: if `use`
+/// requires so, there is no code for the set, or the schedule computes nothing or too much.
 [[nodiscard]] std::shared_ptr<LateCode> late_code_for(const Schedule& schedule, TapeSeries series, InstructionSet set,
                                                       NativeCodeUse use);
 

@@ -170,7 +170,7 @@ class StageWriter : public Xbyak::CodeGenerator {
     return {registers_.kind, is_register ? static_cast<int>(place.number) : 0};
   }
 
-  /// The address of a place that is no register. That of a series is fetched first, if it is in none.
+  /// The address of a place other than a register. A series' address is fetched first, if it is in none.
   Xbyak::Address memory(const OperandPlace& place) {
     switch (place.kind) {
       case OperandPlace::Kind::series:
@@ -193,7 +193,7 @@ class StageWriter : public Xbyak::CodeGenerator {
   const Xbyak::Reg64 last_ = rsi;        // the second one, which becomes the offset of the last vector
   const Xbyak::Reg64 offset_ = rax;      // of the present vector, in bytes
   const Xbyak::Reg64 begin_ = rdx;       // of a series
-  const std::array<Xbyak::Reg64, 5> saved_registers_{rbx, r12, r13, r14, r15};  // those of the caller
+  const std::array<Xbyak::Reg64, 5> saved_registers_{rbx, r12, r13, r14, r15};  // the caller's
   const std::array<Xbyak::Reg64, 10> address_registers_{rcx, r8, r9, r10, r11, rbx, r12, r13, r14, r15};
   std::vector<std::optional<Xbyak::Reg64>> addresses_;  // by series: the register that has its address
 };

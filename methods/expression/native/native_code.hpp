@@ -12,18 +12,18 @@ namespace dmocbench {
 
 /// Machine code for the stages of a plan, made while the program runs.
 ///
-/// For each vector of intervals a stage loads what it reads, computes in registers and stores what others read, by the
-/// operations of the tape's kernel, so that values are the same bit by bit; functions are the kernel's own. Threads may
-/// share it.
+/// For each vector of intervals a stage loads its operands, computes in registers and stores the results that others
+/// read, by the operations of the tape's kernel, so that values are the same bit by bit; functions are the kernel's
+/// own. Threads may share it.
 struct NativeCode {
   /// A stage of the plan.
   struct Stage {
     /// Its arithmetic on the first `width` numbers of the series; at least `vector_width`.
     ///
-    /// Vectors follow each other; the last one ends with the last number, and computes once more what the one before it
-    /// has in common with it. As nothing is overwritten that a stage reads, the values are the same.
+    /// Vectors follow each other; the last one ends with the last number, and computes again the intervals that the one
+    /// before it has in common with it. As nothing is overwritten that a stage reads, the values are the same.
     void (*arithmetic)(double* const* series, std::size_t width);
-    std::vector<TapeInstruction> functions;  ///< what follows
+    std::vector<TapeInstruction> functions;  ///< carried out next
   };
   std::vector<Stage> stages;           ///< one after the other
   std::size_t vector_width = 0;        ///< numbers that are computed together

@@ -57,7 +57,7 @@ class Planner {
   static constexpr std::uint32_t unplanned = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::size_t extra_values = 2;
 
-  // Constants that machine code needs in addition to those of the formulas.
+  // Constants that machine code needs in addition to the formulas' constants.
   [[nodiscard]] std::uint32_t minus_zero() const { return static_cast<std::uint32_t>(steps_.size()); }
   [[nodiscard]] std::uint32_t one() const { return minus_zero() + 1; }
 
@@ -87,7 +87,7 @@ class Planner {
       if (is_function(i)) need_operands(i, stage_of_[i]);
     }
     for (const std::uint32_t output : schedule_.outputs()) need(output, last);
-    // Readers come behind what they read.
+    // Readers come after their operands.
     for (std::size_t i = steps_.size(); i-- > 0;) {
       const auto step = static_cast<std::uint32_t>(i);
       if (is_computed(step) && !is_function(step)) need_operands(step, stage_of_[i]);
@@ -100,8 +100,8 @@ class Planner {
     if (is_computed(value) && !is_function(value)) stage_of_[value] = std::min(stage_of_[value], stage);
   }
 
-  /// Series of constants' copies, inputs, outputs, functions, and of what passes from a stage to functions or to later
-  /// stages.
+  /// Series of constants' copies, inputs, outputs, functions, and of values that pass from a stage to functions or to
+  /// later stages.
   void find_homes() {
     for (std::uint32_t i = 0; i < steps_.size(); ++i) {
       if (steps_[i].operation == Operation::constant) plan_.homes[i].constant = steps_[i].value;
@@ -181,7 +181,7 @@ class Planner {
   const std::vector<Schedule::Step>& steps_;
   const TapeSeries& table_;
   std::vector<CompoundStep> functions_;
-  std::vector<std::uint32_t> stage_of_;                 // of what is computed
+  std::vector<std::uint32_t> stage_of_;                 // of every step
   std::vector<std::vector<std::uint32_t>> outputs_of_;  // series of the outputs that a step is
   NativePlan plan_;
 };

@@ -10,12 +10,12 @@
 
 namespace dmocbench {
 
-/// What machine code does with vectors: arithmetic, and copying a value to a series.
+/// Operations of machine code on vectors: arithmetic, and copying a value to a series.
 enum class VectorOperation : std::uint8_t { add, subtract, multiply, divide, square_root, exclusive_or, copy };
 
 /// One of them. Operands are values of a `NativePlan`; a square root or a copy does not use the second one.
 struct VectorStep {
-  VectorOperation operation = VectorOperation::add;  ///< what is computed
+  VectorOperation operation = VectorOperation::add;  ///< how the result is computed
   std::uint32_t result = 0;                          ///< the new value; of a copy the series that gets it
   std::uint32_t left = 0;                            ///< the first operand
   std::uint32_t right = 0;                           ///< the second operand
@@ -34,18 +34,18 @@ struct NativeStage {
 
 /// The parts of a tape's table of series.
 struct TapeSeries {
-  std::vector<std::uint32_t> of_steps;  ///< those of constants and inputs, by their steps; nothing for other steps
-  std::uint32_t first_output = 0;       ///< that of the first output, before those of the others
-  std::uint32_t first_slot = 0;         ///< the first one that a plan may use for what it keeps
+  std::vector<std::uint32_t> of_steps;  ///< for constants and inputs, by their steps; nothing for other steps
+  std::uint32_t first_output = 0;       ///< the first output's, before the other outputs'
+  std::uint32_t first_slot = 0;         ///< the first one that a plan may use for its own values
 };
 
-/// A schedule as stages: a function is carried out as soon as what it reads can be known, everything else as late as
+/// A schedule as stages: a function is carried out as soon as its operands can be known, everything else as late as
 /// possible, so that few values pass from stage to stage. Those that do have a series of their own.
 struct NativePlan {
   /// Where a value is stored outside registers.
   struct Home {
     std::optional<double> constant;       ///< its value, if it is a constant
-    std::optional<std::uint32_t> series;  ///< of inputs, of results of functions and of what has been stored
+    std::optional<std::uint32_t> series;  ///< of inputs, of results of functions and of stored values
   };
   std::vector<Home> homes;          ///< by values: the steps of the schedule, and constants that operations need
   std::vector<NativeStage> stages;  ///< one after the other

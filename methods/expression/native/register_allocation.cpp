@@ -100,7 +100,7 @@ class RegisterAllocator {
     return {OperandPlace::Kind::in_register, values_[value].register_number};
   }
 
-  /// A register that nobody holds. Values other than those that must stay leave theirs, the one that is needed last.
+  /// A free register. Values other than those that must stay leave theirs, the one that is needed last.
   OperandPlace free_register(std::pair<std::uint32_t, std::uint32_t> staying) {
     const auto need_of = [&](std::uint32_t holder) -> std::uint64_t {
       if (holder == never) return std::uint64_t{never} + 1;  // free already
@@ -202,7 +202,7 @@ void read_kept(std::vector<MachineStep>& steps, const std::vector<std::optional<
     if (is_load) meant[step.result.number] = step.left;
     return is_load;
   };
-  // One after the other: what a register means depends on the steps before.
+  // One after the other: the content of a register depends on the steps before.
   auto end = steps.begin();
   for (MachineStep& step : steps) {
     if (!is_needless(step)) *end++ = step;

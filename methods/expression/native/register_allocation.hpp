@@ -12,20 +12,20 @@ namespace dmocbench {
 struct OperandPlace {
   /// A register; or memory: a series at the present intervals, a constant of the plan, a place on the stack.
   enum class Kind : std::uint8_t { in_register, series, constant, stack };
-  Kind kind = Kind::in_register;  ///< what `number` counts
+  Kind kind = Kind::in_register;  ///< meaning of `number`
   std::uint32_t number = 0;       ///< of a constant: the value of the plan
 };
 
 /// An instruction of the processor. Results and left operands of arithmetic are in registers, right ones (and the
 /// operand of a square root) may be in memory; a copy has a register on one side at least.
 struct MachineStep {
-  VectorOperation operation = VectorOperation::copy;  ///< what is done
+  VectorOperation operation = VectorOperation::copy;  ///< the operation
   OperandPlace result;                                ///< where the result goes
   OperandPlace left;                                  ///< the first operand
   OperandPlace right;                                 ///< the second operand, where there is one
 };
 
-/// Straight-line code for the present intervals, and what it takes of the stack.
+/// Straight-line code for the present intervals, and its use of the stack.
 struct MachineSteps {
   std::vector<MachineStep> once;   ///< before the first intervals: loads of constants
   std::vector<MachineStep> steps;  ///< in their order

@@ -16,7 +16,7 @@ constexpr std::size_t most_steps = 1024;
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-/// Cycles from operands to result, about those of present processors. They decide about the order alone.
+/// Cycles from operands to result, about as on present processors. They decide only the order.
 std::uint32_t latency(VectorOperation operation) {
   switch (operation) {
     case VectorOperation::add:
@@ -42,7 +42,7 @@ class ListScheduler {
     known_later_.fill(nobody);
     find_groups();
     link_readers();
-    // Readers stand behind what they read.
+    // Readers stand after their operands.
     for (std::size_t i = groups_.size(); i-- > 0;) {
       Group& group = groups_[i];
       group.way_to_end += latency(steps_[group.first].operation);
@@ -168,7 +168,7 @@ class ListScheduler {
 
   const std::vector<VectorStep>& steps_;
   const std::size_t most_alive_;
-  std::vector<std::uint32_t> producer_;  // the group that computes a value; nobody if it is in memory
+  std::vector<std::uint32_t> producer_;  // the group that computes a value; none if it is in memory
   std::vector<Group> groups_;
   std::vector<std::uint32_t> readers_;
   std::uint32_t time_ = 0;
