@@ -105,15 +105,15 @@ void Confirmation::require_settled(Solution& solution) {
     solution.status = Status::control_not_determined;
     solution.message = fmt::format(
         "{} A Newton step would still move a control by {:.1g} of its size, and neither the state nor the cost: it is "
-        "singular, or near a bound that the solver has not reached; a smaller tolerance tells which.",
+        "singular, or near a bound that the solver has not reached; a smaller tolerance shows which.",
         sentence_of(solution.status), length);
     return;
   }
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
       "The residuals are below the tolerance, but a Newton step would still move the answer by {:.1g} of its size. A "
-      "cost scaled to about 1 or a smaller tolerance may settle it, but not where the cost hardly depends on what "
-      "moves.",
+      "cost scaled to about 1 or a smaller tolerance may settle it, but not where the cost hardly depends on the "
+      "moving unknowns.",
       length);
 }
 

@@ -14,10 +14,10 @@ namespace dmocbench {
 /// limit of time or an interrupt ended the solve they are not estimated: they are NaN, and there is no KKT residual.
 void judge_residuals(NonlinearProgram& program, Solution& solution);
 
-/// The larger of KKT residual and constraint violation, each divided by what `StopRule` allows it at this tolerance: at
+/// The larger of KKT residual and constraint violation, each divided by its limit of `StopRule` at this tolerance: at
 /// most 1 where a solver may stop. Infinity if the residuals have not been computed, NaN if one of them is NaN. The
-/// mean multiplier of the rule is that of the constraints, since those of bounds are not known. Where the rule allows
-/// constraints and variables residuals of their own, each entry counts by its own (`kkt_entries`); otherwise the
+/// mean multiplier of the rule is taken over the constraints, since multipliers of bounds are not known. Where the rule
+/// allows constraints and variables residuals of their own, each entry counts by its own (`kkt_entries`); otherwise the
 /// residuals of `solution` decide.
 [[nodiscard]] double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution);
 
@@ -34,19 +34,19 @@ class Confirmation {
   explicit Confirmation(NonlinearProgram& program) : program_(program) {}
 
   /// Computes the residuals of a solution and judges its claim; other statuses stay as they are, and so does a solution
-  /// without a point, unless it claims to be solved. The message says what the judgement was.
+  /// without a point, unless it claims to be solved. The message states the judgement.
   ///
-  /// "Solved" asks for a settled answer besides: a Newton step from it moves no unknown by more than `settled` of its
+  /// "Solved" requires a settled answer too: a Newton step from it moves no unknown by more than `settled` of its
   /// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are, or, where
   /// controls alone would move, "solved, control not determined"; `settle` may settle it. Where the step cannot be
   /// computed the residuals alone decide, and where `asks_newton` is false. Where the `StopScope` of the thread ends
   /// its computation, see `tell_of_stop`.
   void judge(double tolerance, Solution& solution, bool asks_newton = true);
 
-  /// The power of two by which the cost has to be multiplied before the tolerance can tell an optimum from any other
-  /// feasible point, for the answer judged last; 1 where it can already. It cannot where no entry of ∇φ and ∇²φ over
-  /// the free variables, at the answer and at the start, reaches `confirmation_factor` times the tolerance: then λ = 0
-  /// passes everywhere. 1 too where all of them vanish: a program without a cost asks for no more than feasibility.
+  /// The power of two by which the cost has to be multiplied before the tolerance can distinguish an optimum from any
+  /// other feasible point, for the answer judged last; 1 where it can already. It cannot where no entry of ∇φ and ∇²φ
+  /// over the free variables, at the answer and at the start, reaches `confirmation_factor` times the tolerance: then λ
+  /// = 0 passes everywhere. 1 too where all of them vanish: a program without a cost only needs feasibility.
   [[nodiscard]] double factor_of_cost(double tolerance, const Eigen::VectorXd& start, const Solution& solution);
 
  private:
@@ -83,7 +83,7 @@ void refuse_small_cost(double factor, Solution& solution);
 /// How much larger than the tolerance our residual may be: ours is the largest entry as it is, solvers scale theirs.
 inline constexpr double confirmation_factor = 10.0;
 
-/// How much larger the residual of an acceptable solution may be than that of a solved one.
+/// How much larger the residual of an acceptable solution may be than a solved one's.
 inline constexpr double acceptable_factor = 100.0;
 
 /// The largest Newton step, relative to the answer, at which an answer is settled.

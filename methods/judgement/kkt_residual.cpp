@@ -184,7 +184,7 @@ KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& prima
   evaluate_kkt(program, primal, multipliers, memory);
   KktResidual residual;
   residual.constraint_violation = violation_of(program, primal, memory.constraints);
-  // The multiplier of an inequality is the gradient of its slack but for the sign; that of an equality is free.
+  // The multiplier of an inequality is the gradient of its slack except for the sign; an equality's is free.
   residual.stationarity =
       largest(largest_stationarity(1.0, memory.gradient, primal, program.variable_lower(), program.variable_upper()),
               largest_stationarity(-1.0, multipliers, memory.constraints, program.constraint_lower(),

@@ -10,8 +10,8 @@ namespace dmocbench {
 struct KktResidual {
   /// Largest entry of ∇φ + (∂a/∂ξ)ᵀλ over the free variables, and largest multiplier of an inequality. Where a bound at
   /// the distance d may take up an entry g, |g| min(1, d) counts: stationarity without its multiplier, complementarity
-  /// with it. (The projected gradient min(|g|, d) would ask of a weakly active bound, g and d both small, the square of
-  /// what solvers are asked for.)
+  /// with it. (The projected gradient min(|g|, d) would require of a weakly active bound, g and d both small, the
+  /// square of the solvers' tolerance.)
   double stationarity = 0.0;
   /// Largest amount by which a constraint or a variable leaves its bounds.
   double constraint_violation = 0.0;
@@ -26,7 +26,7 @@ struct KktEntries {
 };
 
 /// Memory for residuals that are computed again and again: after the first time nothing is allocated.
-/// What they were computed from stays there.
+/// The data that they were computed from stay there.
 struct KktMemory {
   Eigen::VectorXd constraints;       ///< a, an entry per constraint
   Eigen::VectorXd gradient_of_cost;  ///< ∇φ, an entry per variable

@@ -60,7 +60,7 @@ ViolationDescent::ViolationDescent(NonlinearProgram& program, const Eigen::Vecto
   mark_ = excess_.squaredNorm();
 }
 
-/// μ falls with the mean of d z, but not below what the judgement of least violation can notice.
+/// μ falls with the mean of d z, but not below the resolution of the judgement of least violation.
 void ViolationDescent::lower_barrier() {
   constexpr double centring = 0.1;
   constexpr double least_share = 1e-8;

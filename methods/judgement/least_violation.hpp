@@ -17,7 +17,7 @@ namespace dmocbench {
 ///   minimise ½|r(ξ)|² - μ Σ ln d(ξ),
 ///
 /// r the amounts by which constraints leave their bounds and d the distances of the unknowns from theirs. μ falls with
-/// |r|², so the end is a stationary point of ½|r|² within the bounds, or r = 0. The steps are those of Gauss and
+/// |r|², so the end is a stationary point of ½|r|² within the bounds, or r = 0. The steps are by Gauss and
 /// Newton's method or, where these are slow, of Newton's, damped in relation to the size of each unknown: unlike steps
 /// to where the linearised constraints hold, they exist where rows depend on each other or contradict each other, and
 /// the barrier keeps them away from bounds.
@@ -30,7 +30,7 @@ class ViolationDescent {
   /// its line search and factorises two matrices or, where they need more damping, some more.
   [[nodiscard]] bool step();
 
-  /// Strictly within its bounds, but for unknowns whose bounds are equal.
+  /// Strictly within its bounds, except unknowns whose bounds are equal.
   [[nodiscard]] const Eigen::VectorXd& point() const noexcept { return at_.point; }
   /// Largest |r|.
   [[nodiscard]] double violation() const { return excess_.lpNorm<Eigen::Infinity>(); }
@@ -60,7 +60,7 @@ class ViolationDescent {
   Eigen::VectorXd step_;
   double directional_derivative_ = 0.0;  // of the merit along the step
   double mu_ = 0.0;
-  double damping_ = 1e-3;  // what a step of the size of each unknown costs, as a share of |r|²
+  double damping_ = 1e-3;  // cost of a step of the size of each unknown, as a share of |r|²
   double left_ = 0.0;      // share of |r|² that the last step left
   double mark_ = 0.0;      // |r|² when it had last become much smaller
   int slow_steps_ = 0;     // since then
@@ -72,7 +72,7 @@ class ViolationDescent {
 /// point is one of least violation (`is_point_of_least_violation`), or if descent from it ends at one, to which
 /// `solution.primal` then moves; "step failed" if the solver reports infeasible and neither holds. For a `solution`
 /// that is reported infeasible, whose step failed or whose iterations ran out; the latter is judged at its last point,
-/// without descent. "Infeasible" is not said either where descent from `start`, where the solve began, or from half
+/// without descent. "Infeasible" is not reported either where descent from `start`, where the solve began, or from half
 /// way between the bounds meets the constraints. It ends with the time of the solve, and counts no evaluation.
 void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start,
                          Solution& solution);

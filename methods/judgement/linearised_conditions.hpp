@@ -22,7 +22,7 @@ struct LinearisedConditions {
   Eigen::VectorXd compliance;              ///< one per constraint; `no_part` where nothing holds an inequality
   Eigen::VectorXd gradient_of_cost;        ///< ∇φ
   Eigen::VectorXd gradient_of_lagrangian;  ///< ∇φ + (∂a/∂ξ)ᵀλ
-  Eigen::VectorXd gradient;                ///< of the Lagrangian, less what bounds take up
+  Eigen::VectorXd gradient;                ///< of the Lagrangian, less the part that bounds balance
   Eigen::VectorXd constraints;             ///< residuals
 
   LinearisedConditions() = default;

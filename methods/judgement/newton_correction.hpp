@@ -52,8 +52,8 @@ class NewtonCorrections {
   NewtonCorrections(NewtonCorrections&&) = delete;
   NewtonCorrections& operator=(NewtonCorrections&&) = delete;
 
-  /// The length of the step from `primal`, see `at` and `length_of_state`; `memory` holds what `evaluate_kkt` left of
-  /// this point. Allocates nothing after the first time unless the sparse factorisation is asked.
+  /// The length of the step from `primal`, see `at` and `length_of_state`; `memory` holds the results of `evaluate_kkt`
+  /// at this point. Allocates nothing after the first time unless the sparse factorisation is used.
   [[nodiscard]] std::optional<double> length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
                                                 const KktMemory& memory);
   /// The step from `primal` (variable_count() entries) with `multipliers` (constraint_count() entries). Of infinite

@@ -24,7 +24,7 @@ double residual_of(const Solution& solution) {
   return std::max(stationarity, violation);
 }
 
-/// True if what is left is no more than the rounding of the program's terms.
+/// True if the residual is no more than the rounding of the program's terms.
 bool is_rounding(NonlinearProgram& program, const Solution& solution) {
   constexpr double nothing = std::numeric_limits<double>::min();
   return scaled_residual(program, nothing, solution) <= 1.0;
@@ -35,8 +35,8 @@ bool is_unsettled(const Solution& solution) {
   return can_be && solution.correction.value_or(0.0) > settled;
 }
 
-/// True where a solver stopped, or was not believed, within a hundred times of what confirms an answer. Not at a limit
-/// of the user's, which is on the solver's own iterations.
+/// True where a solver stopped, or was not believed, within a hundred times the tolerance that confirms an answer. Not
+/// at a limit of the user's, which is on the solver's own iterations.
 bool is_near(NonlinearProgram& program, double tolerance, const Solution& solution) {
   const bool has_stopped = solution.status == Status::not_confirmed || solution.status == Status::acceptable ||
                            solution.status == Status::step_failed;
@@ -45,7 +45,7 @@ bool is_near(NonlinearProgram& program, double tolerance, const Solution& soluti
   return residual > confirmation_factor && residual <= confirmation_factor * acceptable_factor;
 }
 
-/// True of a solved answer whose residuals the tolerance does not allow, but what may be rounding.
+/// True of a solved answer whose residuals exceed the tolerance, but not the possible rounding.
 bool is_solved_to_rounding(double tolerance, const Solution& solution) {
   if (!is_solved(solution.status)) return false;
   const double count = std::max(1.0, static_cast<double>(solution.multipliers.size()));

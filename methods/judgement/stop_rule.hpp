@@ -10,7 +10,7 @@
 namespace dmocbench {
 
 /// The residuals at which a program counts as solved: the tolerance, or rounding where that is larger. The solvers that
-/// are compared stop by this rule, and all are judged by it (`confirm`). Rounding is that of the constraint, or of the
+/// are compared stop by this rule, and all are judged by it (`confirm`). Rounding belongs to the constraint, or to the
 /// variable (`RoundingFloors`). The program must outlive it.
 class StopRule {
  public:
@@ -23,7 +23,7 @@ class StopRule {
 
   /// For the violation of any constraint or bound: the least that is allowed.
   [[nodiscard]] double violation() const { return std::max(tolerance_, floors_.smallest); }
-  /// For that of one constraint.
+  /// For one constraint.
   [[nodiscard]] double violation(Eigen::Index row) const { return std::max(tolerance_, floors_.of_constraint(row)); }
 
   /// For any entry of ∇_x of the Lagrangian: the least that is allowed. `mean_multiplier`, `largest_multiplier`:
@@ -36,19 +36,19 @@ class StopRule {
     return stationarity_above(floors_.of_variable(variable), mean_multiplier, largest_multiplier);
   }
 
-  /// The largest violation of a constraint divided by what it is allowed. `violations`: one of either sign per
+  /// The largest violation of a constraint divided by its permitted value. `violations`: one of either sign per
   /// constraint.
   [[nodiscard]] double share_of_violation(const Eigen::VectorXd& violations) const {
     return largest_share(violations, [&](Eigen::Index i) { return violation(i); });
   }
-  /// The largest entry of ∇_x of the Lagrangian divided by what it is allowed.
+  /// The largest entry of ∇_x of the Lagrangian divided by its permitted value.
   [[nodiscard]] double share_of_stationarity(const Eigen::VectorXd& gradient, double mean_multiplier,
                                              double largest_multiplier) const {
     return largest_share(gradient,
                          [&](Eigen::Index j) { return stationarity(mean_multiplier, largest_multiplier, j); });
   }
 
-  /// For the largest product of a bound's multiplier and the distance to it. `mean_multiplier`: of those of bounds.
+  /// For the largest product of a bound's multiplier and the distance to it. `mean_multiplier`: over bounds.
   [[nodiscard]] double complementarity(double mean_multiplier) const { return tolerance_ * scale(mean_multiplier); }
 
   /// s_d and s_c of Wächter and Biegler: large multipliers excuse large residuals, up to `most_excused`.
