@@ -29,7 +29,7 @@ Solution AmplAnswer::run(CountedProgram& program, const Eigen::VectorXd& /*start
   solution.status = answer_.status();
   solution.primal = answer_.primal;
   solution.multipliers = answer_.multipliers;
-  if (solution.primal.size() == 0) {  // a point is what an answer is
+  if (solution.primal.size() == 0) {  // there is no answer without a point
     if (is_solved(solution.status)) solution.status = Status::solver_error;
     solution.multipliers.resize(0);
   }

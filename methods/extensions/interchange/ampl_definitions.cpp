@@ -14,7 +14,7 @@ using Step = Schedule::Step;
 
 /// The number of an operation in AMPL's format.
 int ampl_number(Operation operation) {
-  switch (operation) {  // NOLINT(clang-diagnostic-switch-enum): what AMPL lacks is refused below
+  switch (operation) {  // NOLINT(clang-diagnostic-switch-enum): operations that AMPL lacks are refused below
     case Operation::add:
       return 0;
     case Operation::subtract:
@@ -63,7 +63,7 @@ int ampl_number(Operation operation) {
   }
 }
 
-/// What the definitions need to know of every step.
+/// The uses of a step, which decide about its definition.
 struct Uses {
   std::vector<std::size_t> readers;
   std::vector<AmplReaders> kinds;

@@ -10,7 +10,7 @@
 
 namespace dmocbench {
 
-/// Who reads a defined variable. AMPL numbers the shared ones first, then those of rows, then those of the objective.
+/// The readers of a defined variable. AMPL numbers the shared ones first, then the rows', then the objective's.
 enum class AmplReaders : std::uint8_t { rows_and_objective, rows, objective };
 /// How many kinds there are.
 inline constexpr std::size_t ampl_reader_kinds = 3;

@@ -27,7 +27,7 @@ struct PlacedFormulas {
   std::vector<std::size_t> rows;       // of the program, by outputs behind the cost
 };
 
-/// Step, time and open parameters become numbers, so that what depends on them alone is computed here.
+/// Step, time and open parameters become numbers, so that values depending on them alone are computed here.
 PlacedFormulas placed(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
                       const std::vector<SeriesPlace>& rows, const Transcription& program, std::size_t interval) {
   const LocalInputs& numbers = functions.inputs;
@@ -87,7 +87,7 @@ std::string bounds(char segment, const Eigen::VectorXd& lower, const Eigen::Vect
 /// Coefficients by variables.
 using LinearPart = std::map<std::size_t, double>;
 
-/// Writes the segments of a program one by one; the order is that of the format.
+/// Writes the segments of a program one by one; in the order of the format.
 class AmplWriter {
  public:
   explicit AmplWriter(const Transcription& program)
@@ -108,7 +108,7 @@ class AmplWriter {
   }
 
   [[nodiscard]] std::string text(const Eigen::VectorXd& start) {
-    const std::string formulas_of_all = formulas();  // tells the linear parts
+    const std::string formulas_of_all = formulas();  // finds the linear parts
     return header() + formulas_of_all + initial(start) +
            bounds('r', program_.constraint_lower(), program_.constraint_upper()) +
            bounds('b', program_.variable_lower(), program_.variable_upper()) + patterns();
@@ -233,7 +233,7 @@ class AmplWriter {
   std::size_t entries_ = 0;                // of the Jacobian
   std::vector<std::vector<int>> columns_;  // of every row of it
   std::vector<std::size_t> objective_variables_;
-  std::vector<LinearPart> linear_rows_;  // what their formulas leave out
+  std::vector<LinearPart> linear_rows_;  // the parts outside their formulas
   LinearPart linear_objective_;
 };
 

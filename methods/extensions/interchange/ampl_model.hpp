@@ -12,14 +12,14 @@ namespace dmocbench {
 /// STUB.col.
 struct AmplModel {
   std::string nl;   ///< text format g: formulas, bounds, patterns and the start
-  std::string row;  ///< what the rows are called, a line each, then the objective
-  std::string col;  ///< what the unknowns are called
+  std::string row;  ///< names of the rows, a line each, then of the objective
+  std::string col;  ///< names of the unknowns
 };
 
 /// The program with the values that it has now, and a start (variable_count() entries). Unknowns and rows stand in the
-/// order of the program, so that an answer needs no translation: all of them count as nonlinear. What several formulas
-/// of an interval read is a defined variable. Throws `Error` if the start has another size, or at an operation that
-/// AMPL lacks.
+/// order of the program, so that an answer needs no translation: all of them count as nonlinear. A quantity that
+/// several formulas of an interval use is a defined variable. Throws `Error` if the start has another size, or at an
+/// operation that AMPL lacks.
 [[nodiscard]] AmplModel ampl_model(const Transcription& program, const Eigen::VectorXd& start);
 
 }  // namespace dmocbench

@@ -81,7 +81,7 @@ class AmplNames {
     }
   }
 
-  /// Controls that neighbours share first, then those of one interval alone.
+  /// Controls that neighbours share first, then the controls of one interval alone.
   void name_controls() {
     if (shape_.shares_controls) {
       for (const std::string& u : u_) at_nodes(u);

@@ -141,7 +141,7 @@ Status AmplSolution::status() const noexcept {
 
 AmplSolution read_ampl_solution(std::string_view text) {
   if (text.find('\0') != std::string_view::npos) {
-    throw Error("it is no text: a solver writes text where it read a .nl file that is text");
+    throw Error("it is not a text file; write the .nl file in text form so that the solver answers in text");
   }
   SolutionLines lines(text);
   AmplSolution solution;

@@ -10,7 +10,7 @@
 
 namespace dmocbench {
 
-/// What a solver writes to STUB.sol.
+/// The contents of the file STUB.sol that a solver writes.
 struct AmplSolution {
   std::string message;     ///< the solver's words, as one line
   Eigen::VectorXd primal;  ///< empty if the solver has no point
@@ -18,7 +18,7 @@ struct AmplSolution {
   /// the solver wrote none.
   Eigen::VectorXd multipliers;
   Eigen::Index variable_count = 0;  ///< of the program that was solved
-  /// Of the program that was solved, as the file says.
+  /// Of the program that was solved, according to the file.
   Eigen::Index constraint_count = 0;
   int code = 0;  ///< AMPL's solve_result_num
   /// The solver's status by that code: 0 solved, 100 acceptable, 200 infeasible, 300 diverged, 400 iteration limit,
@@ -26,8 +26,8 @@ struct AmplSolution {
   [[nodiscard]] Status status() const noexcept;
 };
 
-/// Reads the text of a .sol file. Throws `Error` that says what is wrong if it is none: binary, cut off, a number that
-/// is no number, sizes that contradict each other. What follows the line `objno` (suffixes) is not read.
+/// Reads the text of a .sol file. Throws `Error` with the reason if it is not one: binary, cut off, a number that
+/// is not a number, sizes that contradict each other. Lines after `objno` (suffixes) are not read.
 [[nodiscard]] AmplSolution read_ampl_solution(std::string_view text);
 
 }  // namespace dmocbench

@@ -8,7 +8,7 @@
 namespace dmocbench {
 
 /// The primitives of a path, each moved to where it begins, as one discrete motion by the midpoint rule on
-/// duration · intervals_per_step equal intervals, without costates. Its cost is that of the path.
+/// duration · intervals_per_step equal intervals, without costates. Its cost equals the path's.
 ///
 /// Where primitives meet they have one state, so the discrete equations hold at these nodes as they do inside: the
 /// motion is a feasible point of DMOC's program on that grid. It is the start of a solve on any other grid too:

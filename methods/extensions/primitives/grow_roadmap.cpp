@@ -44,7 +44,7 @@ class Growth {
     }
   }
 
-  /// What lies on a way to the goal.
+  /// The part of the roadmap on a way to the goal.
   [[nodiscard]] StoredRoadmap kept() const {
     const auto goal = numbers_.find(key_at(request_.goal));
     if (goal == numbers_.end()) {

@@ -7,7 +7,7 @@
 
 namespace dmocbench {
 
-/// What is wanted of a roadmap that is grown.
+/// The parameters of a roadmap that is grown.
 struct GrowthRequest {
   /// Where paths begin.
   RoadmapNode start;
@@ -21,7 +21,7 @@ struct GrowthRequest {
 /// The roadmap of all nodes and edges that lie on some way from the start to the goal within the horizon. From a node
 /// every primitive leaves that begins in its state. Two nodes are one if their states are, and their configurations
 /// agree to 1e-6 in every entry: primitives whose displacements lie on a lattice meet again. The group has to act
-/// freely: a moved configuration tells by what it was moved.
+/// freely: the group element can be read from the moved configuration.
 ///
 /// Of primitives that begin and end alike in the same time only the cheapest is used. Throws `Error` if the goal cannot
 /// be reached.

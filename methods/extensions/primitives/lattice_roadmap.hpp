@@ -24,11 +24,11 @@ struct LatticeOptions {
 /// A roadmap between the ends of a problem whose states lie on a lattice, one in a cell at most.
 ///
 /// Two trees of motions under constant controls (`grow_tree`), one forwards from the first state and one backwards
-/// from the last, say which cells motions of little cost visit: where there are fewer controls than velocities, few of
-/// all states are within reach of each other. Their last layers are a connection apart. Those pairs are joined that
-/// take the least cost in all, first by the linearised estimate (`Steering`), then by what some Newton steps of
-/// shooting make of it. These connections, and the branches that lead to them, are solved by DMOC (`solve_primitives`);
-/// the edges are those that are solved.
+/// from the last, give the cells that motions of little cost visit: where there are fewer controls than velocities, few
+/// of all states are within reach of each other. Their last layers are a connection apart. Those pairs are joined that
+/// take the least cost in all, first by the linearised estimate (`Steering`), then by the result of some Newton steps
+/// of shooting. These connections, and the branches that lead to them, are solved by DMOC (`solve_primitives`); the
+/// edges are those that are solved.
 ///
 /// Primitives keep the problem's bounds on q at the states, but none in between, and none on velocities and controls:
 /// the solve that starts from a path has to impose them. Throws `Error` as `solve_primitives` does, and if sizes do not

@@ -46,7 +46,7 @@ class CheapestPairs {
   std::vector<StatePair> pairs_;
 };
 
-/// Finds the controls that lead from the last layer of one tree to that of the other.
+/// Finds the controls that lead from the last layer of one tree to the last layer of the other.
 class Joining {
  public:
   Joining(const Problem& problem, const DiscreteFlow& flow, const LatticeOptions& options, const MeetingTrees& trees)
@@ -107,7 +107,7 @@ class Joining {
   }
 
  private:
-  // What may be missing of a connection's cost at the end of its Newton steps.
+  // The permitted error of a connection's cost at the end of its Newton steps.
   static constexpr double largest_left_share = 0.1;
 
   /// Mean curvature of the cost in the controls, at the start.

@@ -22,7 +22,7 @@ bool has_size(const Eigen::MatrixXd& table, Eigen::Index rows, Eigen::Index colu
   return table.rows() == rows && table.cols() == columns && table.allFinite();
 }
 
-/// Whether all numbers and sizes of a primitive are those of its library.
+/// Whether all numbers and sizes of a primitive agree with its library.
 bool fits(const Primitive& primitive, const PrimitiveLibrary& library, Eigen::Index n, Eigen::Index m) {
   const Eigen::Index intervals = Eigen::Index{primitive.duration} * library.intervals_per_step;
   return primitive.first < library.states.size() && primitive.last < library.states.size() && primitive.duration >= 1 &&
@@ -31,7 +31,7 @@ bool fits(const Primitive& primitive, const PrimitiveLibrary& library, Eigen::In
          has_size(primitive.v, intervals + 1, n) && has_size(primitive.u, intervals, m);
 }
 
-/// Throws `Error` unless every primitive costs what its motion does, by the midpoint rule with the library's step.
+/// Throws `Error` unless every primitive has the cost of its motion, by the midpoint rule with the library's step.
 void require_true_costs(const PrimitiveLibrary& library, const Problem& problem) {
   constexpr double digits = 1e-6;
   constexpr double share_of_largest = 1e-9;  // a primitive that costs nothing may cost rounding
@@ -51,8 +51,9 @@ void require_true_costs(const PrimitiveLibrary& library, const Problem& problem)
       size += h * std::abs(value[0]);
     }
     if (std::abs(each.cost - sum) <= digits * size + share_of_largest * largest) continue;
-    throw Error(fmt::format("the primitives of {} are damaged: one is said to cost {:g}, and its motion costs {:g}",
-                            problem.name(), each.cost, sum));
+    throw Error(
+        fmt::format("the primitives of {} are damaged: the stated cost of one is {:g}, and its motion costs {:g}",
+                    problem.name(), each.cost, sum));
   }
 }
 
@@ -69,7 +70,7 @@ PrimitiveLibrary PrimitiveLibrary::of(const Problem& problem, double step, int i
 
 void PrimitiveLibrary::require_made_for(const Problem& asked) const {
   if (problem != asked.name()) {
-    throw Error(fmt::format("the primitives are those of {}, not of {}", problem, asked.name()));
+    throw Error(fmt::format("the primitives belong to {}, not to {}", problem, asked.name()));
   }
   const auto expected = parameters_with_values(asked);
   if (parameters.size() != expected.size()) {

@@ -39,7 +39,7 @@ struct PrimitiveLibrary {
   /// Of no states and primitives.
   [[nodiscard]] static PrimitiveLibrary of(const Problem& problem, double step, int intervals_per_step);
   /// Throws `Error` in one sentence unless it was made for that problem with those parameters, all sizes fit, every
-  /// primitive costs what its motion does, and a horizon has at most a million steps.
+  /// primitive has the cost of its motion, and a horizon has at most a million steps.
   void require_made_for(const Problem& asked) const;
 };
 

@@ -84,7 +84,7 @@ class PrimitiveBatch {
     const Eigen::VectorXd& rows = program_.constraint_lower();
     BatchInstance instance;
     instance.start = sample(program_, start);
-    instance.equality_values = rows.array().isFinite().select(rows, 0.0);  // those of inequalities are not read
+    instance.equality_values = rows.array().isFinite().select(rows, 0.0);  // values of inequalities are not read
     return instance;
   }
 

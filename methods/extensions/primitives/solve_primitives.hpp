@@ -32,9 +32,9 @@ struct PrimitiveOptions {
   double tolerance = 1e-9;
   /// Of a solve.
   int most_iterations = 100;
-  Eigen::VectorXd start_control;  ///< m entries; none for those of the problem's guess at t = 0
-  bool falls_back = false;        ///< as in `BatchOptions`: what lanes cannot solve is solved once more, one by one
-  /// Asked between solves; true ends them.
+  Eigen::VectorXd start_control;  ///< m entries; none for the problem's guess at t = 0
+  bool falls_back = false;  ///< as in `BatchOptions`: instances that lanes cannot solve are solved again, one by one
+  /// Called between solves; true ends them.
   std::function<bool()> stop_requested = {};
 };
 
@@ -45,7 +45,7 @@ void require_primitives(const Transcription& program);
 /// Solves primitives by DMOC with the midpoint rule and appends those that are solved to the library, in the order of
 /// the requests. All of one duration are one batch (`solve_batch`): eight side by side, on all threads.
 ///
-/// Bounds and path constraints are those of the problem. Throws `Error` as `require_primitives`, if a state does not
+/// Bounds and path constraints are the problem's. Throws `Error` as `require_primitives`, if a state does not
 /// exist, or a duration is less than a step.
 void solve_primitives(const Problem& problem, const std::vector<PrimitiveRequest>& requests, PrimitiveLibrary& library,
                       const PrimitiveOptions& options = {});

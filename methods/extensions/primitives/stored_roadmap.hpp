@@ -7,7 +7,7 @@
 
 namespace dmocbench {
 
-/// All that planning needs: what is built once, kept in a file, and asked again and again.
+/// All that planning needs: built once, kept in a file, and used again and again.
 struct StoredRoadmap {
   /// The primitives that its edges are made of.
   PrimitiveLibrary library;

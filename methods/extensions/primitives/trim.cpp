@@ -66,7 +66,7 @@ Eigen::VectorXd TrimSolver::residual(const Trim& trim) const {
 Trim TrimSolver::solve(const Trim& guess, const std::vector<Eigen::Index>& unknowns) const {
   constexpr int most_iterations = 50;
   constexpr double tolerance = 1e-13;
-  constexpr double shift = 1e-14;  // of J Jᵀ, where equations hold whatever the unknowns are
+  constexpr double shift = 1e-14;  // of J Jᵀ, where equations hold for any unknowns
   Eigen::VectorXd point = point_of(guess);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const std::vector<double> values = values_at(point);

@@ -33,7 +33,7 @@ class TrimSolver {
   /// numbers only, counted through (q, c, u); where they are more than the equations, by steps of least length. Throws
   /// `Error` if it does not converge.
   [[nodiscard]] Trim solve(const Trim& guess, const std::vector<Eigen::Index>& unknowns) const;
-  /// What is left of the equations, n entries.
+  /// The residual of the equations, n entries.
   [[nodiscard]] Eigen::VectorXd residual(const Trim& trim) const;
 
  private:

@@ -22,7 +22,7 @@ struct Deviations {
   Eigen::MatrixXd costate;
 };
 
-/// Deviations of the state whose pivots are below this share of the largest depend on each other but for rounding.
+/// Deviations of the state whose pivots are below this share of the largest depend on each other up to rounding.
 constexpr double smallest_pivot_ratio = 1e-11;
 
 void require_feedback(const Transcription& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
@@ -101,13 +101,13 @@ class BackwardRecursion {
         primal_(primal),
         multipliers_(multipliers) {}
 
-  /// Those of the last node.
+  /// The deviations at the last node.
   [[nodiscard]] Deviations at_end();
-  /// From those of node k + 1 to those of node k. Returns the controls that belong to them: s m rows.
+  /// From the deviations at node k + 1 to the ones at node k. Returns the controls that belong to them: s m rows.
   [[nodiscard]] Eigen::MatrixXd step_back(Eigen::Index k, Deviations& deviations) const;
 
  private:
-  /// What the bounds of a variable add to the diagonal.
+  /// The term that the bounds of a variable add to the diagonal.
   [[nodiscard]] double stiffness(Eigen::Index variable) const {
     return is_fixed(program_, variable) ? 0.0 : conditions_.diagonal[variable];
   }
@@ -116,7 +116,8 @@ class BackwardRecursion {
   }
   [[nodiscard]] Eigen::MatrixXd matrix_of_interval(Eigen::Index k) const;
   [[nodiscard]] Eigen::MatrixXd matrix_of_ends();
-  /// Writes the columns of the unknowns `from` .. `from` + `count` of a matrix of conditions into those of `column` on.
+  /// Writes the columns of the unknowns `from` .. `from` + `count` of a matrix of conditions into the columns from
+  /// `column` on.
   static void add_columns(const Eigen::MatrixXd& matrix, Eigen::Index from, Eigen::Index count, Eigen::Index column,
                           Equations& equations) {
     equations.add(0, column, matrix.middleCols(from, count));

@@ -9,7 +9,7 @@
 namespace dmocbench {
 
 /// The optimal feedback near an optimal motion: u = U_i + K ((q, p) - (q_k, p_k)) for stage i of interval k, where
-/// (q, p) is what is measured at node k. To first order this is the optimal control from there on.
+/// (q, p) is the measured state at node k. To first order this is the optimal control from there on.
 struct FeedbackGains {
   /// K of stage i of interval k at k s + i, m × 2n. Empty so near to a prescribed end that the remaining controls
   /// cannot reach it from every neighbouring state.
@@ -18,7 +18,7 @@ struct FeedbackGains {
 
 /// The gains along a solution: `primal` and `multipliers` of a solved program, variable_count() and constraint_count()
 /// entries. All families have the state (q, p), so that DMOC and Hamiltonian collocation have the same gains (th:equi);
-/// those of tangent-space collocation in (q, v) are carried over by δp = L_vq δq + L_vv δv.
+/// gains of tangent-space collocation in (q, v) are carried over by δp = L_vq δq + L_vv δv.
 ///
 /// From the last node to the first, the pairs (δx_k, δψ_k) of a deviation of the state and of the costate, along which
 /// the linearised conditions of all later intervals hold, are a space of dimension 2n: Riccati's recursion, which needs

@@ -12,7 +12,7 @@ namespace dmocbench {
 [[nodiscard]] Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& a);
 
 /// The last pivot of QR with column pivoting over the first, in absolute value: about 1/condition of a square A, 0 of a
-/// singular one but for rounding.
+/// singular one up to rounding.
 [[nodiscard]] double pivot_ratio(const Eigen::MatrixXd& a);
 
 }  // namespace dmocbench

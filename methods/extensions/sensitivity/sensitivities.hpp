@@ -25,7 +25,7 @@ struct ProgramValues {
 
 /// The rate at which a program changes with a parameter (a mass, a component of an end state) at a fixed point: the
 /// difference of its values, entry by entry, over `distance`, the difference of the parameter. Central differences are
-/// exact but for rounding where formulas are quadratic in the parameter, as bounds are that the parameter is itself.
+/// exact up to rounding where formulas are quadratic in the parameter, as bounds are that the parameter is itself.
 /// Bounds that are infinite stay. The same program, given one value and then the other, or two programs of equal shape.
 [[nodiscard]] ProgramValues rate_of_change(const ProgramValues& below, const ProgramValues& above, double distance);
 
@@ -38,11 +38,11 @@ struct Sensitivity {
 
 /// How an optimum and its cost depend on parameters and end states, to first order.
 ///
-/// The cost: the derivative of the Lagrangian, as the optimum's own motion does not change it (but for fixed variables
-/// and active bounds, which move with their values). The optimum: one linear system with the matrix of a Newton step
-/// there, factorised with pivoting since nothing corrects its answer, whose right-hand side is the rate of change of
-/// the conditions. Bounds and inequalities are active as they are at the optimum; where one is about to change, the
-/// derivative is that of neither side.
+/// The cost: the derivative of the Lagrangian, as the optimum's own motion does not change it (except for fixed
+/// variables and active bounds, which move with their values). The optimum: one linear system with the matrix of a
+/// Newton step there, factorised with pivoting since nothing corrects its answer, whose right-hand side is the rate of
+/// change of the conditions. Bounds and inequalities are active as they are at the optimum; where one is about to
+/// change, the derivative belongs to neither side.
 class Sensitivities {
  public:
   /// A solved point of the program (`Solution::primal`, `Solution::multipliers`). The program must outlive this and

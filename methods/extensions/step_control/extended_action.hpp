@@ -26,7 +26,7 @@ class ExtendedAction {
   ExtendedAction(const Problem& problem, const TracedProblem& traced, const Tableau& tableau,
                  const IntervalUnknowns& unknowns);
 
-  /// The element's own formulas, those of a fixed step.
+  /// The element's own formulas, for a fixed step.
   [[nodiscard]] const IntervalTrace& element() const noexcept { return element_; }
   /// σ_k.
   [[nodiscard]] Expression mean_of(const StepFunction& sigma) const;

@@ -114,7 +114,7 @@ StepControlProgram::TracedUnknowns StepControlProgram::take_unknowns() const {
   return all;
 }
 
-/// In the order of the formulas: those of both nodes, of the stage rates, of the step.
+/// In the order of the formulas: rows of both nodes, of the stage rates, of the step.
 std::vector<SeriesPlace> StepControlProgram::places_of_local_rows() const {
   std::vector<SeriesPlace> rows;
   const auto add = [&](std::size_t column, Eigen::Index length, std::size_t right_node, Eigen::Index count) {
@@ -196,7 +196,8 @@ void StepControlProgram::fix_ends() {
   inputs.push_back(0.0);
   const double energy = momentum.dot(first.v) - replay<double>(lagrangian, std::span<const double>(inputs)).front();
   fix(rows_, head(columns_.energy_rows, 0, 0), energy);
-  // The final energy is free, but interior-point methods need a bound for a constraint that is no equality: a far one.
+  // The final energy is free, but interior-point methods need a bound for a constraint that is not an equality: a far
+  // one.
   constexpr double far = 1e3;
   const Eigen::Index last = head(columns_.energy_rows, 0, 0) + intervals_;
   rows_.lower[last] = -far * (1.0 + std::abs(energy));

@@ -19,7 +19,7 @@ namespace dmocbench {
 /// program.
 ///
 /// Unknowns: q_k and t_k of the nodes; Q̇_j, U_i and λ_k of the intervals; the pace Δτ. Equations, with
-/// ∂_x = ∂(A + λ c)/∂x + W[x]: at the nodes the sums of ∂_{q_k} and of ∂_{t_k} over the two intervals beside them
+/// ∂_x = ∂(A + λ c)/∂x + W[x]: at the nodes the sums of ∂_{q_k} and of ∂_{t_k} over the two intervals next to them
 /// vanish; in every interval ∂_{Q̇_j} = 0 and c = t_{k+1} - t_k - Δτ σ_k = 0. The ends fix q, t and p = L_v, and the
 /// momentum of time begins as minus the energy of the first end; t_N = T fixes the pace. The problem has fixed ends, a
 /// fixed horizon and no constraints.
