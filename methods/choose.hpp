@@ -42,14 +42,14 @@ template <class Table, class NameOf>
   return table[position_of(table, name_of, name, refusal)];
 }
 
-/// One entry of a table of names and what they stand for.
+/// One entry of a table of names and their values.
 template <class Value>
 struct Named {
   std::string_view name;  ///< as a user gives it
-  Value value;            ///< what it stands for
+  Value value;            ///< its meaning
 };
 
-/// What the name stands for in a table of `Named`; throws as `position_of`.
+/// The value of the name in a table of `Named`; throws as `position_of`.
 template <class Table>
 [[nodiscard]] auto value_named(const Table& table, std::string_view name, const std::string& refusal) {
   return one_of(

@@ -18,7 +18,7 @@
 
 namespace dmocbench {
 
-/// What is refined where an answer is not accurate enough.
+/// The refinement where an answer is not accurate enough.
 enum class Refinement : std::uint8_t {
   h,   ///< the steps
   hp,  ///< the steps, and the number of stages, up to three: see `solve_adaptively`
@@ -27,23 +27,23 @@ enum class Refinement : std::uint8_t {
 /// The refinement of that name, "h" or "hp". Throws `Error` that lists the names if there is none.
 [[nodiscard]] Refinement refinement_named(std::string_view name);
 
-/// What is asked of an adaptive solve.
+/// Options of an adaptive solve.
 struct AdaptiveOptions {
   double accuracy = 1e-6;                 ///< of `ErrorEstimate::relative`
-  Refinement refinement = Refinement::h;  ///< what is refined
+  Refinement refinement = Refinement::h;  ///< intervals, or stages too
   double largest_ratio = 2.0;             ///< of neighbouring steps
   int most_grids = 20;                    ///< after which it ends as `too_many`
   Eigen::Index most_intervals = 1 << 20;  ///< of a grid
   std::string solver = "interior_point";  ///< as `make_solver` takes it
-  SolverOptions solver_options;           ///< of every solve, but for the tolerance
-  NamedOptions named_options;             ///< those of the solver by name
+  SolverOptions solver_options;           ///< of every solve, except the tolerance
+  NamedOptions named_options;             ///< the solver's, by name
 
   /// The tolerance of the solves: `tolerance`, or a hundredth of `accuracy` if that is less, but not below 1e-12.
   [[nodiscard]] double solver_tolerance(double tolerance) const;
 
-  /// The accuracies that may be asked for: doubles have 16 digits.
+  /// The permitted accuracies: doubles have 16 digits.
   static constexpr double finest = 1e-14;
-  static constexpr double coarsest = 0.1;  ///< the largest accuracy that may be asked for
+  static constexpr double coarsest = 0.1;  ///< the largest permitted accuracy
   /// Throws `Error` that names the number if it is out of range.
   void validate() const;
 };
@@ -64,7 +64,7 @@ struct GridAttempt {
 
 /// How an adaptive solve ended.
 enum class AdaptiveOutcome : std::uint8_t {
-  reached,     ///< the estimated error is at most what was asked for
+  reached,     ///< the estimated error is at most the requested accuracy
   not_solved,  ///< a program was not solved
   rounding,    ///< rounding keeps doubles from being that accurate
   too_many,    ///< that accuracy would take more grids or intervals than allowed
@@ -81,9 +81,9 @@ struct AdaptiveAnswer {
   ErrorEstimate estimate;  ///< of it
 };
 
-/// What is solved: a problem by a method, from a first grid and a motion.
+/// A problem, a method, a first grid and a first motion.
 struct AdaptiveTask {
-  const Problem* problem = nullptr;  ///< what is solved
+  const Problem* problem = nullptr;  ///< the problem to solve
   std::string method;                ///< as `make_element` takes it
   std::string tableau;               ///< as `make_tableau` takes it, with `stages`
   int stages = 1;                    ///< s
@@ -93,18 +93,18 @@ struct AdaptiveTask {
 
 /// Solves on one grid after the other until the estimated error (`ErrorEstimator`) is at most `options.accuracy`.
 ///
-/// The next grid is `graded_grid` of `equidistributed_widths`, for nine tenths of the accuracy asked for; it has at
+/// The next grid is `graded_grid` of `equidistributed_widths`, for nine tenths of the requested accuracy; it has at
 /// most four times as many intervals. Solves begin at the motion on the grid before, with the multipliers that belong
 /// to its costates (`sample_multipliers`), and without these where that fails. With `Refinement::hp`, while there are
 /// fewer than three stages and the next grid would have more than twice as many intervals, the number of stages grows
 /// by one instead, on as many intervals as before.
 ///
-/// A motion that leaves its constraints between stages (`violation_between_stages`) has no estimate, whatever is asked
-/// for: the next grid is four times as fine where it leaves them farthest, and the same elsewhere.
+/// A motion that leaves its constraints between stages (`violation_between_stages`) has no estimate, whatever the
+/// requested accuracy: the next grid is four times as fine where it leaves them farthest, and the same elsewhere.
 ///
 /// It ends as `rounding` where the floor of an estimate is above the accuracy, or the next grid's would be. It stops
-/// where a program is not solved (`solution` says why). `on_grid` is told of every grid. Throws `Stopped` where a
-/// `StopScope` says so outside of a solve, and `Error` as `Transcription` and `ErrorEstimator` do.
+/// where a program is not solved (`solution` has the reason). `on_grid` is called for every grid. Throws `Stopped`
+/// where a `StopScope` requires it outside of a solve, and `Error` as `Transcription` and `ErrorEstimator` do.
 [[nodiscard]] AdaptiveAnswer solve_adaptively(const AdaptiveTask& task, const AdaptiveOptions& options,
                                               const std::function<void(const GridAttempt&)>& on_grid = {});
 

@@ -77,8 +77,8 @@ Eigen::VectorXd defects_of(const ReplayedIntervals& replay, const Trajectory& mo
   return defects;
 }
 
-/// The node's part of the misses in the unknowns of a family, and what they change in the equations of the next node
-/// itself: `moved` is by how far the interval's last node is moved, `jumps` what the equations gain.
+/// The node's part of the misses in the unknowns of a family, and their change in the equations of the next node
+/// itself: `moved` is by how far the interval's last node is moved, `jumps` the change of the equations.
 struct Perturbation {
   LocalValues moved;
   LocalValues jumps;
@@ -166,7 +166,7 @@ void require_smooth_optimum(const Transcription& program, const LinearisedCondit
 
 /// The estimate's error of states and costates, from the change of the unknowns and multipliers.
 struct NodeErrors {
-  ExtremalCoordinates::Canonical canonical;  // differences; those of velocity families are set later
+  ExtremalCoordinates::Canonical canonical;  // differences; set later for velocity families
   ExtremalStates in_velocities;
 };
 

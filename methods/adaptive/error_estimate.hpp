@@ -17,7 +17,7 @@ struct ErrorEstimate {
   double objective = 0.0;  ///< of the true cost
   /// The largest |δq_k| / range of q, |δp_k| / range of p and |δJ| / |J|. Norms are Euclidean, the range of q is the
   /// norm of the differences between the largest and the smallest value of each component; a q or p that is constant
-  /// but for rounding counts by its size, or 1.
+  /// up to rounding counts by its size, or 1.
   double relative = 0.0;
   /// Relative rounding error of the momenta; a smaller estimate means nothing. It is ε max|q| max|L_vv| / h, with h of
   /// the narrowest interval, over the range of p.
@@ -28,7 +28,7 @@ struct ErrorEstimate {
 };
 
 /// The largest |δq_k| / range of q, |δp_k| / range of p and |δJ| / |J| of differences from an answer, as
-/// `ErrorEstimate::relative` has them; a cost below 1e-8 of what solvers see as 1 counts as that.
+/// `ErrorEstimate::relative` has them; a cost below 1e-8 of the solvers' unit counts as that.
 [[nodiscard]] double relative_size(const Trajectory& answer, const Eigen::MatrixXd& q, const Eigen::MatrixXd& p,
                                    double objective, double cost_scale);
 

@@ -24,7 +24,7 @@ struct ExtremalStates {
 ///   H = C + α·v + β·a(q, v, u, t),  a = L_vv⁻¹(L_q + f - L_vq v - L_vt),  H_u = 0,
 ///   q̇ = v,  v̇ = a,  α̇ = -H_q,  β̇ = -H_v.
 ///
-/// Costates are those of the cost times `cost_scale`, so that all of them are of order 1.
+/// Costates belong to the cost times `cost_scale`, so that all of them are of order 1.
 class ExtremalFlow {
  public:
   /// Traces and differentiates a and H. Throws `Error` if H_uu has a structural zero as a pivot: the cost is not

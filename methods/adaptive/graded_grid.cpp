@@ -60,7 +60,7 @@ Eigen::VectorXd node_numbers(const PiecewiseLinear& function) {
   return numbers;
 }
 
-/// The τ that has a number between those of points i and i + 1.
+/// The τ that has a number between the numbers of points i and i + 1.
 double tau_at(const PiecewiseLinear& function, const Eigen::VectorXd& numbers, Eigen::Index i, double number) {
   const double slope = (function.value[i + 1] - function.value[i]) / (function.tau[i + 1] - function.tau[i]);
   const double behind = number - numbers[i];
@@ -78,7 +78,7 @@ Grid graded_grid(const Grid& grid, const Eigen::VectorXd& wished, double largest
   const Eigen::VectorXd numbers = node_numbers(width);
   const double all = numbers[numbers.size() - 1];
   if (!(all <= static_cast<double>(Grid::most_intervals))) {
-    throw Error(fmt::format("the widths ask for {:g} intervals, more than a grid may have", all));
+    throw Error(fmt::format("the widths need {:g} intervals, more than a grid may have", all));
   }
   const auto intervals = std::max<Eigen::Index>(static_cast<Eigen::Index>(std::ceil(all - 1e-9)), 1);
   Eigen::VectorXd nodes(intervals + 1);

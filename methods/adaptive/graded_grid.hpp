@@ -12,7 +12,7 @@ namespace dmocbench {
 /// continuous variable, dτ/dξ = s(τ), and |ds/dτ| <= ln(largest_ratio) keeps s(τ(ξ + 1)) <= largest_ratio s(τ(ξ)). The
 /// s used is the largest one below the wished widths that keeps this bound, made smaller by a common factor so that the
 /// number of intervals is whole. Widths below twice `Grid::narrowest` are raised to that. Throws `Error` if more than
-/// Grid::most_intervals are asked for, or an entry of `wished` is not positive.
+/// Grid::most_intervals are needed, or an entry of `wished` is not positive.
 [[nodiscard]] Grid graded_grid(const Grid& grid, const Eigen::VectorXd& wished, double largest_ratio);
 
 /// Widths that spread defects evenly.
@@ -22,7 +22,7 @@ struct EvenWidths {
 };
 
 /// With defects d_k of order h^(r + 1): w_k (g/d_k)^(1/(r + 1)), where g is such that the sum of all defects falls to
-/// `share` of what it is, or, if that takes more than `most_intervals`, such that it takes so many. `defects` are >= 0;
+/// `share` of its value, or, if that takes more than `most_intervals`, such that it takes so many. `defects` are >= 0;
 /// those far below the others count as 1e-12 of the largest. No width becomes more than four times as wide or eight
 /// times as narrow. Where a defect is infinite all widths are halved.
 [[nodiscard]] EvenWidths equidistributed_widths(const Grid& grid, const Eigen::VectorXd& defects, int order,

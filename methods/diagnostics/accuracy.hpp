@@ -20,10 +20,10 @@ struct Accuracy {
 /// relative. Independent of every discretisation. Both jumps are infinite where the integration of an interval fails.
 ///
 /// Norms are Euclidean. The range of q is the norm of the differences between the largest and the smallest value of
-/// each component over the nodes, that of v likewise. If one of the two is constant the range of the other is taken,
-/// and 1 if both are. A range of at most `smallest_range` times max(1, |q|), or max(1, |v|), counts as constant: what a
-/// body at rest moves by is rounding, and so are its jumps: a range counts as so large that a jump of that size stays
-/// below `largest_jump_of_a_motion`.
+/// each component over the nodes, the range of v likewise. If one of the two is constant the range of the other is
+/// taken, and 1 if both are. A range of at most `smallest_range` times max(1, |q|), or max(1, |v|), counts as constant:
+/// the movement of a body at rest is rounding, and so are its jumps: a range counts as so large that a jump of that
+/// size stays below `largest_jump_of_a_motion`.
 ///
 /// The intervals are shared out to `thread_count()` threads; the result does not depend on their number.
 ///

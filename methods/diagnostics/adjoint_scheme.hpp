@@ -10,7 +10,7 @@
 namespace dmocbench {
 
 /// Coefficients of the adjoint partitioned Runge-Kutta scheme (eq:stateco9), s × s each:
-/// ā^q_ij = b_j - b_j a_ji / b_i for ψ^q, ā^p_ij = b_j - b_j ã_ji / b_i for ψ^p; the weights are those of the states.
+/// ā^q_ij = b_j - b_j a_ji / b_i for ψ^q, ā^p_ij = b_j - b_j ã_ji / b_i for ψ^p; the weights are the states' weights.
 /// By (th:orderapp) they are (Ã, A): the scheme of (q, p) serves (ψ^p, ψ^q).
 struct AdjointCoefficients {
   Eigen::MatrixXd a_q;  ///< of the scheme for ψ^q, s × s
@@ -21,7 +21,7 @@ struct AdjointCoefficients {
 [[nodiscard]] AdjointCoefficients adjoint_coefficients(const Tableau& tableau);
 
 /// The residual of costates and stage costates in the adjoint scheme, the largest entry of any interval. Residuals of
-/// ψ^q are relative to the largest |ψ^q| of the nodes, those of ψ^p to the largest |ψ^p|: pure numbers.
+/// ψ^q are relative to the largest |ψ^q| of the nodes, residuals of ψ^p to the largest |ψ^p|: pure numbers.
 struct AdjointResidual {
   double step_q = 0.0;   ///< ψ^q_{k+1} - ψ^q_k - h Σ b_i φ^q_i (eq:stateco5)
   double step_p = 0.0;   ///< ψ^p_{k+1} - ψ^p_k - h Σ b_i φ^p_i (eq:stateco6)
@@ -37,7 +37,7 @@ struct AdjointResidual {
 
 /// The residual of a trajectory's costates with φ^q = -∂H/∂q, φ^p = -∂H/∂p of the pre-Hamiltonian
 /// H(q, p, ψ, u) = C + ψ^q·v + ψ^p·(L_q + f), v = v(q, p), at the stages (Q_i, P_i, Ψ_i, U_i). Its derivatives are
-/// those of the traced formulas of the problem; no derivative of any program enters. It is of rounding size for DMOC
+/// taken of the problem's traced formulas; no derivative of any program enters. It is of rounding size for DMOC
 /// and Hamiltonian collocation, O(h^2s) for tangent-space collocation where L_vv depends on q. Throws `Error` without
 /// costates, or if L_vv is singular.
 [[nodiscard]] AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& trajectory,

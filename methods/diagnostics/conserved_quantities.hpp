@@ -22,7 +22,7 @@ struct MomentumConsistency {
   double largest_force = 0.0;  ///< largest magnitude of the force along ξ at a stage, to compare with
 };
 
-/// The momenta are those of the trajectory's nodes, one number per node, shared by the two intervals beside it: with
+/// The momenta are the trajectory's at the nodes, one number per node, shared by the two intervals next to it: with
 /// both momenta taken from the same interval, the defect would vanish identically. (The last node belongs to one
 /// interval only, so for DMOC the defect of the last interval does; the other N - 1 are checks.) Throws `Error` if the
 /// problem has no symmetry.

@@ -19,7 +19,7 @@ struct ConsistencyErrors {
   double map = 0.0;             ///< ‖(q_1, p_1) - exact‖ of the one-step map from the same (q_0, p_0)
 };
 
-/// The errors in (th:ordercalculation): those of the discrete objects at the end points of exact motions, under one
+/// The errors in (th:ordercalculation): errors of the discrete objects at the end points of exact motions, under one
 /// smooth control whose values at the stage times are the discrete controls.
 class ConsistencyOrder {
  public:

@@ -11,7 +11,7 @@ namespace dmocbench {
 
 namespace {
 
-/// The slope of y over x by least squares, and what is left of it.
+/// The slope of y over x by least squares, and its residual.
 FittedOrder fitted_line(Eigen::ArrayXd x, Eigen::ArrayXd y) {
   x -= x.mean();
   y -= y.mean();

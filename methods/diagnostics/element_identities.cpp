@@ -92,7 +92,7 @@ class ExactMotion {
   Schedule formulas_;
 };
 
-/// The element's formulas on the system. Their inputs are those of `OneStepMap::Step::inputs`.
+/// The element's formulas on the system. Their inputs are `OneStepMap::Step::inputs`.
 struct TracedInterval {
   TracedInterval(const TracedProblem& problem, const Element& element, const Tableau& tableau) {
     InputCounter counter;

@@ -13,8 +13,8 @@ namespace dmocbench {
 ///
 ///   EXPECT_EQ(broken_identities(MyElement(), gauss_tableau(2), 4), std::vector<std::string>());
 ///
-/// `order` is that of the element's one-step map: `tableau.order` of collocation, the smaller one of this and the order
-/// of the integrator of shooting. A higher order than this is no violation.
+/// `order` is the order of the element's one-step map: `tableau.order` of collocation, the smaller one of this and the
+/// order of the integrator of shooting. A higher order than this is not a violation.
 ///
 /// The system has two degrees of freedom, a mass matrix that depends on q, a momentum that depends on q and t, damping
 /// and two controls, and a motion with known controls. The element is traced on it; counts are compared first, because

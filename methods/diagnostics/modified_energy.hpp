@@ -8,14 +8,14 @@
 
 namespace dmocbench {
 
-/// The first three coefficients of a series in h²: those of h⁰, h², h⁴.
+/// The first three coefficients of a series in h²: of h⁰, h², h⁴.
 using StepSeries = std::array<long double, 3>;
 
 /// The series at step h, cut off behind 1, 2 and 3 terms: errors are then of order 2, 4 and 6.
 [[nodiscard]] StepSeries partial_sums(const StepSeries& series, long double h);
 
 /// The modified energy of the midpoint rule by backward error analysis: the energy of the system that the discrete
-/// motion follows more closely than that of the problem ("Conservation of a Modified Energy", section 3.3).
+/// motion follows more closely than the problem's ("Conservation of a Modified Energy", section 3.3).
 ///
 /// With y = (q, p), X = J∇H and D_c the derivative along a constant direction c, the midpoint rule
 /// y_{k+1} = y_k + h X((y_k + y_{k+1})/2) is up to O(h⁶) the flow of H + h²H₂ + h⁴H₄,
@@ -30,7 +30,7 @@ using StepSeries = std::array<long double, 3>;
 ///
 ///   W₂ = D_F³ H/24 + D_F H₂,   W₄ = D_F⁵ H/1920 + D_F³ H₂/24 + D_F H₄
 ///
-/// vanish with f. This asks nothing of the controls: they may jump from step to step.
+/// vanish with f. The controls are arbitrary: they may jump from step to step.
 class ModifiedEnergy {
  public:
   /// Throws `Error` if L depends on time. L_vv has to be regular, and so have its leading principal minors.

@@ -53,7 +53,7 @@ std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Traj
     MotionPoint point{.q = trajectory.q.row(node).transpose(),
                       .v = trajectory.v.row(node).transpose(),
                       .u = control_on_interval(trajectory, interval, t)};
-    // Momenta tell the velocity up to rounding; a prescribed one is known exactly, as that of a body at rest.
+    // Momenta give the velocity up to rounding; a prescribed one is exact, for example of a body at rest.
     if (node == 0 && bounds.first.v.all_fixed()) point.v = problem.initial_state().v;
     if (node == trajectory.intervals() && bounds.last.v.all_fixed()) point.v = problem.final_state().v;
     const std::string quantity = check.undefined_at(point, t);

@@ -20,7 +20,7 @@ struct UndefinedPoint {
 
 /// The first of eight points in every interval, evenly spaced between its nodes, where L, f, C, h or a first derivative
 /// of theirs is not a number on the element's polynomial of q and the stage polynomial of u. A program evaluates
-/// derivatives at stages alone, and may step over a singularity: an answer with such a point is no solution of the
+/// derivatives at stages alone, and may step over a singularity: an answer with such a point does not solve the
 /// problem.
 [[nodiscard]] std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory);
 /// The same of one interval k = `interval`, its two nodes, where the motion may begin or end at a singularity, first.

@@ -187,7 +187,7 @@ class Measurement {
     return false;
   }
 
-  /// What the present intervals miss where their controls are clipped.
+  /// The misses of the present intervals where their controls are clipped.
   void replay_clipped() {
     for (Eigen::Index j = 0; j < scales_.size(); ++j) read(j);
     std::vector<Eigen::Index> rows;

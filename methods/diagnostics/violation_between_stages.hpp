@@ -17,8 +17,8 @@ struct MotionViolation {
   double time = 0.0;          ///< in [t_k, t_{k+1}]
 };
 
-/// What a motion does between the points of a transcription, which imposes bounds on q at nodes and bounds on q̇ and u
-/// and h >= 0 at stages only.
+/// Violations of a motion between the points of a transcription, which imposes bounds on q at nodes and bounds on q̇ and
+/// u and h >= 0 at stages only.
 struct ViolationBetweenStages {
   MotionViolation state;    ///< of the bounds on q and q̇ and of h >= 0
   MotionViolation control;  ///< of the bounds on u
@@ -31,34 +31,35 @@ struct ViolationBetweenStages {
   [[nodiscard]] bool keeps_controls() const;
   /// Whether both hold.
   [[nodiscard]] bool is_motion() const { return keeps_state() && keeps_controls(); }
-  /// Sentences for an answer that is no motion: which constraint it leaves, by how much, when (in units of time as
-  /// shown, `time_unit` of those of the motion), and what can be done.
+  /// Sentences for an answer that is not a motion: which constraint it leaves, by how much, when (in units of time as
+  /// shown, `time_unit` of the motion's), and what can be done.
   [[nodiscard]] std::string words(const Trajectory& trajectory, double time_unit) const;
 };
 
 /// Measures the element's polynomial of q with its time derivative, and the stage polynomial of u, at nine points per
 /// interval, both ends among them. Violations up to 1e-8 of the range, or of 1 if that is more, count as rounding.
 ///
-/// The scale of a bound is the range of its component along the motion; that of all components of q, or of q̇, where it
-/// is constant. The share of a path constraint is δ |h_i| / D_i at its least value, where D_i adds up by how much h_i
-/// changes at most when each entry of (q, q̇, u) moves by ± δ of its range, δ = `largest_violation_of_a_motion`: the
-/// share is above δ exactly where such displacements do not make up for the violation, also where ∂h_i vanishes.
+/// The scale of a bound is the range of its component along the motion; the range of all components of q, or of q̇,
+/// where it is constant. The share of a path constraint is δ |h_i| / D_i at its least value, where D_i adds up by how
+/// much h_i changes at most when each entry of (q, q̇, u) moves by ± δ of its range, δ =
+/// `largest_violation_of_a_motion`: the share is above δ exactly where such displacements do not make up for the
+/// violation, also where ∂h_i vanishes.
 ///
 /// A polynomial through the stages overshoots the bounds of u wherever a control switches or has a kink. The share of
 /// the controls is the largest mean excess |u - clipped u| of a component in an interval, relative to its range: a
-/// kink's falls with the step, that of a jump does not. Every interval with an excess is replayed with the clipped
-/// control, to first order in what is clipped: δq̇ = ∫ L_vv⁻¹ (f(u) - f(clipped u)) dt,
+/// kink's falls with the step, a jump's does not. Every interval with an excess is replayed with the clipped
+/// control, to first order in the clipped part: δq̇ = ∫ L_vv⁻¹ (f(u) - f(clipped u)) dt,
 /// δq = ∫ (t_{k+1} - t) L_vv⁻¹ (f(u) - f(clipped u)) dt. `missed` is the sum of their misses, each the larger one of
 /// |δq| and |δq̇|, relative to the ranges of q and q̇ (`Accuracy`); it falls with the step.
 [[nodiscard]] ViolationBetweenStages violation_between_stages(const Problem& problem, const TracedProblem& traced,
                                                               const Trajectory& trajectory);
 
 /// The largest share of its scale by which a motion may leave a bound or path constraint. Above it the discrete program
-/// is solved, but its answer is no trustworthy motion: `Status::violates_between_stages`.
+/// is solved, but its answer is not a trustworthy motion: `Status::violates_between_stages`.
 inline constexpr double largest_violation_of_a_motion = 0.005;
 
-/// What a motion may miss by clipped controls, however far they exceed their bounds. It is small because an optimum
-/// makes use of every excess, which then acts on the motion until its end.
+/// The permitted miss of a motion with clipped controls, however far they exceed their bounds. It is small because an
+/// optimum makes use of every excess, which then acts on the motion until its end.
 inline constexpr double smallest_miss = 3e-5;
 
 }  // namespace dmocbench

@@ -76,7 +76,7 @@ class IndirectSolution {
   IndirectAgreement agreement_;
 };
 
-/// Compares two solutions at the nodes of both and between those of the first.
+/// Compares two solutions at the nodes of both and between the nodes of the first.
 [[nodiscard]] IndirectAgreement compare(const IndirectSolution& one, const IndirectSolution& other, double cost_scale);
 
 }  // namespace dmocbench

@@ -10,14 +10,14 @@ namespace dmocbench {
 template <class Scalar>
 using Rate = std::function<void(const std::vector<Scalar>& x, std::vector<Scalar>& rate, Scalar t)>;
 
-/// How often `integrate` asks for f at most: some four thousand steps.
+/// The most evaluations of f by `integrate`: about four thousand steps.
 inline constexpr long most_evaluations = 50'000;
 
 /// Integrates dx/dt = f(x, t) from time `from` to `to`, in place, by the Runge-Kutta-Fehlberg method of order 7(8).
 /// Each step keeps its absolute and relative error below `tolerance`; the first step tried is `first_step`. Returns
-/// false if the step size vanishes or f is asked more than `most_evaluations` times, as happens beside a singularity.
-/// Exceptions of `rate` pass through; throws `Stopped` where a `StopScope` of the thread says so. `Scalar` is double or
-/// long double.
+/// false if the step size vanishes or f is evaluated more than `most_evaluations` times, as happens near a singularity.
+/// Exceptions of `rate` pass through; throws `Stopped` where a `StopScope` of the thread requires it. `Scalar` is
+/// double or long double.
 template <class Scalar>
 [[nodiscard]] bool integrate(const Rate<std::type_identity_t<Scalar>>& rate, std::vector<Scalar>& x,
                              std::type_identity_t<Scalar> from, std::type_identity_t<Scalar> to,

@@ -9,9 +9,9 @@
 
 namespace dmocbench {
 
-/// A⁻¹ B by LU with partial pivoting: A is n × n, B and the result are n × `columns`. A singular A is no error: entries
-/// of the result are then large or not finite. Compiled for `Scalar` double and long double, each for matrices B
-/// (`columns` is Eigen::Dynamic) and vectors (1).
+/// A⁻¹ B by LU with partial pivoting: A is n × n, B and the result are n × `columns`. A singular A is not an error:
+/// entries of the result are then large or not finite. Compiled for `Scalar` double and long double, each for matrices
+/// B (`columns` is Eigen::Dynamic) and vectors (1).
 template <class Scalar, int columns>
 [[nodiscard]] Eigen::Matrix<Scalar, Eigen::Dynamic, columns> solve_square(
     const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& a,

@@ -26,19 +26,19 @@ class CountedProgram final : public ForwardingProgram {
     begin_ = Clock::now();
   }
 
-  /// The program itself, for judging a point: what is asked of it is not counted.
+  /// The program itself, for judging a point: its evaluations are not counted.
   [[nodiscard]] NonlinearProgram& uncounted() const noexcept { return original(); }
   /// The evaluations so far.
   [[nodiscard]] const EvaluationCounts& counts() const noexcept { return counts_; }
   /// Time spent in the evaluations that are counted.
   [[nodiscard]] double evaluation_seconds() const noexcept { return seconds_; }
 
-  /// Time since the solve began, without what was left out.
+  /// Time since the solve began, without the time left out.
   [[nodiscard]] double elapsed_seconds() const { return seconds_since(begin_) - left_out_; }
-  /// Does not count a time just spent: a vendor's library sets itself up before it looks at the program, which says
-  /// nothing about its method. The limit of time does count it.
+  /// Does not count a time just spent: a vendor's library sets itself up before it reads the program, which is
+  /// unrelated to its method. The limit of time does count it.
   void leave_out(double seconds) { left_out_ += seconds; }
-  /// What is left of the time that the solve may take; infinity without a limit.
+  /// The remaining time of the solve; infinity without a limit.
   [[nodiscard]] double seconds_left() const { return most_seconds_ - seconds_since(begin_); }
   /// True if the time of the solve is over.
   [[nodiscard]] bool is_out_of_time() const { return seconds_left() < 0.0; }

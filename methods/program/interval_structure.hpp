@@ -13,13 +13,13 @@ namespace dmocbench {
 struct Place {
   /// A node, an interval, or the whole horizon.
   enum class Kind : std::uint8_t { node, interval, border };
-  Kind kind = Kind::border;  ///< what it belongs to
+  Kind kind = Kind::border;  ///< where it belongs
   std::size_t index = 0;     ///< which node or interval, from 0
 };
 
 /// Consecutive unknowns, or rows, of one kind: number `first` + i belongs to node, or interval, `index` + i.
 struct PlaceRun {
-  Place::Kind kind = Place::Kind::border;  ///< what they belong to
+  Place::Kind kind = Place::Kind::border;  ///< where they belong
   std::size_t index = 0;                   ///< of the first one's node or interval
   std::size_t count = 0;                   ///< how many there are
   std::size_t first = 0;                   ///< the first one's number
@@ -68,8 +68,8 @@ class Places {
 };
 
 /// The structure that solvers by intervals need: a row of interval k reads unknowns of nodes k and k + 1, of interval k
-/// and of the border only; a row of node k those of intervals k - 1 and k. A run of the Jacobian's pattern keeps within
-/// one run of `rows` and one of `unknowns`, a run of the Hessian's within two of `unknowns`.
+/// and of the border only; a row of node k also unknowns of intervals k - 1 and k. A run of the Jacobian's pattern
+/// keeps within one run of `rows` and one of `unknowns`, a run of the Hessian's within two of `unknowns`.
 struct IntervalStructure {
   std::size_t intervals = 0;  ///< N
   Places unknowns;            ///< one for every unknown

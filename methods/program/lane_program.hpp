@@ -12,7 +12,7 @@ namespace dmocbench {
 
 /// Eight instances of one program, evaluated side by side: the same structure, other numbers.
 ///
-/// Every array is interleaved (lane_loops.hpp): what stands at entry i of an array of `NonlinearProgram` stands, for
+/// Every array is interleaved (lane_loops.hpp): entry i of an array of `NonlinearProgram` stands, for
 /// the instance in lane l, at i * instance_lanes + l. No lane changes a digit of another, also where a formula gives
 /// NaN. Not to be used from two threads at once.
 class LaneProgram {
@@ -23,7 +23,7 @@ class LaneProgram {
   LaneProgram(LaneProgram&&) = delete;
   LaneProgram& operator=(LaneProgram&&) = delete;
 
-  /// How many parameters an instance has: inputs of the formulas beside the unknowns.
+  /// How many parameters an instance has: inputs of the formulas in addition to the unknowns.
   [[nodiscard]] virtual std::size_t parameter_count() const { return 0; }
   /// Gives the instance in a lane its parameters: `parameter_count()` of them, or none for the usual ones. Throws
   /// `Error` if they are not allowed.

@@ -22,7 +22,7 @@ struct RoundingFloors {
   [[nodiscard]] bool are_equal() const noexcept { return constraints.size() == 0; }
   /// The floor of constraint i.
   [[nodiscard]] double of_constraint(Eigen::Index i) const { return are_equal() ? largest : constraints[i]; }
-  /// The Euclidean norm of those of all constraints, of which there are `count`.
+  /// The Euclidean norm of the floors of all `count` constraints.
   [[nodiscard]] double norm_of_constraints(Eigen::Index count) const {
     return are_equal() ? largest * std::sqrt(static_cast<double>(count)) : constraints.norm();
   }

@@ -11,8 +11,8 @@ namespace dmocbench {
 
 /// How often a solver called each evaluation of the program (`NonlinearProgram`).
 ///
-/// What `evaluations` means, here and in tables that have the column: the number of calls by which the solver's method
-/// asked the program for its objective, gradient, constraints, Jacobian or Hessian, each call counted as one.
+/// The meaning of `evaluations`, here and in tables with this column: the number of calls by which the solver's method
+/// evaluated the program's objective, gradient, constraints, Jacobian or Hessian, each call counted as one.
 /// `Solver::solve` counts them in one place for all solvers, so the numbers are comparable. A point of which a solver
 /// wants the values of objective and constraints costs two, with first derivatives four. Not counted are the calls by
 /// which we judge points: in `confirm`, and in the stopping test of `sqp` and `nlopt`, which is the same judgement.
@@ -27,11 +27,11 @@ struct EvaluationCounts {
   [[nodiscard]] int total() const noexcept { return objective + gradient + constraints + jacobian + hessian; }
 };
 
-/// What a solver returns, whether or not it succeeded.
+/// The result of a solver, whether or not it succeeded.
 struct Solution {
   Status status = Status::not_run;  ///< how it ended, as `confirm` judges
-  std::string message;              ///< one sentence: what happened
-  std::string solver;               ///< whose answer it is: the solver that was asked, or that which it asked (`auto`)
+  std::string message;              ///< the outcome in one sentence
+  std::string solver;               ///< the solver whose answer it is; of `auto` the one that gave it
   Eigen::VectorXd primal;           ///< ξ, variable_count() entries; empty if the solver never started
   Eigen::VectorXd multipliers;      ///< λ, constraint_count() entries; empty if there is no point to have them at
   /// The solver gave none, so they are the least-squares multipliers of its point (`least_squares_multipliers`).
@@ -44,24 +44,24 @@ struct Solution {
   /// How far a Newton step from here would move the answer (`NewtonCorrection::length`); none if not computed.
   std::optional<double> correction;
   /// μ that an interior-point method ended with, the start of a neighbour's; none where the program has neither bounds
-  /// nor inequalities, or the solver does not tell.
+  /// nor inequalities, or the solver does not report it.
   std::optional<double> barrier_parameter;
 
-  // Counts; none where a solver does not tell them.
+  // Counts; none where a solver does not report them.
   std::optional<int> major_iterations;  ///< iterations of the solver, where it has them
   std::optional<int> minor_iterations;  ///< of the quadratic programs; the sum of the next two
   /// Minor iterations until the quadratic programs were feasible, where the solver has them.
   std::optional<int> phase_one_minor_iterations;
   std::optional<int> phase_two_minor_iterations;  ///< minor iterations after that, where the solver has them
-  std::optional<EvaluationCounts> evaluations;    ///< none if the solver asked for none
+  std::optional<EvaluationCounts> evaluations;    ///< none if the solver made none
   std::optional<int> linear_systems;  ///< factorisations, those that were repeated with a shifted Hessian included
 
   double seconds = 0.0;             ///< wall clock of the solver alone, without `confirm`
   double evaluation_seconds = 0.0;  ///< the part of it spent in the evaluations that are counted
-  /// The part of it spent in linear systems, without finding their structure; none where a solver does not tell.
+  /// The part of it spent in linear systems, without finding their structure; none where a solver does not report it.
   std::optional<double> linear_seconds;
 
-  /// What tables call `evaluations`.
+  /// The column `evaluations` of tables.
   [[nodiscard]] std::optional<int> total_evaluations() const {
     return evaluations ? std::optional(evaluations->total()) : std::nullopt;
   }

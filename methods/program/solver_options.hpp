@@ -4,7 +4,7 @@
 
 namespace dmocbench {
 
-/// What every solver understands. What one of our own solvers alone understands is typed: `SequentialOptions`,
+/// Options of every solver. Further options of our own solvers are typed: `SequentialOptions`,
 /// `InteriorPointOptions`. Ipopt and NLopt take `NamedOptions`.
 struct SolverOptions {
   /// For the KKT residual of the program as the solver sees it (scaled cost).
@@ -14,7 +14,7 @@ struct SolverOptions {
   double most_seconds = 0.0;
   /// The solver's own output goes to standard output.
   bool verbose = false;
-  /// Asked once per iteration; true ends the solve with status "interrupted".
+  /// Called once per iteration; true ends the solve with status "interrupted".
   std::function<bool()> stop_requested;
 
   /// Throws `Error` that names the option if one is out of range.

@@ -29,16 +29,16 @@ constexpr auto entries = std::to_array<Entry>({
     {Status::interrupted, "interrupted", "The solve was stopped from outside."},
     {Status::too_large, "too large", "The solver refuses a program of this size."},
     {Status::invalid_program, "invalid program", "The solver refuses the program or one of its options."},
-    {Status::out_of_memory, "out of memory", "There is not enough memory for what the solver needs."},
+    {Status::out_of_memory, "out of memory", "There is not enough memory for the solver."},
     {Status::solver_error, "solver error", "The solver reported an internal error."},
     {Status::too_coarse, "too coarse",
-     "The discrete program is solved, but its answer is no motion: the grid is too coarse for it."},
+     "The discrete program is solved, but its answer is not a motion: the grid is too coarse for it."},
     {Status::violates_between_stages, "violates between stages",
      "The discrete program is solved, but its motion leaves a bound or path constraint between the stages."},
     {Status::control_not_determined, "solved, control not determined",
      "Cost and state are confirmed, but the control is not determined: they hardly depend on it."},
     {Status::not_confirmed, "not confirmed",
-     "The solver says it is solved, but the residual computed from our derivatives does not confirm it."},
+     "The solver reports success, but the residual computed from our derivatives does not confirm it."},
 });
 
 const Entry& entry_of(Status status) { return *std::ranges::find(entries, status, &Entry::status); }

@@ -19,18 +19,18 @@ enum class Status : std::uint8_t {
   interrupted,              ///< stopped from outside
   too_large,                ///< the solver refuses a program of this size
   invalid_program,          ///< the solver refuses the program: too few degrees of freedom, a bad option or number
-  out_of_memory,            ///< the solver could not allocate what it needs
+  out_of_memory,            ///< the solver could not allocate enough memory
   solver_error,             ///< the solver reported an internal error
-  too_coarse,               ///< solved, but the answer is no motion: its intervals do not join (`accuracy`)
+  too_coarse,               ///< solved, but the answer is not a motion: its intervals do not join (`accuracy`)
   violates_between_stages,  ///< solved, but the motion leaves its bounds between stages (`violation_between_stages`)
   control_not_determined,   ///< solved, but a Newton step would move a control: cost and state hardly depend on it
-  not_confirmed,            ///< the solver says it is solved, but our residual does not confirm it
+  not_confirmed,            ///< the solver reports success, but our residual does not confirm it
 };
 
 /// The name that tables use: "solved", "iteration limit", ...
 [[nodiscard]] std::string_view name_of(Status status) noexcept;
 
-/// What it means, in one sentence for a person.
+/// Its meaning, in one sentence for a person.
 [[nodiscard]] std::string_view sentence_of(Status status) noexcept;
 
 /// The status with that name; `not_run` if there is none.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Stands before a loop none of whose iterations reads what another one has written, so that the compiler may carry out
+/// Stands before a loop whose iterations read no results of each other, so that the compiler may carry out
 /// several at once without looking whether arrays overlap. (clang looks when the program runs.)
 // NOLINTBEGIN(cppcoreguidelines-macro-usage): a pragma
 #ifdef __clang__

@@ -10,10 +10,10 @@ namespace {
 
 constexpr std::array every_set{InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512};
 
-/// How many of `every_set` this processor can run: what the flags of `dmocbench_kernel` allow the compiler to use.
+/// How many of `every_set` this processor can run: those whose instructions the flags of `dmocbench_kernel` allow.
 std::size_t count_of_sets() {
 #ifdef DMOCBENCH_X86_KERNELS
-  // clang says bool, GCC int.
+  // The type is bool in clang, int in GCC.
   const auto all = [](auto... supported) { return (static_cast<bool>(supported) && ...); };
   if (!all(__builtin_cpu_supports("avx2"), __builtin_cpu_supports("fma"))) return 1;
   const bool has_avx512 = all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512dq"),

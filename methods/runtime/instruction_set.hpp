@@ -22,7 +22,7 @@ enum class InstructionSet : std::uint8_t { baseline, avx2, avx512 };
 /// environment variable DMOCBENCH_INSTRUCTION_SET names. Throws `Error` if that one is not available.
 [[nodiscard]] InstructionSet preferred_instruction_set();
 
-/// What was compiled for a set, out of the same thing compiled for each, narrowest first (`dmocbench_kernel` in
+/// The version compiled for a set, out of versions for each, narrowest first (`dmocbench_kernel` in
 /// methods/CMakeLists.txt); the widest one there is where the set is wider than all of them.
 template <class Compiled, std::size_t count>
 [[nodiscard]] constexpr const Compiled& compiled_for(InstructionSet set, const std::array<Compiled, count>& compiled) {

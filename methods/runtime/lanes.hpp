@@ -38,7 +38,7 @@ struct Lanes {
   double operator[](std::size_t lane) const { return reinterpret_cast<const double*>(part)[lane]; }
   void set(std::size_t lane, double value) { reinterpret_cast<double*>(part)[lane] = value; }
 
-  /// What `operation(i)` is for part i.
+  /// The value of `operation(i)` for each part i.
   template <class Result = Lanes, class Operation>
   [[gnu::always_inline]] static Result each(const Operation& operation) {
     Result result;

@@ -13,7 +13,7 @@ namespace dmocbench {
 /// Entries of a vector that are worth a thread of their own.
 inline constexpr std::size_t entries_per_stretch = 65536;
 
-/// Calls `use(stretch, begin, length)` for stretches that cover 0 to size - 1, those of a long vector by several
+/// Calls `use(stretch, begin, length)` for stretches that cover 0 to size - 1, stretches of a long vector by several
 /// threads. How many there are depends on the size alone.
 template <class Use>
 void for_stretches(Eigen::Index size, const Use& use) {
@@ -27,7 +27,7 @@ void for_stretches(Eigen::Index size, const Use& use) {
   });
 }
 
-/// The sum, in order, of what `part(begin, length)` is on stretches.
+/// The sum, in order, of `part(begin, length)` over stretches.
 template <class Part>
 double sum_of_stretches(Eigen::Index size, const Part& part) {
   if (part_count(static_cast<std::size_t>(size), entries_per_stretch) == 1) return part(Eigen::Index{0}, size);
@@ -47,8 +47,8 @@ double sum_of_stretches(Eigen::Index size, const Part& part) {
 /// aᵀb, for vectors of the same size.
 [[nodiscard]] double dot_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-/// Resizes to `size` entries of any value. A vector of several MiB asks the system for large pages, which it gets as
-/// they are written first: to provide and to clear pages of 4 KiB takes longer than a pass over their contents.
+/// Resizes to `size` entries of any value. A vector of several MiB requests large pages from the system, which it gets
+/// as they are written first: to provide and to clear pages of 4 KiB takes longer than a pass over their contents.
 void resize_unwritten(Eigen::VectorXd& vector, Eigen::Index size);
 /// target = vector + factor * step
 void set_to_sum(Eigen::VectorXd& target, const Eigen::VectorXd& vector, double factor, const Eigen::VectorXd& step);

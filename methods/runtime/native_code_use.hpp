@@ -15,7 +15,7 @@ enum class NativeCodeUse : std::uint8_t {
 /// "when_worthwhile", "never" or "always".
 [[nodiscard]] std::string_view name_of_use(NativeCodeUse use) noexcept;
 
-/// What tapes do unless their maker says otherwise: `when_worthwhile`, or what the environment variable
+/// The default for tapes: `when_worthwhile`, or the value that the environment variable
 /// DMOCBENCH_NATIVE_CODE names. Throws `Error` if it names none of the three.
 [[nodiscard]] NativeCodeUse preferred_native_code_use();
 

@@ -64,7 +64,7 @@ bool holds_soon(const Condition& holds) {
 }
 
 /// Threads that wait for work. A job is open while parts of it may be left. A thread that comes later, because it slept
-/// or had no processor, finds the job closed and nobody waits for it.
+/// or had no processor, finds the job closed and is not waited for.
 class WorkerTeam {
  public:
   /// `helpers` threads besides the caller's.
@@ -72,7 +72,7 @@ class WorkerTeam {
     try {
       for (std::size_t i = 0; i < helpers; ++i) threads_.emplace_back([this] { serve(); });
     } catch (...) {
-      dismiss();  // those that there are, or nobody could wait for their end
+      dismiss();  // otherwise the threads started so far could not be joined
       throw;
     }
   }
@@ -142,7 +142,7 @@ std::size_t count_from_environment() {
   if (wanted == nullptr) return std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, most_threads);
   const std::size_t count = parsed<std::size_t>(wanted).value_or(0);
   if (count < 1 || count > most_threads) {
-    throw Error("DMOCBENCH_THREADS=" + std::string(wanted) + " is no number of threads; give one from 1 to 1024");
+    throw Error("DMOCBENCH_THREADS=" + std::string(wanted) + " is not a number of threads; give one from 1 to 1024");
   }
   return count;
 }
@@ -151,8 +151,8 @@ std::atomic<std::size_t> count_that_was_set{0};  // 0 until it is
 
 std::mutex team_is_in_use;
 
-/// The team of this process. A process that was forked has none of its parent's threads, and must not even touch what
-/// they were made of: it gets a team of its own, and the parent's is left where it is. No team is destroyed at the end:
+/// The team of this process. A process that was forked has none of its parent's threads, and must not even touch the
+/// data behind them: it gets a team of its own, and the parent's is left where it is. No team is destroyed at the end:
 /// a child that made none would wait for threads of another process.
 WorkerTeam& team_of(std::size_t helpers) {
   static WorkerTeam* team = nullptr;

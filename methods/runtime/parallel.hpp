@@ -4,7 +4,7 @@
 
 namespace dmocbench {
 
-/// How many threads work on one program where that pays: what `set_thread_count` said last, else the environment
+/// How many threads work on one program where that pays: the last value of `set_thread_count`, else the environment
 /// variable DMOCBENCH_THREADS, else one per processor. Throws `Error` if the variable is not a number from 1 to 1024.
 [[nodiscard]] std::size_t thread_count();
 /// Throws `Error` unless 1 <= count <= 1024.

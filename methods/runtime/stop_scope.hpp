@@ -14,9 +14,9 @@ class Stopped : public Error {
   using Error::Error;
 };
 
-/// As long as it exists, what this thread computes without counted iterations (tracing and differentiating formulas,
-/// integrating, Newton steps behind a solver) ends once `stop_requested` is true or more than `most_seconds` have
-/// passed (0: no limit), and solvers take no longer than that. So it does where a scope around it says so.
+/// As long as it exists, work of this thread without counted iterations (tracing and differentiating formulas,
+/// integrating, Newton steps after a solver) ends once `stop_requested` is true or more than `most_seconds` have
+/// passed (0: no limit), and solvers take no longer than that. The same holds for the scopes around it.
 class StopScope {
  public:
   /// Begins now; `most_seconds`: wall clock.
@@ -27,7 +27,7 @@ class StopScope {
   StopScope(StopScope&&) = delete;
   StopScope& operator=(StopScope&&) = delete;
 
-  /// True if `stop_requested` says so or the time is over, here or in a scope around.
+  /// True if `stop_requested` is true or the time is over, here or in a scope around.
   [[nodiscard]] bool must_stop() const;
   /// The least of this scope and those around; infinite without a limit.
   [[nodiscard]] double seconds_left() const;
@@ -39,11 +39,11 @@ class StopScope {
   const StopScope* outer_;
 };
 
-/// Whether the scope of this thread says that it must stop; false outside of all scopes.
+/// Whether the scope of this thread requires a stop; false outside of all scopes.
 [[nodiscard]] bool must_stop();
-/// What is left of the time of this thread's scope: infinity without a limit, negative where it is over.
+/// The remaining time of this thread's scope: infinity without a limit, negative where it is over.
 [[nodiscard]] double seconds_left();
-/// Throws `Stopped` if the scope of this thread says so; for loops whose rounds take microseconds or more.
+/// Throws `Stopped` if the scope of this thread requires it; for loops whose rounds take microseconds or more.
 void stop_if_requested();
 
 }  // namespace dmocbench

@@ -2,7 +2,7 @@
 
 #include "methods/runtime/lanes.hpp"
 
-// Compiled once per instruction set, DMOCBENCH_VECTOR_LOOPS being the name of what it defines. Everything else is in
+// Compiled once per instruction set, DMOCBENCH_VECTOR_LOOPS being the name that it defines. Everything else is in
 // an unnamed namespace, since a linker may take either of two functions of the same name.
 namespace dmocbench {
 

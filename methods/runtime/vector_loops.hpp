@@ -6,7 +6,7 @@
 
 namespace dmocbench {
 
-/// Loops over stretches of vectors, compiled for one instruction set. Sums are those of eight interleaved parts, in the
+/// Loops over stretches of vectors, compiled for one instruction set. Sums have eight interleaved parts, in the
 /// same order in every set.
 struct VectorLoops {
   /// Largest |x_i|, 0 if there are none; any number if one of them is not finite.

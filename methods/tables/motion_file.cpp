@@ -66,7 +66,7 @@ struct Series {
   std::vector<std::string> units = {};  ///< of each; none where the problem's are taken as they are
 };
 
-/// "[m] meaning", as tables tell a unit.
+/// "[m] meaning", as tables state a unit.
 std::string with_unit(const std::string& unit, const std::string& meaning) {
   return unit.empty() ? meaning : fmt::format("[{}] {}", unit, meaning);
 }
@@ -117,9 +117,8 @@ void require_one_motion(const Trajectory& motion, const std::filesystem::path& n
 void require_similar_horizon(const Problem& problem, double horizon, const std::filesystem::path& nodes) {
   constexpr double most = 10.0;
   if (horizon <= most * problem.horizon() && most * horizon >= problem.horizon()) return;
-  throw Error(
-      fmt::format("{}: the motion lasts {:g}, that of {} {:g}; a start is stretched by a factor of at most {:g}",
-                  nodes.string(), horizon, problem.name(), problem.horizon(), most));
+  throw Error(fmt::format("{}: the motion lasts {:g}, {} lasts {:g}; a start is stretched by a factor of at most {:g}",
+                          nodes.string(), horizon, problem.name(), problem.horizon(), most));
 }
 
 std::vector<std::string> unknown_names(const Problem& problem) {

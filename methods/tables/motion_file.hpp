@@ -19,23 +19,23 @@ namespace dmocbench {
 /// The stages: `t` and the controls by their names.
 [[nodiscard]] Table stage_table(const Problem& problem, const Trajectory& trajectory);
 
-/// What a picture shows, at the nodes: `t` in the problem's unit of time, then the quantities of
-/// `ProblemCard::picture`, each named by `name_with_unit`. The control at a node is that of `control_at`.
+/// The data of a picture, at the nodes: `t` in the problem's unit of time, then the quantities of
+/// `ProblemCard::picture`, each named by `name_with_unit`. The control at a node comes from `control_at`.
 [[nodiscard]] Table picture_table(const Problem& problem, const Trajectory& trajectory);
 
-/// Writes a motion: its nodes to X_nodes.csv, the file that is named, and its stages to X_stages.csv beside it. Throws
-/// `Error` if the name has another ending or a file cannot be written.
+/// Writes a motion: its nodes to X_nodes.csv, the file that is named, and its stages to X_stages.csv in the same
+/// folder. Throws `Error` if the name has another ending or a file cannot be written.
 void write_motion(const Problem& problem, const Trajectory& trajectory, const std::filesystem::path& nodes_file);
 
-/// The stage table beside a node table: X_stages.csv beside X_nodes.csv. Throws `Error` if the name has another ending.
+/// The stage table of a node table: X_stages.csv for X_nodes.csv. Throws `Error` if the name has another ending.
 [[nodiscard]] std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file);
 
 /// Whether a file is one of the two that hold the motion of this node table.
 [[nodiscard]] bool is_file_of_motion(const std::filesystem::path& file, const std::string& nodes_file);
 
-/// Reads a motion back from FILE, a node table, and the stage table beside it (X_nodes.csv and X_stages.csv): piecewise
-/// cubic Hermite in q and v, controls linear between stage times. Throws `Error` that names the file and what is
-/// missing, or where the two tables are not of one motion from t = 0 on, or it lasts more than ten times as long as the
+/// Reads a motion back from FILE, a node table, and its stage table (X_nodes.csv and X_stages.csv): piecewise
+/// cubic Hermite in q and v, controls linear between stage times. Throws `Error` that names the file and what it
+/// lacks, or where the two tables are not of one motion from t = 0 on, or it lasts more than ten times as long as the
 /// problem's, or less than a tenth of it.
 [[nodiscard]] Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file);
 

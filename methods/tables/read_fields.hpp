@@ -7,11 +7,11 @@
 
 namespace dmocbench {
 
-/// As long as it exists, remembers which fields this thread reads, of rows that know their place
-/// (`Table::name_places`): what a conclusion from tables rests on. The innermost one remembers.
+/// As long as it exists, records the fields that this thread reads, of rows with a place
+/// (`Table::name_places`): the data behind a conclusion from tables. The innermost one records.
 class ReadFields {
  public:
-  /// What was read of a row.
+  /// The fields read of a row.
   struct OfRow {
     std::set<std::string, std::less<>> columns;  ///< their names
     bool has_number = false;                     ///< a field was read as a number, not only to choose the row

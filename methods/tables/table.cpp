@@ -69,7 +69,7 @@ double Row::needed(std::string_view column) const {
   if (const auto value = number(column)) return *value;
   const std::string& field = text(column);
   throw Error(fmt::format("{}, column {}: {}", place_.empty() ? "a row" : place_, column,
-                          field.empty() ? "there is no number" : "\"" + field + "\" is no finite number"));
+                          field.empty() ? "there is no number" : "\"" + field + "\" is not a finite number"));
 }
 
 std::vector<std::string> Row::columns() const {
@@ -86,7 +86,7 @@ std::vector<double> Row::numbers(std::string_view column) const {
     const auto number = parsed<double>(word);
     if (!number || !std::isfinite(*number)) {
       throw Error(
-          fmt::format("{}, column {}: \"{}\" is no finite number", place_.empty() ? "a row" : place_, column, word));
+          fmt::format("{}, column {}: \"{}\" is not a finite number", place_.empty() ? "a row" : place_, column, word));
     }
     numbers.push_back(*number);
     rest.remove_prefix(std::min(word.size() + 1, rest.size()));

@@ -56,16 +56,16 @@ class Row {
   }
   /// The field as a number; none if it is empty or no finite number.
   [[nodiscard]] std::optional<double> number(std::string_view column) const;
-  /// The field as a number that has to be there. Throws `Error` that names the place, the column and what stands there.
+  /// The field as a number that has to be there. Throws `Error` that names the place, the column and the text there.
   [[nodiscard]] double needed(std::string_view column) const;
   /// The names of the columns in which the row has a cell, in their alphabetical order.
   [[nodiscard]] std::vector<std::string> columns() const;
   /// The numbers of a field that holds several (`joined_numbers`); none if it is empty. Throws `Error` that names the
   /// place and the column if something else stands there.
   [[nodiscard]] std::vector<double> numbers(std::string_view column) const;
-  /// Where the row stands, for errors: "objective.csv, record 2" (the header is record 1); empty if nobody said.
+  /// Where the row stands, for errors: "objective.csv, record 2" (the header is record 1); empty if unknown.
   [[nodiscard]] const std::string& place() const noexcept { return place_; }
-  /// Says where the row stands, for errors.
+  /// Sets where the row stands, for errors.
   void set_place(std::string place) { place_ = std::move(place); }
   /// The fields of these columns as a line of comma-separated values (RFC 4180 quoting, ends with \n).
   [[nodiscard]] std::string csv(const std::vector<std::string>& columns) const;
@@ -75,22 +75,22 @@ class Row {
   std::string place_;
 };
 
-/// What the fields of a column are.
+/// The kinds of fields of a column.
 enum class FieldKind : std::uint8_t {
-  any,      ///< nobody says
+  any,      ///< not declared
   text,     ///< as it is
   number,   ///< as `Cell(double)` writes it
   integer,  ///< a whole number
   boolean,  ///< 1 or 0
 };
 
-/// What a column may hold.
+/// The permitted fields of a column.
 struct FieldType {
   FieldKind kind = FieldKind::any;  ///< of the fields that are not empty
   bool may_be_empty = true;         ///< texts and numbers that are not finite may always be
 };
 
-/// A table with named columns. What does not exist is an empty field.
+/// A table with named columns. Missing values are empty fields.
 class Table {
  public:
   Table() = default;
@@ -103,19 +103,20 @@ class Table {
   [[nodiscard]] const std::vector<Row>& rows() const noexcept { return rows_; }
   /// Adds a row at the end.
   void append(Row row) { rows_.push_back(std::move(row)); }
-  /// What columns mean, for readers, their units in brackets: "[s] median time of a solve". It is not part of `csv`.
+  /// The meanings of columns, for readers, their units in brackets: "[s] median time of a solve". It is not part of
+  /// `csv`.
   [[nodiscard]] const std::map<std::string, std::string>& meanings() const noexcept { return meanings_; }
-  /// Says what columns mean; what was said before stays.
+  /// Sets the meanings of columns; earlier ones stay.
   void explain(const std::map<std::string, std::string>& meanings) {
     meanings_.insert(meanings.begin(), meanings.end());
   }
-  /// What columns hold, as far as somebody has said it. It is not part of `csv`.
+  /// The declared types of columns. It is not part of `csv`.
   [[nodiscard]] const std::map<std::string, FieldType>& types() const noexcept { return types_; }
-  /// Says what columns hold; what was said before stays.
+  /// Declares the types of columns; earlier ones stay.
   void declare(const std::map<std::string, FieldType>& types) { types_.insert(types.begin(), types.end()); }
-  /// The columns by which rows are told apart; empty if nobody has said it. It is not part of `csv`.
+  /// The columns that identify a row; empty if not set. It is not part of `csv`.
   [[nodiscard]] const std::vector<std::string>& key() const noexcept { return key_; }
-  /// Says by which columns rows are told apart.
+  /// Sets the columns that identify a row.
   void set_key(std::vector<std::string> key) { key_ = std::move(key); }
   /// Removes all rows.
   void clear() { rows_.clear(); }
@@ -124,7 +125,8 @@ class Table {
 
   /// A header line, then a line per row (`Row::csv`).
   [[nodiscard]] std::string csv() const;
-  /// Reads what `csv` writes. Throws `Error` that names the line if a row has another number of fields than the header.
+  /// Reads the text that `csv` writes. Throws `Error` that names the line if a row has another number of fields than
+  /// the header.
   [[nodiscard]] static Table from_csv(std::string_view text);
 
  private:

@@ -17,13 +17,13 @@ std::string read_file(const std::filesystem::path& path) {
   }
   if (std::filesystem::is_other(path, ignored)) {
     throw Error(
-        fmt::format("cannot read {}: it is no regular file and might have no end; copy it to one", path.string()));
+        fmt::format("cannot read {}: it is not a regular file and might have no end; copy it to one", path.string()));
   }
   try {
     std::ifstream stream(path, std::ios::binary);
     std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     if (stream) return content;
-  } catch (const std::ios_base::failure&) {  // the system refuses to read what it has opened
+  } catch (const std::ios_base::failure&) {  // the system refuses to read the opened file
   }
   throw Error(fmt::format("cannot read {}", path.string()));
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-// What a program that states and solves problems of its own includes: `#include <dmocbench/dmocbench.hpp>` and the
-// target dmocbench::dmocbench. A library of problems includes <dmocbench/problem.hpp> only, an experiment of your own
+// For a program that states and solves its own problems: `#include <dmocbench/dmocbench.hpp>` and the
+// target dmocbench::dmocbench. A library of problems includes <dmocbench/problem.hpp> only, your own experiment
 // <dmocbench/experiment.hpp>.
 #include <Eigen/Geometry>
 #include <dmocbench/problem.hpp>

@@ -1,4 +1,4 @@
 #pragma once
 
-// What a problem of your own includes: the class `Problem`, its card, expressions and their functions.
+// For your own problem: the class `Problem`, its card, expressions and their functions.
 #include "methods/mechanics/problem.hpp"
