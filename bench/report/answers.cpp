@@ -17,9 +17,9 @@ namespace {
 /// A question about the methods, by the names of claims without the problem.
 struct Question {
   std::string_view topic;
-  std::string_view claim;   ///< whose measurements answer it
-  int clauses;              ///< of what was measured that are the answer; the others are told by the claim itself
-  std::string_view beside;  ///< whose verdicts are told too
+  std::string_view claim;   ///< the claim whose measurements answer it
+  int clauses;              ///< leading clauses of the measurements that are the answer; the claim shows the others
+  std::string_view beside;  ///< the claim whose verdicts are shown too
 };
 
 constexpr std::array questions{

@@ -7,8 +7,8 @@
 
 namespace dmocbench {
 
-/// Five questions about the methods, each answered in a sentence by the claims that a run has judged, with what was
-/// measured for each problem and the verdicts; empty where none of these claims was judged.
+/// Five questions about the methods, each answered in a sentence by the claims that a run has judged, with the
+/// measurements for each problem and the verdicts; empty where none of these claims was judged.
 [[nodiscard]] std::string answers_html(const Table& claims);
 
 /// A verdict as a small label.

@@ -91,14 +91,15 @@ std::string rows_behind(const Row& told, const ResultsFolder& results) {
                       escaped(reported->file), counted(reported->table.rows().size(), "row"));
   if (!columns.constant.empty()) html += escaped_prose(fmt::format("; here {}", fmt::join(columns.constant, ", ")));
   html += ".</p>\n";
-  if (!columns.differing.empty()) {  // else the sentence has told all
+  if (!columns.differing.empty()) {  // else the sentence is complete
     html +=
         rows_markup(shown, columns.differing, shown.rows().size(), results.metadata_of(reported->run), reported->file);
   }
   return html + "</details>\n";
 }
 
-/// "build/bench/claims --out results" of "build/bench/convergence --out results ...": what judges the tables of a run.
+/// "build/bench/claims --out results" of "build/bench/convergence --out results ...": the command that judges the
+/// tables of a run.
 std::string command_that_judges(const std::string& command) {
   const std::vector<std::string> words = parts_of(command, " ");
   if (words.empty()) return "";

@@ -6,7 +6,7 @@
 
 namespace dmocbench {
 
-/// What stands behind a claim, as terms of a list of HTML: its files as links to where the page shows them, the rows
+/// The evidence for a claim, as terms of a list of HTML: its files as links to where the page shows them, the rows
 /// and columns of tables by which it was judged, and the commands that make it again.
 [[nodiscard]] std::string claim_evidence(const Row& claim, const ResultsFolder& results);
 

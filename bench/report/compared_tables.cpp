@@ -14,7 +14,7 @@ namespace dmocbench {
 
 namespace {
 
-/// Columns that say what a row is about, and not what came out.
+/// Columns that identify a row, as opposed to results.
 constexpr std::array<std::string_view, 26> identity_columns{
     "problem",   "method", "tableau",    "stages",      "solver",   "derivatives",   "intervals",
     "tolerance", "form",   "crash",      "start",       "sequence", "step",          "quantity",
@@ -39,7 +39,7 @@ std::string about(const Row& row, const std::vector<std::string>& columns) {
   return words;
 }
 
-/// The rows by what they are about, and by which of several they are.
+/// The rows by their identity, and by their number among several of it.
 std::map<std::pair<std::string, std::size_t>, const Row*> rows_by_key(const Table& table,
                                                                       const std::vector<std::string>& columns) {
   std::map<std::pair<std::string, std::size_t>, const Row*> rows;
@@ -65,7 +65,7 @@ std::vector<double> times_in(const Row& row) {
 }  // namespace
 
 PairedRows paired_rows(const Table& first, const Table& second) {
-  std::vector<std::string> columns;  // what only one of them has tells nothing apart
+  std::vector<std::string> columns;  // a column that only one of them has identifies nothing
   std::ranges::copy_if(first.columns(), std::back_inserter(columns), [&second](const std::string& column) {
     return std::ranges::count(second.columns(), column) > 0;
   });

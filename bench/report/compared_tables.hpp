@@ -12,7 +12,7 @@ namespace dmocbench {
 
 /// Rows of two tables that are about the same.
 struct RowPair {
-  std::string about;  ///< what both are about: "orbital_transfer dmoc gauss 1 ipopt tape 64"
+  std::string about;  ///< identity of both: "orbital_transfer dmoc gauss 1 ipopt tape 64"
   const Row* first = nullptr;
   const Row* second = nullptr;
 };

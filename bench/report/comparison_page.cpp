@@ -110,8 +110,8 @@ std::string times_section(const ComparedRun& first, const ComparedRun& second) {
   }
   if (html.empty() && unjudged == 0) return "";
   return fmt::format(
-             "<section id=\"times\"><h2>Times</h2>\n<p>The median time in B by that in A, with an interval of 99 % "
-             "from the rounds of both. The runs were not made in turn: what else the machine did during one of them is "
+             "<section id=\"times\"><h2>Times</h2>\n<p>The median time in B by the median in A, with a 99 % interval "
+             "from the rounds of both. The runs were not made in turn: other work of the machine during one of them is "
              "in the ratio. {} solves were timed in fewer than {} rounds and are not judged.</p>\n",
              unjudged, fewest_rounds) +
          html + "</section>\n";
@@ -166,7 +166,7 @@ std::string told_by(const ResultsFolder& results, const std::string& key) {
 std::string overview(const ComparedRun& first, const ComparedRun& second) {
   std::string html =
       fmt::format("<section id=\"overview\"><h1>Two runs: {} and {}</h1>\n", escaped(first.name), escaped(second.name));
-  html += cells("the two runs", {"what", "A", "B"},
+  html += cells("the two runs", {"item", "A", "B"},
                 {{"folder", first.name, second.name},
                  {"began at", told_by(first.results, "utc_time"), told_by(second.results, "utc_time")},
                  {"commit", told_by(first.results, "commit"), told_by(second.results, "commit")},

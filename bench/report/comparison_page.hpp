@@ -6,14 +6,14 @@
 
 namespace dmocbench {
 
-/// A results folder and what the page calls it.
+/// A results folder and its name on the page.
 struct ComparedRun {
   std::string name;
   ResultsFolder results;
 };
 
 /// Two results folders side by side as one page of HTML that needs nothing else: claims whose verdict changed, times
-/// with their intervals, counts and statuses that differ, and what only one of them has.
+/// with their intervals, counts and statuses that differ, and items that only one of them has.
 [[nodiscard]] std::string comparison_page(const ComparedRun& first, const ComparedRun& second);
 
 }  // namespace dmocbench

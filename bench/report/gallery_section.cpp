@@ -73,7 +73,7 @@ std::string problem_html(const Problem& problem, const ResultsFolder& results) {
          "</article>\n";
 }
 
-/// The motions of problems that this program does not know, such as those of a library that was not named to it.
+/// The motions of problems unknown to this program, such as problems of a library that was not loaded.
 std::string unknown_motions(const ResultsFolder& results, const std::vector<std::string>& known) {
   std::set<std::string> names;
   for (const ReportedMotion& motion : results.motions) names.insert(motion.problem);
@@ -94,7 +94,7 @@ std::string gallery_section(const ResultsFolder& results) {
       "%; other minima and coarse grids are farther away.</p>\n";
   std::vector<std::string> names = problem_names();
   html += unknown_motions(results, names);
-  // What this folder tells of comes first.
+  // Problems of this folder come first.
   std::ranges::stable_partition(names, [&results](const std::string& name) {
     return !motions_of(results, name).empty() || lowest_cost(results, name).has_value();
   });

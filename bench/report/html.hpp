@@ -5,7 +5,7 @@
 
 namespace dmocbench {
 
-/// A text as HTML shows it, in elements and in attributes with double quotes; what is no UTF-8 becomes a question mark.
+/// A text as HTML shows it, in elements and in attributes with double quotes; invalid UTF-8 becomes a question mark.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// The same between elements: numbers with an exponent stay on one line.

@@ -27,7 +27,7 @@ struct Product {
   std::vector<Factor> factors;
 };
 
-/// What stands around a part of a formula, and decides whether it needs brackets.
+/// The surroundings of a part of a formula, which decide whether it needs brackets.
 enum class Around : unsigned char { nothing, factor, base_of_power };
 
 std::string_view name_of_function(Operation operation) {
@@ -67,7 +67,7 @@ std::string_view name_of_function(Operation operation) {
   }
 }
 
-/// Brackets as high as what they hold, but no higher than letters where that is one line.
+/// Brackets as high as their content, but no higher than letters where that is one line.
 std::string in_brackets(const std::string& content) {
   const bool is_high = content.find("<mfrac>") != std::string::npos || content.find("<msqrt>") != std::string::npos;
   const std::string_view bracket = is_high ? "<mo>" : "<mo stretchy=\"false\">";
@@ -97,7 +97,7 @@ class Typesetter {
     TypesetFormulas result;
     for (Place place = 0; place < steps_.size(); ++place) {
       sizes[place] = size_of(place, sizes);
-      // What is a formula itself is written out once more, unless it is so long that its readers would outgrow all
+      // A part that is itself a formula is written out again, unless it is so long that its readers would outgrow all
       // bounds.
       const std::size_t enough = is_output(place, outputs) ? 20 * long_enough : long_enough;
       if (readers[place] < 2 || sizes[place] < enough) continue;
@@ -139,7 +139,7 @@ class Typesetter {
     return sizes[step.left] + (is_square(step) ? 0 : sizes[step.right]);
   }
 
-  /// What reads one operand twice and writes it once.
+  /// A step that reads one operand twice and writes it once.
   static bool is_square(const Schedule::Step& step) {
     return step.operation == Operation::multiply && step.left == step.right;
   }
@@ -147,11 +147,11 @@ class Typesetter {
   [[nodiscard]] bool is_named(Place place) const { return !names_[place].empty(); }
   [[nodiscard]] bool is_constant(Place place) const { return steps_[place].operation == Operation::constant; }
 
-  /// The terms of a step, each with its sign. What has a name is one term, unless it is the step itself.
+  /// The terms of a step, each with its sign. A part with a name is one term, unless it is the step itself.
   [[nodiscard]] MathTerms sum(Place place) const {
     std::vector<Product> products;
     add_terms(place, 1.0, true, products);
-    // What is added before what is subtracted, both in the order of the variables.
+    // Added terms before subtracted ones, both in the order of the variables.
     std::ranges::stable_sort(products, {}, [this](const Product& product) {
       return std::pair(std::signbit(product.coefficient), order_of(product));
     });
@@ -230,7 +230,7 @@ class Typesetter {
     }
   }
 
-  /// Parameters stand first, then variables, then sums, and functions last, so that it is seen what they are applied
+  /// Parameters stand first, then variables, then sums, and functions last, to show clearly what they are applied
   /// to.
   [[nodiscard]] int rank(const Factor& factor) const {
     const Schedule::Step& step = steps_[factor.base];
@@ -301,7 +301,7 @@ class Typesetter {
     return row;
   }
 
-  /// What stands above or below the line, where a sum that is alone needs no brackets.
+  /// Numerator or denominator, where a sum that is alone needs no brackets.
   [[nodiscard]] std::string part_of_fraction(const std::vector<Factor>& factors) const {
     return as_row(factors.size() == 1 ? power_of(factors.front(), Around::nothing) : row_of(1.0, factors));
   }
@@ -341,7 +341,7 @@ class Typesetter {
     return around == Around::nothing ? content : in_brackets(content);
   }
 
-  /// What a function is applied to: a name as it is, all else in brackets.
+  /// The argument of a function: a name as it is, all else in brackets.
   [[nodiscard]] std::string arguments_of(Place place) const {
     const Schedule::Step& step = steps_[place];
     if (step.operation == Operation::arc_tangent2)

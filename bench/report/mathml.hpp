@@ -27,7 +27,7 @@ using MathTerms = std::vector<std::string>;
 struct TypesetFormulas {
   /// In the order in which they were given.
   std::vector<MathTerms> formulas;
-  /// What several places share and is long: its name, and what it is. Later ones may contain earlier ones.
+  /// Long parts that several places share: name and formula. Later ones may contain earlier ones.
   std::vector<std::pair<std::string, MathTerms>> shared;
 };
 
@@ -35,14 +35,14 @@ struct TypesetFormulas {
 inline constexpr std::size_t most_typeset_operations = 1000;
 
 /// Typesets traced formulas. `inputs` are the names of their inputs as MathML; the first `parameters` of them are
-/// constants, which stand before other factors. `shared_name` is the name of shared parts, which get an index: not that
-/// of an input.
+/// constants, which stand before other factors. `shared_name` is the name of shared parts, which get an index: not the
+/// name of an input.
 ///
-/// A formula of more than `most_typeset_operations` is not typeset but told as "a formula of 10000 operations": nobody
-/// could read it, and typesetting recurses.
+/// A formula of more than `most_typeset_operations` is not typeset but shown as "a formula of 10000 operations": it
+/// would be unreadable, and typesetting recurses.
 ///
-/// Sums and products are written without the brackets that do not change their value; apart from rounding, what is
-/// written has the value of the formula wherever that is defined.
+/// Sums and products are written without the brackets that do not change their value; apart from rounding, the
+/// written form has the value of the formula wherever that is defined.
 [[nodiscard]] TypesetFormulas typeset(std::span<const Expression> formulas, const std::vector<std::string>& inputs,
                                       std::size_t parameters, std::string_view shared_name);
 

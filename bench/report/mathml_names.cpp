@@ -30,7 +30,7 @@ bool is_number(std::string_view word) {
          std::ranges::all_of(word, [](unsigned char letter) { return letter >= '0' && letter <= '9'; });
 }
 
-/// What stands before and behind the last underscore; nothing behind if there is none.
+/// The parts before and after the last underscore; nothing after if there is none.
 std::pair<std::string_view, std::string_view> base_and_index(std::string_view name) {
   const std::size_t bar = name.rfind('_');
   if (bar == std::string_view::npos || bar == 0 || bar + 1 == name.size()) return {name, {}};

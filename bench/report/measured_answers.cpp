@@ -21,7 +21,7 @@ namespace {
 /// Problem, method, tableau and stages, by which lines are ordered.
 using Scheme = std::array<std::string, 4>;
 
-/// What a line tells.
+/// The content of a line.
 struct Measured {
   std::map<std::string, std::vector<std::string>> orders;  ///< in words, by the table that has them
   std::size_t rows = 0;
@@ -37,7 +37,7 @@ bool has_columns(const Table& table, std::initializer_list<std::string_view> nam
                              [&](std::string_view name) { return std::ranges::count(table.columns(), name) > 0; });
 }
 
-/// Whether a table has one fit per scheme and quantity: tables that tell of more, such as situations, have more
+/// Whether a table has one fit per scheme and quantity: tables about more, such as situations, have more
 /// columns.
 bool has_fits(const Table& table) {
   constexpr std::array<std::string_view, 16> known{
@@ -48,7 +48,7 @@ bool has_fits(const Table& table) {
                              [&](const std::string& column) { return std::ranges::count(known, column) > 0; });
 }
 
-/// "state 2.01 ± 0.02", "state 2.01" where two grids tell no error, "costate: floor" where nothing was fitted.
+/// "state 2.01 ± 0.02", "state 2.01" where two grids give no error, "costate: floor" without a fit.
 std::string order_in_words(const Row& row) {
   const std::string quantity = in_words(row.text("quantity"));
   const auto slope = row.number("slope");

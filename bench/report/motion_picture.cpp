@@ -29,7 +29,7 @@ struct MovingPoint {
   bool is_at_rod = false;  ///< it keeps its distance from the point before (the origin if there is none)
 };
 
-/// What is drawn of a motion: at most so many instants.
+/// The most instants of a motion that are drawn.
 constexpr std::size_t most_instants = 129;
 
 std::vector<double> column_of(const Table& table, const std::string& column) {
@@ -65,7 +65,7 @@ bool is_rod(const MovingPoint* from, const MovingPoint& to) {
   return largest > 0.0 && largest - least <= relative_tolerance * largest;
 }
 
-/// The points whose two coordinates are columns with one unit, that of the first point. One that has an x alone moves
+/// The points whose two coordinates are columns with the unit of the first point. One that has an x alone moves
 /// on the x-axis, if others have both.
 std::vector<MovingPoint> points_of(const Table& picture) {
   std::vector<MovingPoint> points;
@@ -93,7 +93,7 @@ std::vector<MovingPoint> points_of(const Table& picture) {
   return points;
 }
 
-/// What is drawn of one method.
+/// The drawing of one method.
 struct DrawnMotion {
   std::string method;
   std::string time_unit;
@@ -109,7 +109,7 @@ std::string as_script(const Json& data) {
   return text;
 }
 
-/// A number with five digits, or as it is where those are none of a double (of the largest one, say).
+/// A number with five digits, or unchanged where those do not give a double (for the largest one).
 double short_number(double value) { return parsed<double>(fmt::format("{:.5g}", value)).value_or(value); }
 
 std::vector<double> short_numbers(std::vector<double> values) {
@@ -270,7 +270,7 @@ Strips strips_of(const std::vector<const ReportedMotion*>& motions) {
   return strips;
 }
 
-/// What JavaScript shows to move a motion through time, and what it moves.
+/// The controls by which JavaScript moves a motion through time, and their data.
 std::string controls_html(const std::string& problem, const Json& data) {
   return fmt::format(
       "<p class=\"controls\" hidden><button type=\"button\" aria-label=\"Play {0}\">Play</button> "

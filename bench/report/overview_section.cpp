@@ -45,7 +45,7 @@ std::set<std::string> fields_of(const ResultsFolder& results, const std::string&
 
 std::string listed(const std::set<std::string>& values) { return fmt::format("{}", fmt::join(values, ", ")); }
 
-/// What a run tells in a number; 0 if it does not.
+/// A number in a run's metadata; 0 if it is missing.
 long long count_of(const ReportedRun& run, const std::string& key) {
   return run.metadata.contains(key) && run.metadata.at(key).is_number_integer() ? run.metadata.at(key).get<long long>()
                                                                                 : 0;
@@ -101,7 +101,7 @@ std::string duration_in_words(double seconds) {
                                                        : fmt::format("{:.1f} minutes", seconds / seconds_per_minute);
 }
 
-/// Seconds since 1970 when the last of all runs ended; none if one does not tell how long it took.
+/// Seconds since 1970 when the last of all runs ended; none if a duration is missing.
 std::optional<double> last_end(const ResultsFolder& results) {
   std::optional<double> last;
   for (const ReportedRun& run : results.runs) {
@@ -130,7 +130,7 @@ std::string times_in_words(const ResultsFolder& results) {
                        : words;
 }
 
-/// What was compared, in a sentence.
+/// The extent of the comparison, in a sentence.
 std::string comparison_html(const ResultsFolder& results) {
   std::size_t rows = 0;
   for (const ReportedTable& table : results.tables) rows += table.table.rows().size();

@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
   return files;
 }
 
-/// The motions that a run has written, by what its metadata tell; nothing where they tell nothing.
+/// The motions that a run has written, by its metadata; nothing where they name none.
 Json motions_of(const ReportedRun& run) {
   Json motions = run.metadata.value("motions", Json::array());
   if (!motions.is_array()) return Json::array();
@@ -72,7 +72,7 @@ void read_motions(const std::filesystem::path& folder, ResultsFolder& results) {
   }
 }
 
-/// Throws `Error` unless what every section reads of a run's metadata is of its type.
+/// Throws `Error` unless the metadata that every section reads have their types.
 void require_types(const JsonPlace& metadata) {
   static_cast<void>(metadata.at("command_line").texts());
   if (metadata.has("complete")) static_cast<void>(metadata.at("complete").boolean());
@@ -92,7 +92,7 @@ void read_runs(const std::filesystem::path& folder, ResultsFolder& results) {
   }
 }
 
-/// The run whose metadata tell of a table.
+/// The run whose metadata describe a table.
 std::string run_of(const std::string& file, const std::vector<ReportedRun>& runs) {
   for (const ReportedRun& run : runs) {
     if (run.metadata.contains("tables") && run.metadata.at("tables").contains(file)) return run.name;

@@ -11,7 +11,7 @@
 
 namespace dmocbench {
 
-/// A run that wrote into a results folder, by what its metadata tell.
+/// A run that wrote into a results folder, by its metadata.
 struct ReportedRun {
   std::string name;
   nlohmann::ordered_json metadata;
@@ -20,7 +20,7 @@ struct ReportedRun {
 /// A table of a results folder.
 struct ReportedTable {
   std::string file;  ///< without folder
-  std::string run;   ///< whose metadata tell of it; empty if none do
+  std::string run;   ///< the run whose metadata describe it; empty if none do
   Table table;
 };
 
@@ -33,7 +33,7 @@ struct ReportedFigure {
 /// A motion's picture: where points are at the nodes.
 struct ReportedMotion {
   std::string problem;
-  std::string method;  ///< empty if no row tells
+  std::string method;  ///< empty if no row names it
   Table picture;
 };
 
@@ -47,7 +47,7 @@ struct ResultsFolder {
   Table claim_rows;                 ///< by which rows of which tables: claim, table, records, columns
   std::vector<std::string> faults;  ///< files that are there and cannot be shown, a sentence each
 
-  /// The metadata of a run; null if there are none of that name.
+  /// The metadata of a run; null if there are none.
   [[nodiscard]] const nlohmann::ordered_json* metadata_of(const std::string& run) const;
 };
 

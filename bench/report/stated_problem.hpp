@@ -11,7 +11,7 @@ namespace dmocbench {
 struct StatedFormula {
   std::string name;
   Expression value;
-  std::string relation;  ///< what holds of the value, as MathML: "≥ 0"; empty if nothing does
+  std::string relation;  ///< the condition on the value, as MathML: "≥ 0"; empty if nothing does
 };
 
 /// A problem's formulas as it states them, traced, with the parameters that may vary as letters and not as numbers.
@@ -24,7 +24,7 @@ struct StatedProblem {
   std::vector<Letter> letters;
   /// Names of the inputs of `along`, as MathML: the letters, q, q̇, u and t.
   std::vector<std::string> inputs;
-  /// C, L, the components of f, then those of h.
+  /// C, L, the components of f, then of h.
   std::vector<StatedFormula> along;
   /// Names of the inputs of `at_ends`: the letters, q(0), q̇(0), q(T), q̇(T) and T.
   std::vector<std::string> end_inputs;

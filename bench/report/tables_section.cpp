@@ -14,16 +14,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the columns mean, to be opened; nothing where nobody tells.
+/// The meanings of the columns, to be opened; nothing where they are unknown.
 std::string meanings_html(const std::vector<std::string>& columns, const Json* metadata, const std::string& file) {
   std::string html;
   for (const std::string& column : columns) {
     const std::string words = meaning_in_words(metadata, file, column);
     if (!words.empty()) html += fmt::format("<dt>{}<dd>{}\n", escaped(column), escaped(words));
   }
-  return html.empty()
-             ? ""
-             : "<details class=\"columns\"><summary>What the columns mean</summary><dl>\n" + html + "</dl></details>\n";
+  return html.empty() ? ""
+                      : "<details class=\"columns\"><summary>Meaning of the columns</summary><dl>\n" + html +
+                            "</dl></details>\n";
 }
 
 std::string table_html(const ReportedTable& reported, const Json* metadata, const std::string& folder) {
@@ -60,7 +60,7 @@ std::string tables_section(const ResultsFolder& results, const std::string& fold
       "<section id=\"tables\"><h2>Tables</h2>\n<p>A row is one solve where there is a status; rows that were not "
       "solved are marked. A column's unit stands in its head, its meaning above the table. The files with all rows are "
       "not in this page but {}: a page that is sent alone does not bring them.</p>\n",
-      folder.empty() ? "beside it" : escaped("in the folder " + folder + " beside it"));
+      folder.empty() ? "next to it" : escaped("in the folder " + folder + " next to it"));
   for (const ReportedTable& table : results.tables) html += table_html(table, results.metadata_of(table.run), folder);
   return html + "</section>\n";
 }
