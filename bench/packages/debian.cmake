@@ -1,5 +1,5 @@
 # Debian packages: `cpack -G DEB` in the build folder makes `dmocbench`, the program with its figures, `libdmocbench0`, the
-# shared library with an interface in C, and `libdmocbench-dev`, what programs are compiled with. What belongs to a package is what `cmake --install` installs of a component; man pages and what Debian asks
+# shared library with an interface in C, and `libdmocbench-dev`, the headers and libraries for compiling. A package holds the files that `cmake --install` installs for a component; man pages and the files that Debian requires
 # of every package are added by `complete_debian`.
 include_guard(GLOBAL)
 
@@ -17,7 +17,7 @@ if(DMOCBENCH_EXTENSIONS)
 endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
 
-# Whoever builds a package maintains it: DEBFULLNAME and DEBEMAIL, as for Debian's own tools, or git's user.
+# The builder of a package is its maintainer: DEBFULLNAME and DEBEMAIL, as for Debian's own tools, or git's user.
 function(dmocbench_ask_who variable environment git_name otherwise)
   set(answer "$ENV{${environment}}")
   if(NOT answer)
@@ -68,7 +68,7 @@ A shared library with an interface in C, dmocbench.h, that Python, Julia,
 Rust and others reach without a compiler: make a problem by its name, set its
 parameters, solve it, get arrays.")
 
-# The static libraries bring nothing with them: who links them needs what they were compiled with.
+# The static libraries bring nothing with them: linking them needs the libraries they were compiled with.
 set(adolc)
 get_property(with_adolc GLOBAL PROPERTY DMOCBENCH_WITH_ADOLC)
 if(with_adolc)
@@ -88,6 +88,6 @@ forces and costs with exact derivatives, DMOC, collocation and shooting,
 solvers, diagnostics, and dmocbench_add_problems, which makes a library of
 problems of one's own for the program dmocbench.")
 
-set(CPACK_DMOCBENCH_SOURCE ${PROJECT_SOURCE_DIR}) # what begins with CPACK_ reaches the script
+set(CPACK_DMOCBENCH_SOURCE ${PROJECT_SOURCE_DIR}) # names that begin with CPACK_ reach the script
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/complete_debian.cmake)
 include(CPack)
