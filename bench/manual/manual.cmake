@@ -1,5 +1,5 @@
-# The manual, by Doxygen: `cmake --build build --target manual`. What it documents is what is installed: the headers of all
-# targets of the package, and the Markdown pages beside the code.
+# The manual, by Doxygen: `cmake --build build --target manual`. It documents the installed files: the headers of all
+# targets of the package, and the Markdown pages next to the code.
 get_property(targets GLOBAL PROPERTY DMOCBENCH_TARGETS)
 set(inputs)
 if(DMOCBENCH_EXTENSIONS)
@@ -13,7 +13,7 @@ foreach(target IN LISTS targets ITEMS dmocbench_experiment)
     list(APPEND inputs ${header})
   endforeach()
 endforeach()
-list(FILTER inputs INCLUDE REGEX "^${PROJECT_SOURCE_DIR}/") # not what the build makes
+list(FILTER inputs INCLUDE REGEX "^${PROJECT_SOURCE_DIR}/") # no files made by the build
 list(FILTER inputs EXCLUDE REGEX "^${PROJECT_BINARY_DIR}/")
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/methods/*.md ${PROJECT_SOURCE_DIR}/bench/*.md
      ${PROJECT_SOURCE_DIR}/plots/*.md ${PROJECT_SOURCE_DIR}/tests/tutorials/*.md)
