@@ -134,7 +134,7 @@ void read_motion(dmocbench_solution& result, const Problem& problem) {
   }
 }
 
-/// Reads, judges and keeps what the handle's program and solution tell.
+/// Reads, judges and keeps the results of the handle's program and solution.
 std::unique_ptr<dmocbench_solution> told(std::unique_ptr<dmocbench_solution> result, const Problem& problem) {
   read_motion(*result, problem);
   keep_numbers(*result);

@@ -19,7 +19,7 @@ namespace dmocbench {
   }
   if (family_of(cases.front().method).is_condensed) {
     throw Error(
-        "what single_shooting simulates cannot be written as formulas of its unknowns; multiple_shooting is the same "
+        "single_shooting simulates and cannot be written as formulas of its unknowns; multiple_shooting is the same "
         "program with the nodes as unknowns");
   }
   return cases.front();

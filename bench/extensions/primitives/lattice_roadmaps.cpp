@@ -45,7 +45,7 @@ Eigen::VectorXd cells(Eigen::Index n, double configuration, double velocity) {
   return sizes;
 }
 
-/// What DMOC finds from the problem's guess.
+/// The answer of DMOC from the problem's guess.
 Trajectory first_motion(const Problem& problem, const PrimitiveOptions& options) {
   constexpr int intervals = 64;
   const Case the_case{.problem = {std::shared_ptr<const Problem>(), &problem},  // not owned

@@ -22,7 +22,7 @@ struct TimedRoadmap {
   bool is_read = false;  ///< from a file; else built
 };
 
-/// What a plan is measured by.
+/// Options of the comparison of a plan.
 struct PlanOptions {
   int repeats = 21;        ///< of the search, for its time
   double amplitude = 0.5;  ///< of the perturbed guesses of multi-start, as in `perturbed`
@@ -36,7 +36,7 @@ struct MultiStart {
   std::optional<double> best = {};  ///< least cost of those that are motions
 };
 
-/// A plan on a roadmap, what a full solve makes of it, and what multi-start finds in the same time.
+/// A plan on a roadmap, the full solve that starts from it, and the best of multi-start in the same time.
 struct PlannedMotion {
   std::shared_ptr<const Problem> problem;
   const RoadmapSystem* system = nullptr;
@@ -51,7 +51,7 @@ struct PlannedMotion {
 };
 
 /// Plans, refines by DMOC on the system's grid, and lets multi-start have the same time on the same program. Throws
-/// `Stopped` where `solver_options` ask for a stop.
+/// `Stopped` where `solver_options` request a stop.
 [[nodiscard]] PlannedMotion plan_and_refine(const std::shared_ptr<const Problem>& problem, const RoadmapSystem& system,
                                             TimedRoadmap roadmap, const PlanOptions& options,
                                             const SolverOptions& solver_options);

@@ -1,5 +1,5 @@
-// Global minima by roadmaps of DMOC primitives (section 5 of the paper): plans, what a full solve makes of them, and
-// multi-start beside it.
+// Global minima by roadmaps of DMOC primitives (section 5 of the paper): plans, full solves that start from them, and
+// multi-start for comparison.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -38,7 +38,7 @@ std::optional<double> cost_of(const std::optional<Trajectory>& motion) {
 
 const Columns<PlannedMotion> columns{
     {"problem", "", "name of the problem", [](const PlannedMotion& p) { return p.problem->name(); }, in_key},
-    {"states", "", "what the nodes are", [](const PlannedMotion& p) { return p.system->nodes; }},
+    {"states", "", "kind of the nodes", [](const PlannedMotion& p) { return p.system->nodes; }},
     {"horizontal", "", "x of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).x; }},
     {"vertical", "", "y of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).y; }},
     {"primitives", "", "in the library", [](const PlannedMotion& p) { return stored_of(p).library.primitives.size(); }},
@@ -150,7 +150,7 @@ int run(int argc, char** argv) {
   return run_program(
       "primitives",
       "Roadmaps of short DMOC solves between trims or states: nodes, edges and time to build; the time of a search; "
-      "the cost of the path found, before and after a full solve that starts there, beside the optimum that the "
+      "the cost of the path found, before and after a full solve that starts there, compared with the optimum that the "
       "problem states and the best of many perturbed guesses in the same total time (primitives.csv; motions and nodes "
       "in primitives_picture.csv).",
       argc, argv, measure_all);

@@ -1,4 +1,4 @@
-// Roadmaps of DMOC primitives: whether what they lead to is the global minimum, and how long a plan takes.
+// Roadmaps of DMOC primitives: whether they lead to the global minimum, and how long a plan takes.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -27,7 +27,7 @@ std::string shares_of(const Selection& rows, const char* column) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// Whether plans take less than what counts as real time, by the intervals of their medians.
+/// Whether plans are within the limit of real time, by the intervals of their medians.
 ClaimVerdict verdict_on_time(const Selection& rows) {
   double smallest = 0.0;  // that the slowest plan may take
   double largest = 0.0;

@@ -124,13 +124,13 @@ std::vector<RoadmapNode> nodes_from(const JsonPlace& content, const PrimitiveLib
 RoadmapJson checked_content(std::string_view text) {
   RoadmapJson json = json_in(std::string(text), "it");
   const JsonPlace place(json, "its JSON");
-  if (!place.has("format") || json["format"] != roadmap_format) throw Error("it is no roadmap");
+  if (!place.has("format") || json["format"] != roadmap_format) throw Error("it is not a roadmap");
   if (const JsonPlace version = place.at("version"); version.json() != roadmap_version) {
     throw Error(fmt::format("it has version {}, this program reads version {}", version.number(), roadmap_version));
   }
   const RoadmapJson& content = place.at("content").json();
   if (place.at("crc32").text() != fmt::format("{:08x}", crc_32(content.dump()))) {
-    throw Error("it is damaged: its checksum is that of another content");
+    throw Error("it is damaged: its checksum does not fit its content");
   }
   return content;
 }
@@ -150,7 +150,7 @@ StoredRoadmap roadmap_from(const JsonPlace& content, const Problem& problem) {
                        .start = number_from(content.at("start")),
                        .goal = number_from(content.at("goal"))};
   if (std::max(stored.start, stored.goal) >= stored.roadmap.nodes().size()) {
-    throw Error("it is damaged: start or goal is no node");
+    throw Error("it is damaged: start or goal is not a node");
   }
   return stored;
 }

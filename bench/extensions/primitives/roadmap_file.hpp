@@ -18,7 +18,7 @@ namespace dmocbench {
 //                      "duration": STEPS, "cost": J, "q": [[...], ...], "v": [[...], ...], "u": [[...], ...]}, ...],
 //      "nodes": [{"state": STATE, "linear": [[...], ...], "shift": [...]}, ...],
 //      "edges": [[FROM, TO, PRIMITIVE], ...], "start": NODE, "goal": NODE}}
-// Tables are row by row; numbers count from 0; "crc32" is that of the content without blanks.
+// Tables are row by row; numbers count from 0; "crc32" is the checksum of the content without blanks.
 
 /// The text of such a file.
 [[nodiscard]] std::string roadmap_text(const StoredRoadmap& stored);

@@ -22,7 +22,7 @@ struct PicturePoint {
 
 [[nodiscard]] Columns<PicturePoint> picture_columns();
 
-/// What x and y of the points of a plan are, in words with their unit.
+/// The meanings of x and y of the points of a plan, in words with their unit.
 struct PictureAxes {
   std::string x;
   std::string y;

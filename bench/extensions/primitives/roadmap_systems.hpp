@@ -10,18 +10,18 @@
 
 namespace dmocbench {
 
-/// Builds the roadmap of a problem. Throws `Error` if it cannot, `Stopped` where the options ask for a stop.
+/// Builds the roadmap of a problem. Throws `Error` if it cannot, `Stopped` where the options request a stop.
 using BuildRoadmap = std::function<StoredRoadmap(const Problem& problem, const PrimitiveOptions& options)>;
 
 /// A problem with its primitives.
 struct RoadmapSystem {
   std::string problem;
-  std::string nodes;  ///< what the nodes are, in a few words
+  std::string nodes;  ///< kind of the nodes, in a few words
   BuildRoadmap build;
   int intervals = 64;  ///< of the full solve
   int stages = 2;      ///< of its Gauss tableau
   /// Its picture is the plane of q_1 and q_2, or of q_1 and its velocity where there is no other configuration; not
-  /// that of the first two quantities of `ProblemCard::picture`.
+  /// the plane of the first two quantities of `ProblemCard::picture`.
   bool shows_configurations = false;
 };
 
@@ -44,7 +44,7 @@ struct RoadmapSystem {
 [[nodiscard]] StoredRoadmap acrobot_roadmap(const Problem& problem, const PrimitiveOptions& options);
 
 /// Any problem: a lattice of states, whose cells are a share of the ranges of the motion that DMOC finds from the
-/// problem's guess, and whose controls go a little beyond those of that motion. Throws `Error` if there is none, or as
+/// problem's guess, and whose controls go a little beyond that motion's. Throws `Error` if there is none, or as
 /// `lattice_roadmap`.
 [[nodiscard]] StoredRoadmap roadmap_along_a_motion(const Problem& problem, const PrimitiveOptions& options);
 

@@ -15,14 +15,14 @@ namespace {
 
 constexpr int steps_of_rotation = 16;  // of the horizon
 constexpr int intervals_of_rotation = 4;
-/// From the rate of the first trim to that of the last one in so many equal parts.
+/// From the first trim's rate to the last one's in so many equal parts.
 constexpr int parts_of_rates = 4;
 
-/// Trims at the rates ω_k = ω_0 + kδ, ω_0 that of the problem's first state and ω_K, K = `parts_of_rates`, that of its
+/// Trims at the rates ω_k = ω_0 + kδ, ω_0 the rate of the problem's first state and ω_K, K = `parts_of_rates`, of its
 /// last; k = -1 .. K + 1.
 ///
 /// In a time step Δ trim k turns by ω_0 Δ + kδΔ: seen from a frame that turns at the rate ω_0, angles stay on a lattice
-/// of the width δΔ. That of trim K is moved to where it holds the goal.
+/// of the width δΔ. The lattice of trim K is shifted so that it holds the goal.
 class TurningTrims {
  public:
   explicit TurningTrims(const Problem& problem)
@@ -53,8 +53,8 @@ class TurningTrims {
 
   [[nodiscard]] const std::vector<Trim>& trims() const noexcept { return trims_; }
   [[nodiscard]] double step() const noexcept { return step_; }
-  /// By the angle that lies `places` of the lattice beyond what trim 0 turns by in so many time steps, from the lattice
-  /// of trim `from` to that of trim `to`.
+  /// By the angle that lies `places` of the lattice beyond the turn of trim 0 in so many time steps, from the lattice
+  /// of trim `from` to the lattice of trim `to`.
   [[nodiscard]] Displacement turn(int from, int to, int duration, int places) const {
     const double between = (to == parts_of_rates ? last_offset_ : 0.0) - (from == parts_of_rates ? last_offset_ : 0.0);
     return by_angle(first_rate_ * step_ * duration + places * width() + between);

@@ -10,7 +10,7 @@
 
 namespace dmocbench {
 
-/// A library whose states are those of trims.
+/// A library whose states are trims.
 [[nodiscard]] PrimitiveLibrary library_of_trims(const Problem& problem, const std::vector<Trim>& trims, double step,
                                                 int intervals_per_step);
 

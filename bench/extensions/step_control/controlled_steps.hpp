@@ -11,7 +11,7 @@ namespace dmocbench {
 
 /// How steps are chosen: all equal, or by a `StepRule`.
 enum class StepPolicy : std::uint8_t { uniform, variational, imposed, from_left };
-/// What σ reads.
+/// The quantity that σ reads.
 enum class SigmaReads : std::uint8_t { nothing, distance, acceleration, thrust };
 
 /// "uniform", "variational", "imposed" or "from_left".

@@ -1,5 +1,5 @@
-// Transfers by low thrust over many revolutions (section 4.2.1 of the paper with a long horizon): what few steps per
-// revolution cost.
+// Transfers by low thrust over many revolutions (section 4.2.1 of the paper with a long horizon): the cost of few steps
+// per revolution.
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -56,8 +56,7 @@ const Columns<Measured> columns =
         {"branch", "", "same as the reference's, or other", &Measured::branch},
         {"iterations", "", "of interior_point", &Measured::iterations},
         {"objective", "", "cost J", &Measured::objective},
-        {"reference", "",
-         "what errors are measured against: the indirect solution, or a fine grid on which two methods agree",
+        {"reference", "", "reference of the errors: the indirect solution, or a fine grid on which two methods agree",
          &Measured::reference},
         {"reference_digits", "", "digits that two routes to the reference share", &Measured::digits},
         {"cost_error", "", "|J - J_ref| / J_ref", from(errors, &TransferErrors::cost)},

@@ -16,8 +16,8 @@ std::vector<Selection> by_revolutions(const ResultTables& tables, const std::str
   return tables.rows("low_thrust", problem).group_by({"revolutions"});
 }
 
-/// The solved rows of a method with one number of revolutions, coarsest first. Errors below what the reference is
-/// certified to say nothing and are left out.
+/// The solved rows of a method with one number of revolutions, coarsest first. Errors below the certified accuracy of
+/// the reference mean nothing and are left out.
 Selection over_steps(const Selection& of_revolutions, const char* method, const char* error) {
   const auto says_something = [&](const Row& row) {
     constexpr double above = 10.0;
@@ -30,7 +30,7 @@ Selection over_steps(const Selection& of_revolutions, const char* method, const 
   return rows;
 }
 
-/// The fewest steps per revolution from which on an error of one method is `factor` times that of a better one;
+/// The fewest steps per revolution from which on an error of one method is `factor` times the error of a better one;
 /// none if it is not on the finest grid.
 std::optional<double> pays_from(const Selection& of_revolutions, const char* better, const char* other,
                                 const char* error, double factor) {
@@ -45,7 +45,7 @@ std::optional<double> pays_from(const Selection& of_revolutions, const char* bet
   return from;
 }
 
-/// Whether a method pays beside another one from so many steps per revolution on, whatever the number of revolutions.
+/// Whether a method pays compared with another one from so many steps per revolution on, for any number of revolutions.
 Finding pays(const ResultTables& tables, const std::string& problem, const char* better, const char* other,
              const char* error, double factor, double wanted) {
   std::vector<std::string> words;
@@ -56,7 +56,7 @@ Finding pays(const ResultTables& tables, const std::string& problem, const char*
     words.push_back(fmt::format("with {} revolutions {}", rows.front().text("revolutions"),
                                 from ? fmt::format("from {:g} steps on", *from) : "never"));
   }
-  return found(always, "{} of {} at least {:g} times that of {}: {}", error, other, factor, better,
+  return found(always, "{} of {} at least {:g} times as large as of {}: {}", error, other, factor, better,
                fmt::join(words, ", "));
 }
 
@@ -84,7 +84,7 @@ Finding pays_in_momentum_alone(const ResultTables& tables, const std::string& pr
   return found(
       farthest < same && least > clearly_worse,
       "on {} grids cost and replay errors differ by a factor of at most {:.2f}; angular momentum over the whole "
-      "horizon less work: that of tangent-space collocation is at least {:.1f} times DMOC's",
+      "horizon less work: of tangent-space collocation at least {:.1f} times DMOC's",
       compared, farthest, least);
 }
 
@@ -115,8 +115,9 @@ Claims low_thrust_claims() {
       {.id = "low_thrust_structure_pays_beside_explicit",
        .problems = only_orbit,
        .where = "section 4.2.1, with many revolutions",
-       .states = "beside shooting by the explicit midpoint rule, of the same order, DMOC has the smaller state error "
-                 "from 8 steps per revolution on",
+       .states =
+           "compared with shooting by the explicit midpoint rule, of the same order, DMOC has the smaller state error "
+           "from 8 steps per revolution on",
        .judge = pays_beside_explicit,
        .evidence = evidence},
       {.id = "low_thrust_order_pays_more",

@@ -22,7 +22,7 @@ class ReferenceTransfer {
  public:
   static constexpr double wanted_digits = 9.0;
 
-  /// `problem` is the name of one with the parameter `revolutions`. Throws `Error` if there is none of that name or
+  /// `problem` is the name of one with the parameter `revolutions`. Throws `Error` if there is no such problem or
   /// with so many revolutions, or no optimum is found.
   ReferenceTransfer(const std::string& problem, int revolutions, const SolverOptions& options);
 

@@ -13,7 +13,7 @@
 
 namespace dmocbench::step_control_program {
 
-/// What is measured of a choice of steps along an ellipse.
+/// The measurements of a choice of steps along an ellipse.
 template <class Result>
 struct OnEllipse {
   StepChoice choice;
@@ -34,7 +34,7 @@ struct Order {
 };
 using ErrorOrder = OnEllipse<Order>;
 
-/// The eccentricity as it was asked for, without the digits of its rounding.
+/// The eccentricity as given, without the digits of its rounding.
 template <class Record>
 FieldReader<Record> eccentricity_of() {
   return {[](const Record& row) { return Cell(fmt::format("{:g}", row.eccentricity)); },
@@ -264,7 +264,7 @@ int run(int argc, char** argv) {
       "Step sizes that are proportional to a function of the motion along Kepler ellipses, as a constraint of the "
       "variational principle, imposed on plain DMOC, and known before each step: the symplectic form of the extended "
       "map (step_control_symplecticity.csv), momentum against work (step_control_momentum.csv), the energy over many "
-      "periods (step_control_energy.csv, step_control_energy_behaviour.csv), errors of a period beside uniform steps "
+      "periods (step_control_energy.csv, step_control_energy_behaviour.csv), errors of a period and of uniform steps "
       "(step_control.csv, step_control_slopes.csv), and the optimal transfer between ellipses "
       "(step_control_transfer.csv).",
       argc, argv, measure_all);

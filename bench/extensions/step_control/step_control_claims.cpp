@@ -1,4 +1,4 @@
-// Step sizes tied to the motion: what the variational route keeps that the imposed one loses, and what it costs.
+// Step sizes tied to the motion: the invariants that only the variational route keeps, and its cost.
 #include <cmath>
 #include <limits>
 
