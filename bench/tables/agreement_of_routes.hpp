@@ -15,8 +15,8 @@ struct RouteAgreement {
   int digits = 0;            ///< that all routes share, 0 .. 16
   int reference_digits = 0;  ///< that all routes share with the reference, 0 .. 16
   /// "yes": all routes confirm every digit that the reference states; "to N digits": they confirm it as far as they
-  /// agree among themselves and from grid to grid, which is less; "no": they do not; "not told by one grid": they do
-  /// not, and nobody knows whether that is an error of the grid; "" without a reference or with less than two routes.
+  /// agree among themselves and from grid to grid, which is less; "no": they do not; "not settled by one grid": they do
+  /// not, which may be an error of the grid; "" without a reference or with less than two routes.
   std::string confirmed = {};
 };
 

@@ -21,7 +21,7 @@ const ColumnNames cell_columns{"problem", "method", "tableau", "stages", "solver
 
 bool was_no_motion(const Row& row) { return is_no_motion(status_named(row.text("status"))); }
 
-/// The cost that tells which answers are the best.
+/// The cost by which answers count as the best.
 struct BestCost {
   std::optional<double> cost;  ///< none if nothing is confirmed
   const char* kind = "none";
@@ -48,7 +48,7 @@ std::vector<double> sorted_numbers(const Selection& rows, const std::string& col
   return numbers;
 }
 
-/// A column of the shares, the column of the solves that it summarises, and what that means.
+/// A column of the shares, the column of the solves that it summarises, and its meaning.
 struct Effort {
   const char* name;
   const char* column;
@@ -83,10 +83,10 @@ Columns<EndsOfCell> share_columns(const std::string& name, const std::string& me
           {name + "_upper", "", "of the same interval", from(count, wilson_interval, &ShareInterval::upper)}};
 }
 
-/// Every row of the tables says so itself.
+/// A column of every row of the tables.
 template <class Record>
 Column<Record> start_kind_column() {
-  return {"start_kind", "", "what solves start from", [](const Record& /*record*/) { return "cold"; }, in_key};
+  return {"start_kind", "", "kind of start of the solves", [](const Record& /*record*/) { return "cold"; }, in_key};
 }
 
 Columns<EndsOfCell> columns_of_ends() {
@@ -198,7 +198,7 @@ Columns<BudgetPoint> profile_columns() {
   return head_columns<BudgetPoint>(cell_columns, in_key) +
          Columns<BudgetPoint>{
              start_kind_column<BudgetPoint>(),
-             {"measure", "", "what the budget is counted in", &BudgetPoint::measure, in_key},
+             {"measure", "", "measure of the budget", &BudgetPoint::measure, in_key},
              {"budget", "", "largest number of evaluations, or of seconds, that a solve may take", &BudgetPoint::budget,
               in_key},
              {"share", "", "of all starts that are solved and confirmed within the budget", &BudgetPoint::share}};

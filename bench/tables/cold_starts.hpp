@@ -10,16 +10,16 @@ namespace dmocbench {
 /// The counts best, elsewhere, too_coarse and lost add up to `starts`. An answer is
 /// - solved if it is an optimum of the discrete program, confirmed by our own KKT residual;
 /// - confirmed if besides each of its intervals, replayed alone, joins the next (`accuracy`); otherwise too_coarse;
-/// - best if it is confirmed and its cost is not above that of the reference by more than `tolerance`, relative;
+/// - best if it is confirmed and its cost is not above the reference's by more than `tolerance`, relative;
 ///   otherwise elsewhere. The reference is `reference_objective` of the rows; where they have none, the lowest
 ///   confirmed cost on that grid by any method and solver.
 /// `below_reference` counts the best ones whose cost is below the reference by more than the tolerance. Shares are of
-/// all starts, with Wilson's 95 % interval; quartiles of iterations, evaluations and seconds are those of the best
+/// all starts, with Wilson's 95 % interval; quartiles of iterations, evaluations and seconds are of the best
 /// answers.
 [[nodiscard]] Table cold_start_shares(const Selection& rows, double tolerance);
 
 /// Data profiles after Moré and Wild: the share of all starts that are solved and confirmed within a budget of
-/// `evaluations` or `seconds`. Curves are steps; those of one problem and solver end at one budget. The problem
+/// `evaluations` or `seconds`. Curves are steps; curves of one problem and solver end at one budget. The problem
 /// `every_problem` is the mean of the problems' shares, where there are several.
 [[nodiscard]] Table cold_start_profiles(const Selection& rows);
 

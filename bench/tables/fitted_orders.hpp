@@ -37,14 +37,14 @@ struct FittedOrders {
 [[nodiscard]] FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range,
                                       long long reference);
 
-/// How the worst interval (`accuracy`, which needs no other solution) tells the true error: a row per curve of a
+/// How the worst interval (`accuracy`, which needs no other solution) predicts the true error: a row per curve of a
 /// convergence table against an exact reference.
 ///
 /// Both slopes, of `largest_jump` and of the state error, are fitted on the same grids: those where both are above
 /// their floors by the rules of `fit_orders`.
 /// `error_of_jumps` is the state error divided by N times the jump:
 /// it does not depend on N where the slopes are one order apart, because an error is the sum of N jumps that the motion
-/// carries on. With one stage they are. With s > 1 the order of the error is 2s and that of the jumps lies between
+/// carries on. With one stage they are. With s > 1 the order of the error is 2s and the order of the jumps lies between
 /// s + 2, of the stage controls, and 2s + 1.
 [[nodiscard]] Table fit_jumps(const Selection& convergence);
 

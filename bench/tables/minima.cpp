@@ -125,7 +125,7 @@ Columns<StartsOfMethod> best_share_columns() {
                          {"solved", "", "how many were solved", &Starts::solved},
                          {"unsolved", "", "how many were not solved",
                           [](const Starts& starts) { return starts.best.trials - starts.solved; }},
-                         {"unconfirmed", "", "how many ended in a minimum that is no motion", &Starts::unconfirmed},
+                         {"unconfirmed", "", "how many ended in a minimum that is not a motion", &Starts::unconfirmed},
                          {"best", "", "how many ended in the best minimum", from(&Starts::best, &ShareCount::hits)},
                          {"share", "", "best by starts", from(&Starts::best, &ShareCount::share)},
                          {"share_lower", "", "Wilson's interval of 95 % of the share",

@@ -18,7 +18,7 @@ namespace dmocbench {
 /// How often each method found the best minimum.
 [[nodiscard]] Table best_minimum_shares(const Selection& rows, double separation);
 
-/// What each start of a plane of them ended in: of the minima in `distinct_minima`.
+/// The minimum, of `distinct_minima`, in which each start of a plane of them ended.
 [[nodiscard]] Table basins(const Selection& rows, double separation);
 
 /// The largest error of a replay of the whole horizon that ends near the final state.

@@ -21,7 +21,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 const ColumnNames competitor_columns{"method", "tableau", "stages", "solver", "derivatives"};
 
-/// What every competitor takes on every instance, by one measure; `never` where it failed, has no row or does not tell.
+/// Every competitor's effort on every instance, by one measure; `never` where it failed or has no row or no value.
 struct Contest {
   std::vector<Row> competitors;            // their names, in the order of the rows
   std::vector<std::vector<double>> taken;  // instance, competitor
@@ -55,16 +55,16 @@ struct ProfilePoint {
 
 Columns<ProfilePoint> point_columns() {
   using Point = ProfilePoint;
-  return Columns<Point>{{"measure", "", "what the profile is drawn of", &Point::measure}} +
+  return Columns<Point>{{"measure", "", "measure of the profile", &Point::measure}} +
          head_columns<Point>(competitor_columns) +
          Columns<Point>{
-             {"ratio", "", "what a competitor takes by what the best one takes on the same instance", &Point::ratio},
+             {"ratio", "", "effort of a competitor by the best one's on the same instance", &Point::ratio},
              {"share", "", "of all instances on which the competitor stays within the ratio", &Point::share}};
 }
 
-/// What a competitor takes by one measure.
+/// A competitor's effort by one measure.
 struct MeanEffort {
-  std::optional<double> mean;  ///< infinite where the solver does not tell the measure
+  std::optional<double> mean;  ///< infinite where the solver does not report the measure
   std::ptrdiff_t wins = 0;
 };
 
@@ -193,7 +193,7 @@ Table performance_profiles(const Selection& rows) {
 }
 
 Table profile_summary(const Selection& rows) {
-  // Who succeeded where does not depend on what is measured; every solved row has an objective.
+  // Successes do not depend on the measure; every solved row has an objective.
   const Contest successes = contest_of(rows, "objective");
   std::vector<std::size_t> common;
   for (std::size_t i = 0; i < successes.taken.size(); ++i) {

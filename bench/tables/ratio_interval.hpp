@@ -32,13 +32,13 @@ struct RatioInterval {
 /// number above zero.
 [[nodiscard]] RatioInterval ratio_interval(std::span<const double> ratios);
 
-/// The ratio of the medians of two times that were not measured in turn, such as those of two runs. Its interval comes
-/// from the bootstrap, which draws the rounds of either anew by itself; `rounds` is the smaller number of rounds. What
-/// else slowed the machine during one of the runs is in the ratio. Throws `Error` without times or if one is not a
-/// finite number above zero.
+/// The ratio of the medians of two times that were not measured in turn, such as times of two runs. Its interval comes
+/// from the bootstrap, which draws the rounds of either anew by itself; `rounds` is the smaller number of rounds.
+/// Whatever else slowed the machine during one of the runs is in the ratio. Throws `Error` without times or if one is
+/// not a finite number above zero.
 [[nodiscard]] RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others);
 
-/// What was measured round by round, as tables tell it: the median with its interval, and the rounds; empty without
+/// Measurements round by round, as tables show them: the median with its interval, and the rounds; empty without
 /// them.
 struct MedianOfRounds {
   MedianOfRounds() = default;
@@ -52,7 +52,7 @@ struct MedianOfRounds {
 };
 
 /// ratio_lower, ratio_upper and round_ratios, from which the interval comes; `ratios` is a member of the record, or
-/// what `from` takes after one.
+/// the arguments of `from` after one.
 template <class Record, class... Members>
 [[nodiscard]] Columns<Record> round_columns(Members... ratios) {
   return {{"ratio_lower", "", "of the interval of 99 % of the median ratio, where rounds were timed",

@@ -33,7 +33,7 @@ constexpr std::array currencies{
 
 constexpr double steps_per_decade = 2.0;
 
-/// What a method pays for an accuracy.
+/// The cost of an accuracy by a method.
 struct AccuracyCost {
   Row head;
   std::string quantity;
@@ -48,18 +48,18 @@ struct AccuracyCost {
 Columns<AccuracyCost> accuracy_cost_columns() {
   using Paid = AccuracyCost;
   return head_columns<Paid>({"problem", "tableau", "stages"}, in_key) +
-         Columns<Paid>{{"quantity", "", "what is compared", &Paid::quantity, in_key},
+         Columns<Paid>{{"quantity", "", "quantity that is compared", &Paid::quantity, in_key},
                        {"error", "", "that all methods of a problem and tableau reach", &Paid::error, in_key}} +
          head_columns<Paid>({"method"}, in_key) +
          Columns<Paid>{{"intervals", "", "number of intervals N, not always whole where it is read off a curve",
                         &Paid::intervals},
                        {"variables", "", "number of free variables", &Paid::variables},
                        {"seconds", "s", "time of a solve", &Paid::seconds},
-                       {"variables_ratio", "", "variables by those of dmoc at this error", &Paid::variables_ratio},
-                       {"seconds_ratio", "", "seconds by those of dmoc at this error", &Paid::seconds_ratio}};
+                       {"variables_ratio", "", "variables by dmoc's at this error", &Paid::variables_ratio},
+                       {"seconds_ratio", "", "seconds by dmoc's at this error", &Paid::seconds_ratio}};
 }
 
-/// What every method pays if all of them reach the error.
+/// The cost of every method if all of them reach the error.
 void append_equal_accuracy(std::vector<AccuracyCost>& table, const std::vector<Selection>& methods,
                            const std::string& quantity, double error) {
   std::vector<AccuracyCost> all;
@@ -182,7 +182,7 @@ Table currency_ratios(const Selection& iterations) {
     }
   }
   return table_of(compared_cost_columns({"problem", "method", "tableau", "stages", "intervals"}, "currency",
-                                        "what a solve is paid in"),
+                                        "measure of the cost of a solve"),
                   costs);
 }
 

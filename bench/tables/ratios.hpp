@@ -16,7 +16,7 @@ struct ErrorCostPoint {
   double cost = 0.0;
 };
 
-/// The cost of a row; none where it does not tell.
+/// The cost of a row; none where it has no value.
 using Cost = std::function<std::optional<double>(const Row&)>;
 /// The cost that stands in a column.
 [[nodiscard]] Cost cost_in(const std::string& column);
@@ -25,12 +25,12 @@ using Cost = std::function<std::optional<double>(const Row&)>;
 [[nodiscard]] std::vector<ErrorCostPoint> error_cost_points(const Selection& rows, const std::string& error_column,
                                                             const Cost& cost);
 
-/// The cost at which a curve reaches an error: that of the first point whose error has the same logarithm to within
+/// The cost at which a curve reaches an error: the cost of the first point whose error has the same logarithm to within
 /// `same_log_error`, else by straight lines in logarithms between the points; none outside of them.
 [[nodiscard]] std::optional<double> cost_at_error(const std::vector<ErrorCostPoint>& points, double error,
                                                   double same_log_error = 0.0);
 
-/// The cost of a row to that of others on the same number of intervals, and where their error is the same.
+/// The cost of a row relative to others on the same number of intervals, and where their error is the same.
 struct CostRatios {
   std::optional<double> at_equal_intervals;
   std::optional<double> at_equal_accuracy;
@@ -38,26 +38,26 @@ struct CostRatios {
 [[nodiscard]] CostRatios cost_ratios(const Row& row, const Selection& others, const Cost& cost,
                                      const std::string& error_column, double same_log_error = 0.0);
 
-/// A cost of a solve beside DMOC's, as tables tell it.
+/// A cost of a solve compared with DMOC's, as tables show it.
 struct ComparedCost {
   Row head;
-  std::string name;  ///< of what is compared
+  std::string name;  ///< of the compared cost
   CostRatios ratios;
   MedianOfRounds rounds;  ///< of the ratio at equal intervals
 };
 
-/// The columns of a table of compared costs: those of the head, `name`, and the ratios.
+/// The columns of a table of compared costs: the head's, `name`, and the ratios.
 [[nodiscard]] Columns<ComparedCost> compared_cost_columns(const ColumnNames& of_head, const std::string& name,
                                                           const std::string& meaning);
 
-/// What the same accuracy costs each method, from a convergence table.
+/// The cost of equal accuracy by each method, from a convergence table.
 ///
 /// Quantities are the errors of state and control, and the replay error. For errors 10^-k/2 that every method of a
 /// problem and tableau reaches within its grids, the number of intervals, of free variables and the seconds of a solve
 /// are read off the method's curve (straight lines in logarithms between grids). Ratios are to dmoc, where it is there.
 [[nodiscard]] Table equal_accuracy(const Selection& convergence);
 
-/// What collocation costs beside DMOC in every currency of an iterations table.
+/// The cost of collocation compared with DMOC in every currency of an iterations table.
 ///
 /// A currency is a column of the rows of one solver and one kind of start. Accuracy is the replay error. Rows that were
 /// not solved, or lie on another branch, are left out.
