@@ -71,7 +71,7 @@ class Instances {
 
   [[nodiscard]] Transcription& program() const { return *made_.program; }
   [[nodiscard]] const Eigen::VectorXd& start() const { return made_.start; }
-  /// What was drawn for an instance, between -1 and 1.
+  /// The random numbers of an instance, between -1 and 1.
   [[nodiscard]] const Eigen::VectorXd& place(std::size_t index) const { return states_[index].place; }
   void fill(std::size_t index, BatchInstance& instance, const Solution* neighbour = nullptr) {
     instance.start = neighbour == nullptr ? made_.start : neighbour->primal;
@@ -121,7 +121,7 @@ struct BatchCase {
   std::size_t instances = most_instances;
 };
 
-/// What was found out.
+/// The results.
 struct Tally {
   std::vector<double> iterations;
   double solved = 0.0;
@@ -172,7 +172,7 @@ void solve_in_a_loop(Instances& instances, const BatchCase& way, Tally& tally) {
 constexpr std::array phase_names{"tapes", "linear_systems", "line_search", "one_by_one", "exchange", "rest"};
 static_assert(phase_names.size() == batch_phases);
 
-/// What counters tell of a batch: how many instances lanes could not finish, how full lanes were, and the shares of
+/// The counters of a batch: how many instances lanes could not finish, how full lanes were, and the shares of
 /// time by phase.
 void count_batch(benchmark::State& state, const BatchSummary& batch, double turns_of_lanes) {
   if (batch.instances == 0) return;
@@ -184,7 +184,7 @@ void count_batch(benchmark::State& state, const BatchSummary& batch, double turn
   }
 }
 
-/// Every turn solves all instances; its time is that of one of them.
+/// Every turn solves all instances; its time is given per instance.
 void run(benchmark::State& state, const BatchCase& way) {
   set_thread_count(1);
   Instances instances(way.problem, way.start);
@@ -235,7 +235,7 @@ void register_batches() {
 
 constexpr double nanosecond = 1e-9;
 
-/// What a way took for the instances.
+/// The times of a way for the instances.
 struct BatchTimes : Benchmark {
   std::optional<double> ratio = std::nullopt;  ///< to the batch on all threads
 
@@ -271,7 +271,7 @@ Columns<BatchTimes> batch_columns() {
        [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).upper); }},
       {"rate_upper", "1/s", "of the same interval",
        [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).lower); }},
-      {"ratio", "", "seconds by those of the batch on all threads, from the same start", &Times::ratio},
+      {"ratio", "", "seconds by the batch's on all threads, from the same start", &Times::ratio},
       counter_column<Times>("processor_seconds", "s", "time of all processors per instance"),
       counter_column<Times>("median_iterations", "", "of a solve"),
       counter_column<Times>("solved", "", "share of the instances"),

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What Google Benchmark writes of a repetition besides times and counters.
+/// The fields of a repetition in Google Benchmark's file besides times and counters.
 const std::set<std::string, std::less<>> descriptions{"family_index", "per_family_instance_index", "repetitions",
                                                       "repetition_index", "threads"};
 

@@ -11,7 +11,7 @@ namespace dmocbench {
 
 /// All repetitions of a benchmark.
 struct Benchmark {
-  /// What is measured: the words KEY=VALUE of the label (`benchmark::State::SetLabel`).
+  /// The measured case: the words KEY=VALUE of the label (`benchmark::State::SetLabel`).
   std::map<std::string, std::string, std::less<>> labels;
   /// Times in nanoseconds, whatever the file's unit, and counters; NaN for a number that is not finite.
   std::map<std::string, std::vector<double>, std::less<>> numbers;

@@ -35,8 +35,8 @@ class Reporter final : public benchmark::ConsoleReporter {
     for (const Run& run : runs) {
       if (run.repetitions > 1 && run.aggregate_name != "median" && !run.error_occurred) continue;
       Run& line = shown.emplace_back(run);
-      line.report_label.clear();  // the name says the same
-      // The console takes every inverse rate for seconds; a counter that says its unit is printed as a plain number.
+      line.report_label.clear();  // the name has the same words
+      // The console takes every inverse rate for seconds; a counter that names its unit is printed as a plain number.
       for (auto& [name, counter] : line.counters) {
         if ((counter.flags & benchmark::Counter::kInvert) != 0) counter.flags = benchmark::Counter::kDefaults;
       }
@@ -60,7 +60,7 @@ class Reporter final : public benchmark::ConsoleReporter {
   benchmark::JSONReporter json_;
 };
 
-/// False if there is a flag that nobody knows; the library has then said so.
+/// False if a flag is unknown; the library has then reported it.
 bool initialize(const BenchmarkProgram& program, const char* file, const std::vector<std::string>& flags) {
   static std::vector<std::string> arguments;  // the library keeps a pointer to the program's name
   arguments = {file, "--benchmark_repetitions=5", "--benchmark_min_time=0.05",
@@ -75,7 +75,8 @@ bool initialize(const BenchmarkProgram& program, const char* file, const std::ve
   return !benchmark::ReportUnrecognizedArguments(count, pointers.data());
 }
 
-/// Runs what the flags choose and writes its tables. False if they choose nothing; the library has then said so.
+/// Runs the benchmarks chosen by the flags and writes their tables. False if they choose none; the library has then
+/// reported it.
 bool run_and_write(const BenchmarkProgram& program, const std::filesystem::path& csv,
                    const std::vector<std::string>& command_line) {
   const nlohmann::ordered_json description = describe_run({});

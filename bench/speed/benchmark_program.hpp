@@ -20,7 +20,7 @@ using TablesBySuffix = std::vector<std::pair<std::string, Table>>;
 struct BenchmarkProgram {
   std::string name;            ///< of the binary
   std::string description;     ///< a sentence
-  std::string csv = {};        ///< what `--csv` writes, for `--help`
+  std::string csv = {};        ///< the files of `--csv`, for `--help`
   std::string default_filter;  ///< of the benchmarks that run without flags; a "-" in front excludes
   std::function<void()> register_benchmarks;
   std::function<TablesBySuffix(const Benchmarks&)> tables = {};  ///< of a run, for `--csv`
@@ -29,8 +29,8 @@ struct BenchmarkProgram {
   /// each whole or not at all, and their metadata, FILE_tables.json (FILE.json is free for `--benchmark_out`). Returns
   /// the exit code; every error is one line on standard error.
   ///
-  /// The flags are those of this suite (five repetitions, in random order so that a disturbance of a shared machine is
-  /// spread over all benchmarks), then the user's, which win.
+  /// The flags are this suite's (five repetitions, in random order so that a disturbance of a shared machine is
+  /// spread over all benchmarks), then the user's, which take precedence.
   [[nodiscard]] int run(int argc, char** argv) const;
 };
 

@@ -62,7 +62,7 @@ class BenchmarkedFormulas {
   std::vector<double> by_interval_;
 };
 
-/// Those of the paper's problems, DMOC with the midpoint rule; they must outlive the run.
+/// The formulas of the paper's problems, DMOC with the midpoint rule; they must outlive the run.
 using FormulasOfPaper = std::vector<std::unique_ptr<BenchmarkedFormulas>>;
 
 /// The names of `BenchmarkedFormulas::schedules`.

@@ -25,8 +25,8 @@ GuessedProgram chain_of(int links) {
   return {problem, "dmoc", intervals};
 }
 
-/// What an iteration of `interior_point` evaluates at the guess of a chain, and the system that it then eliminates. A
-/// shift makes the Hessian positive definite, as the solver does where it is not.
+/// The evaluations of an iteration of `interior_point` at the guess of a chain, and the system that it then eliminates.
+/// A shift makes the Hessian positive definite, as the solver does where it is not.
 class Iteration {
  public:
   explicit Iteration(const GuessedProgram& made)
@@ -74,7 +74,7 @@ class Iteration {
   std::unique_ptr<kkt::IntervalKkt> kkt_;
 };
 
-/// Adds QUANTITY/LINKS, where `run` times what it is of the chain.
+/// Adds QUANTITY/LINKS, where `run` times that quantity of the chain.
 void add(const std::string& quantity, int links, void (*run)(benchmark::State&, const GuessedProgram&)) {
   const auto run_or_tell = [=](benchmark::State& state) {
     try {
@@ -117,7 +117,7 @@ void register_chains() {
 
 int run_chains(int argc, char** argv) {
   const BenchmarkProgram program{.name = "chains",
-                                 .description = "What an iteration takes with chains of links, over their number.",
+                                 .description = "Time of an iteration with chains of links, over their number.",
                                  .default_filter = ".",
                                  .register_benchmarks = register_chains};
   return program.run(argc, argv);

@@ -1,4 +1,4 @@
-// What makes interior_point faster than Ipopt: one thing is changed at a time. `page` turns the result into factors.md.
+// Why interior_point is faster than Ipopt: one thing is changed at a time. `page` turns the result into factors.md.
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -33,7 +33,7 @@ std::unique_ptr<kkt::KktSystem> by_dissection(NonlinearProgram& program) {
   return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::along_the_horizon);
 }
 
-/// By the kernel for any sizes, which takes those of a plain shape too.
+/// By the kernel for any sizes, which takes plain shapes too.
 std::unique_ptr<kkt::KktSystem> by_intervals_of_any_size(NonlinearProgram& program) {
   auto made = kkt::IntervalKkt::make(program, [](const kkt::Shape& shape) {
     kkt::Shape any = shape;
@@ -97,7 +97,7 @@ void register_factors() {
 
 int run_factors(int argc, char** argv) {
   const BenchmarkProgram program{.name = "factors",
-                                 .description = "What makes interior_point faster than Ipopt, one change at a time.",
+                                 .description = "Why interior_point is faster than Ipopt, one change at a time.",
                                  .default_filter = ".",
                                  .register_benchmarks = register_factors};
   return program.run(argc, argv);

@@ -97,7 +97,7 @@ HandFunctions hand_written(const std::string& problem, InstructionSet set) {
   const Kernels kernels = kernels_of(set);
   if (problem == "orbital_transfer") return kernels.orbital_transfer;
   if (problem == "two_link_manipulator") return kernels.two_link_manipulator;
-  throw Error("nobody wrote the formulas of " + problem + " by hand");
+  throw Error("there are no formulas by hand of " + problem);
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ void register_hand_benchmarks(const FormulasOfPaper& paper) {
           kernel(BenchmarkedFormulas::intervals, {.in = inputs.data(), .factor = factor, .out = outputs.data()});
         };
       };
-      // Operations are those of the tape's formulas: nobody counts what the compiler makes of the loops.
+      // Operations are the tape's: the ones that the compiler makes of the loops are not counted.
       register_quantities({.way = "hand", .formulas = point->formulas(), .instruction_set = std::string(name_of(set))},
                           *point, writer, rounding);
     }

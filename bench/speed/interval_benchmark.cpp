@@ -15,8 +15,8 @@ namespace dmocbench::speed {
 
 namespace {
 
-/// Columns of doubles that a schedule reads. What neighbouring intervals share (the right end of one is the left end of
-/// the next) stands in one array and counts once; what is the same for all intervals does not count.
+/// Columns of doubles that a schedule reads. A column shared by neighbouring intervals (the right end of one is the
+/// left end of the next) stands in one array and counts once; a value shared by all intervals does not count.
 std::size_t arrays_read(const Schedule& schedule, std::span<const Tape::Input> columns) {
   std::vector<const double*> begins;
   for (const Schedule::Step& step : schedule.steps()) {

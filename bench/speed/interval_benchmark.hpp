@@ -13,7 +13,7 @@
 
 namespace dmocbench::speed {
 
-// The ways to evaluate the formulas of all intervals; names are those of `IntervalBenchmark`.
+// The ways to evaluate the formulas of all intervals; names as in `IntervalBenchmark`.
 
 /// tape/...: bare tapes, one by one ("residual", "jacobian", "hessian"), one after the other ("separate") and the three
 /// made one tape ("fused"), on every instruction set there is. replay/...: the same schedules on one double after the
@@ -25,7 +25,7 @@ void register_expression_benchmarks(const FormulasOfPaper& paper);
 void register_adolc_benchmarks(const FormulasOfPaper& paper);
 
 /// hand/...: formulas written by hand, see kernels.hpp, on every instruction set there is. Throws `Error` for a problem
-/// whose formulas nobody wrote.
+/// without such formulas.
 void register_hand_benchmarks(const FormulasOfPaper& paper);
 
 /// program/...: the assembled program's evaluations, one by one and one after the other ("separate"), for every method,

@@ -6,7 +6,7 @@
 
 #include "methods/runtime/instruction_set.hpp"
 
-/// Formulas written by hand and loops that show what the machine can do, compiled once per instruction set with the
+/// Formulas written by hand and loops that show the peak of the machine, compiled once per instruction set with the
 /// flags of the tape's kernel; DMOCBENCH_KERNELS is the namespace of a set. As in tape_kernel.cpp only headers whose
 /// functions are inlined, or in a namespace of this set alone, may be used there.
 namespace dmocbench::speed {

@@ -16,7 +16,7 @@ namespace dmocbench::speed {
 
 namespace {
 
-/// A level of memory, from the fastest to the slowest, with the capacity that the system tells.
+/// A level of memory, from the fastest to the slowest, with the capacity that the system reports.
 struct MemoryLevel {
   std::string name;            ///< "l1", "l2", "l3" or "memory"
   std::size_t capacity = 0;    ///< bytes; no limit for the last

@@ -1,4 +1,4 @@
-// Compiled once per instruction set, see kernels.hpp: what the machine can do at most, and the list of all kernels.
+// Compiled once per instruction set, see kernels.hpp: the peak of the machine, and the list of all kernels.
 #include <array>
 #include <cstddef>
 

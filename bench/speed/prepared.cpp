@@ -85,7 +85,7 @@ double seconds_of(const Solve& solve) {
 }
 
 /// Every turn solves once by either way, each with all that it does, judging the answer among it. The manual time is
-/// that of the prepared solve.
+/// the prepared solve's.
 void run(benchmark::State& state, const RepeatedSolve& solve) {
   const StartedProgram given(solve);
   const auto solver = make_solver("interior_point");
@@ -148,7 +148,7 @@ TablesBySuffix tables_of(const Benchmarks& benchmarks) {
       counter_column("prepared_microseconds", "us", "of a solve by PreparedSolve"),
       counter_column("residuals_microseconds", "us", "of one that judges answers by residuals only"),
       counter_column("plain_over_prepared", "", "plain_microseconds by prepared_microseconds"),
-      counter_column("over_long_grid", "", "time per interval and iteration by that of a long grid")};
+      counter_column("over_long_grid", "", "time per interval and iteration by a long grid's")};
   std::vector<Benchmark> solves = without_names(benchmarks);
   std::ranges::sort(solves, {}, [](const Benchmark& of) {
     return std::tuple(of.label("problem"), of.label("method"), of.label("start"),

@@ -43,7 +43,7 @@ class TwoLinkManipulatorBounded final : public TwoLinkManipulator {
   }
 };
 
-/// A line "NAME:   1234 kB" of the kernel's report on this process, in bytes; none where the system does not tell.
+/// A line "NAME:   1234 kB" of the kernel's report on this process, in bytes; none where the system does not report it.
 std::optional<double> bytes_of(const std::string& name) {
   std::ifstream report("/proc/self/status");
   for (std::string word; report >> word;) {
@@ -76,9 +76,9 @@ std::unique_ptr<Solver> make_solver_of(const SolveCase& solve) {
 }
 
 /// How much memory of this process was in use at most while a program was made and solved, beyond what was before; none
-/// where the system does not tell.
+/// where the system does not report it.
 ///
-/// Memory that others freed before is handed back to the system first, so that it does not hide what is taken again;
+/// Memory that others freed before is handed back to the system first, so that it does not hide memory taken again;
 /// pages that the heap cannot hand back do hide some hundred kilobytes. The solve is one of its own, which is not
 /// timed: handing back memory makes the next solve slower.
 std::optional<double> peak_bytes(const SolveCase& solve) {
@@ -86,7 +86,7 @@ std::optional<double> peak_bytes(const SolveCase& solve) {
   malloc_trim(0);
 #endif
   std::ofstream references("/proc/self/clear_refs");
-  references << "5" << std::flush;  // the peak becomes what is in use now, proc(5)
+  references << "5" << std::flush;  // the peak becomes the memory in use now, proc(5)
   const auto before = references.good() ? bytes_of("VmRSS:") : std::nullopt;
   const GuessedProgram made = program_of(solve);
   (void)make_solver_of(solve)->solve(*made.program, made.start);
@@ -95,7 +95,7 @@ std::optional<double> peak_bytes(const SolveCase& solve) {
 }
 
 /// Every repetition makes the program anew. So making it is measured as often as solving it, the place of its arrays is
-/// part of the noise that the repetitions tell, and no program of a million intervals, a gigabyte, waits for its turn.
+/// part of the noise of the repetitions, and no program of a million intervals, a gigabyte, waits for its turn.
 void run(benchmark::State& state, const SolveCase& solve, std::optional<double> bytes) {
   static_cast<void>(time_solves(state, *make_solver_of(solve), program_of(solve)));
   if (bytes) state.counters["bytes_per_interval"] = *bytes / solve.intervals;

@@ -1,5 +1,5 @@
 // Times of exact derivatives per interval: the tape, the assembled program, formulas written by hand, a replay number
-// by number, ADOL-C; and what the machine can do at most.
+// by number, ADOL-C; and the peak of the machine.
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/interval_benchmark.hpp"
 #include "bench/speed/speed_tables.hpp"
@@ -12,7 +12,7 @@ int run_speed(int argc, char** argv) {
   const BenchmarkProgram program{
       .name = "speed",
       .description = "Times of exact derivatives per interval.",
-      .csv = "write FILE, a row per benchmark, and FILE_machine, what the machine can do",
+      .csv = "write FILE, a row per benchmark, and FILE_machine, the peak of the machine",
       // Without flags it takes a minute: several stages and the chains of links are left out.
       .default_filter = "-gauss_[2-9]|link_chain",
       .register_benchmarks =

@@ -75,7 +75,7 @@ Columns<Evaluation> evaluation_columns() {
   const auto label = label_column<Evaluation>;
   return {
       label("way", "how it is evaluated", FieldKind::text),
-      label("quantity", "what is evaluated", FieldKind::text),
+      label("quantity", "evaluated quantity", FieldKind::text),
       label("problem", "name of the problem", FieldKind::text),
       label("links", "of a chain", FieldKind::integer),
       label("method", "family of elements", FieldKind::text),
@@ -95,7 +95,7 @@ Columns<Evaluation> evaluation_columns() {
       {"operations_per_second", "1/s", "operations by their time",
        [](const Evaluation& of) { return nanoseconds * of.operations() / of.time; }},
       {"roof_nanoseconds", "ns", "least time on this machine", from(roof, &Roof::nanoseconds)},
-      {"roof_limit", "", "what limits it", from(roof, &Roof::limit)},
+      {"roof_limit", "", "arithmetic, or a level of memory", from(roof, &Roof::limit)},
       {"roof_share", "", "roof_nanoseconds by nanoseconds",
        [](const Evaluation& of) { return of.roof ? std::optional(of.roof->nanoseconds / of.time) : std::nullopt; }}};
 }

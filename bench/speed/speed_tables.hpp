@@ -43,14 +43,14 @@ template <class Record = Benchmark>
 /// A row per benchmark of the machine.
 [[nodiscard]] Table machine_table(const Benchmarks& benchmarks);
 
-/// A row per benchmark of the program `solves`, medians of the repetitions. What a solver or the system does not tell
-/// is empty.
+/// A row per benchmark of the program `solves`, medians of the repetitions. Values that a solver or the system does not
+/// report are empty.
 [[nodiscard]] Table solve_table(const Benchmarks& benchmarks);
 
 /// A row per pair of rows of `solve_table` that
-/// differ in `quantity`: "solver", Ipopt's seconds over those of `interior_point`, or "threads", those of one thread
-/// over those of two. A ratio stands only where both solved the program with objectives that are equal to 1e-9 (the
-/// verdict is "same"): a pair on different branches says nothing.
+/// differ in `quantity`: "solver", Ipopt's seconds over those of `interior_point`, or "threads", the seconds of one
+/// thread over the seconds of two. A ratio stands only where both solved the program with objectives that are equal to
+/// 1e-9 (the verdict is "same"): a pair on different branches is not comparable.
 [[nodiscard]] Table solve_ratios(const Table& solves);
 
 /// Time per iteration ~ N^exponent, a row per curve of at least three grids from N = 1024 on that were solved. Below

@@ -1,5 +1,5 @@
-// What further threads gain: whole solves of long horizons on one thread and on several, beside what the machine gains
-// by them where nothing is shared. `page` turns the result into threads.md.
+// The gain of further threads: whole solves of long horizons on one thread and on several, compared with the machine's
+// gain where nothing is shared. `page` turns the result into threads.md.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -99,7 +99,7 @@ void register_threads() {
 int run_threads(int argc, char** argv) {
   const BenchmarkProgram program{
       .name = "threads",
-      .description = "What DMOCBENCH_THREADS threads gain in whole solves, and by work that shares nothing.",
+      .description = "The gain of DMOCBENCH_THREADS threads in whole solves, and in work that shares nothing.",
       .default_filter = "^machine|/(65536|262144)/",
       .register_benchmarks = register_threads};
   return program.run(argc, argv);

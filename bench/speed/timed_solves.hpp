@@ -9,7 +9,7 @@
 
 namespace dmocbench::speed {
 
-/// Every turn of the timed loop is one solve from the guess. What a solver looks up in the program before its first
+/// Every turn of the timed loop is one solve from the guess. A solver's set-up before its first
 /// iteration is part of it; the trace, its derivatives and judging the answer are not. Sets the counters of the solve
 /// and returns the answer of the last one.
 inline Solution time_solves(benchmark::State& state, const Solver& solver, const GuessedProgram& made) {
