@@ -24,7 +24,7 @@ enum class Refinement : std::uint8_t {
   hp,  ///< the steps, and the number of stages, up to three: see `solve_adaptively`
 };
 
-/// The refinement of that name, "h" or "hp". Throws `Error` that lists the names if there is none.
+/// The refinement with that name, "h" or "hp". Throws `Error` that lists the names if there is none.
 [[nodiscard]] Refinement refinement_named(std::string_view name);
 
 /// Options of an adaptive solve.

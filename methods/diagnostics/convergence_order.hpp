@@ -45,7 +45,7 @@ enum class RangeEnd : std::uint8_t {
 /// Neighbouring grids on which errors fall as one power of the step: the numbers `first` to `end` - 1.
 struct AsymptoticRange {
   std::size_t first = 0;                  ///< number of the coarsest grid
-  std::size_t end = 0;                    ///< number behind the finest grid
+  std::size_t end = 0;                    ///< one past the finest grid
   RangeEnd coarse_end = RangeEnd::grids;  ///< why no coarser grid belongs to it
   RangeEnd fine_end = RangeEnd::grids;    ///< why no finer grid belongs to it
 };
@@ -60,7 +60,7 @@ inline constexpr double largest_spread = 0.2;
 /// The range of at least `fewest_grids` neighbouring points, coarsest first, whose errors exceed `least` and whose
 /// neighbouring orders differ by at most `largest_spread`: the finest such range, from as coarse a grid as possible.
 /// Not the longest, because errors of higher order can hide the leading one on many coarse grids. None if there is no
-/// such range. Points behind the first one that does not exceed `least` are noise and belong to no range.
+/// such range. Points after the first one that does not exceed `least` are noise and belong to no range.
 [[nodiscard]] std::optional<AsymptoticRange> asymptotic_range(const std::vector<GridError>& points, double least,
                                                               double reference = 0.0);
 

@@ -148,7 +148,7 @@ std::vector<std::string> broken_counts(const TracedInterval& interval, const Ele
     misses << stage.u - interval.unknowns.controls[static_cast<std::size_t>(i)],
         stage.t - interval.unknowns.t - Expression(tableau.c[i]) * interval.unknowns.h;
     if (largest_value(misses, interval) > Number(1e-14)) {
-      broken.push_back(fmt::format("counts: stage {} is not at t_k + c_i h or has not the control U_i", i + 1));
+      broken.push_back(fmt::format("counts: stage {} is not at t_k + c_i h or does not have the control U_i", i + 1));
     }
   }
   return broken;

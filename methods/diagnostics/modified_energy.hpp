@@ -11,7 +11,7 @@ namespace dmocbench {
 /// The first three coefficients of a series in h²: of h⁰, h², h⁴.
 using StepSeries = std::array<long double, 3>;
 
-/// The series at step h, cut off behind 1, 2 and 3 terms: errors are then of order 2, 4 and 6.
+/// The series at step h, cut off after 1, 2 and 3 terms: errors are then of order 2, 4 and 6.
 [[nodiscard]] StepSeries partial_sums(const StepSeries& series, long double h);
 
 /// The modified energy of the midpoint rule by backward error analysis: the energy of the system that the discrete

@@ -18,8 +18,8 @@ struct UndefinedPoint {
   [[nodiscard]] std::string words() const;
 };
 
-/// The first of eight points in every interval, evenly spaced between its nodes, where L, f, C, h or a first derivative
-/// of theirs is not a number on the element's polynomial of q and the stage polynomial of u. A program evaluates
+/// The first of eight points in every interval, evenly spaced between its nodes, where L, f, C, h or one of their first
+/// derivatives is not a number on the element's polynomial of q and the stage polynomial of u. A program evaluates
 /// derivatives at stages alone, and may step over a singularity: an answer with such a point does not solve the
 /// problem.
 [[nodiscard]] std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory);

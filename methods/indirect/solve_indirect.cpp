@@ -56,7 +56,7 @@ Eigen::VectorXd phase_point(LegendreTransform& legendre, const BoundaryState& en
 void require_smooth_class(const Problem& problem) {
   const TracedProblem traced(problem);
   const auto refuse = [&](const std::string& feature) {
-    throw Error("the indirect method does not know " + feature + ", which " + problem.name() +
+    throw Error("the indirect method does not support " + feature + ", which " + problem.name() +
                 " has; measure against a finer grid instead");
   };
   const ProblemBounds bounds = problem.bounds();

@@ -35,7 +35,7 @@ bool is_unsettled(const Solution& solution) {
   return can_be && solution.correction.value_or(0.0) > settled;
 }
 
-/// True where a solver stopped, or was not believed, within a hundred times the tolerance that confirms an answer. Not
+/// True where a solver stopped, or was not confirmed, within a hundred times the tolerance that confirms an answer. Not
 /// at a limit of the user's, which is on the solver's own iterations.
 bool is_near(NonlinearProgram& program, double tolerance, const Solution& solution) {
   const bool has_stopped = solution.status == Status::not_confirmed || solution.status == Status::acceptable ||
@@ -133,7 +133,7 @@ int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution&
     if (next.status != Status::solved) continue;
     // Of an answer whose residuals were not small nothing is known yet, were the cost so small that all are.
     if (!was_unsettled && confirmation.factor_of_cost(tolerance, next.primal, next) != 1.0) return 0;
-    next.message += fmt::format(" It took {} Newton steps behind the solver to settle the answer.", steps);
+    next.message += fmt::format(" It took {} Newton steps after the solver to settle the answer.", steps);
     if (solution.status != Status::not_confirmed && !is_solved(solution.status)) {
       next.message += fmt::format(" The solver itself had ended as \"{}\".", name_of(solution.status));
     }

@@ -25,7 +25,7 @@ struct Linearisation {
 [[nodiscard]] std::vector<bool> free_variables(const NonlinearProgram& program);
 /// The variables whose bounds are equal, in ascending order.
 [[nodiscard]] std::vector<Eigen::Index> fixed_variables(const NonlinearProgram& program);
-/// The constraints that are no equalities, in ascending order.
+/// The constraints that are not equalities, in ascending order.
 [[nodiscard]] std::vector<Eigen::Index> inequalities_of(const NonlinearProgram& program);
 /// Which constraints are equalities.
 [[nodiscard]] std::vector<bool> equalities_of(const NonlinearProgram& program);

@@ -20,7 +20,7 @@ void mumps_abort_() { throw std::bad_alloc(); }
 
 namespace {
 
-/// The function of that name of the library that is behind ours.
+/// The library's function with that name, which ours replaces.
 template <class Function>
 Function* of_library(const char* name, void* where = RTLD_NEXT) {
   return reinterpret_cast<Function*>(dlsym(where, name));  // NOLINT(*-reinterpret-cast): dlsym returns void*

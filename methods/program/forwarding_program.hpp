@@ -29,7 +29,7 @@ class ForwardingProgram : public NonlinearProgram {
  protected:
   /// It must outlive this.
   explicit ForwardingProgram(NonlinearProgram& original) : original_(original) {}
-  /// The program behind it.
+  /// The original program.
   [[nodiscard]] NonlinearProgram& original() const noexcept { return original_; }
 
  private:

@@ -42,7 +42,7 @@ enum class Status : std::uint8_t {
   return status == Status::solved || status == Status::control_not_determined;
 }
 
-/// True for answers of the discrete program that are no motions: figures draw them hollow, and nothing is fitted to
+/// True for answers of the discrete program that are not motions: figures draw them hollow, and nothing is fitted to
 /// them.
 [[nodiscard]] constexpr bool is_no_motion(Status status) noexcept {
   return status == Status::too_coarse || status == Status::violates_between_stages;

@@ -25,7 +25,7 @@ std::string quoted(const std::string& field) {
   return result + '"';
 }
 
-/// Reads one record and moves `rest` behind it.
+/// Reads one record and moves `rest` past it.
 std::vector<std::string> take_record(std::string_view& rest) {
   std::vector<std::string> fields(1);
   bool inside_quotes = false;

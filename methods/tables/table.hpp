@@ -46,7 +46,7 @@ class Cell {
 /// A row: fields by the names of their columns.
 class Row {
  public:
-  /// Gives the row a cell in the column of that name.
+  /// Gives the row a cell in the column with that name.
   void set(std::string_view column, Cell value) { cells_[std::string(column)] = std::move(value); }
   /// The field as it is written to a file; empty if there is none.
   [[nodiscard]] const std::string& text(std::string_view column) const;

@@ -105,7 +105,7 @@ class ListScheduler {
     if (operand_count(step.operation) > 1 && producer_[step.right] != nobody) visit(groups_[producer_[step.right]]);
   }
 
-  /// Lists of readers, one behind the other.
+  /// Lists of readers, one after the other.
   void link_readers() {
     for (Group& group : groups_) {
       visit_producers(group, [&](Group& producer) {
@@ -116,7 +116,7 @@ class ListScheduler {
     std::uint32_t next = 0;
     for (Group& group : groups_) {
       next += group.unread;
-      group.first_reader = next;  // filled from behind
+      group.first_reader = next;  // filled from the end
     }
     readers_.resize(next);
     for (std::uint32_t i = 0; i < groups_.size(); ++i) {

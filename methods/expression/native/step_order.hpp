@@ -13,7 +13,7 @@ namespace dmocbench {
 /// schedule, which goes depth first, nearly every step waits for the one before it. Here a step comes when its operands
 /// are expected to be known, the one on the longest way to the end first. While nearly all registers are in use, the
 /// next step of the schedule comes, which needs few; stages of more than a thousand steps keep the order of the
-/// schedule. Copies of a value stay behind the step that computes it. `values` is the number of values of the plan.
+/// schedule. Copies of a value stay after the step that computes it. `values` is the number of values of the plan.
 [[nodiscard]] std::vector<VectorStep> overlapping_order(const std::vector<VectorStep>& steps, std::size_t values,
                                                         std::size_t registers);
 

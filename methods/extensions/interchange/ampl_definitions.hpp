@@ -19,7 +19,7 @@ inline constexpr std::size_t ampl_reader_kinds = 3;
 using AmplCounts = std::array<std::size_t, ampl_reader_kinds>;
 
 /// The text of formulas in AMPL's format (Gay, "Writing .nl files"): a line per operation, operand or number, operands
-/// behind their operation.
+/// after their operation.
 ///
 /// The value of a step that several steps or outputs read becomes a defined variable, all others stand where they are
 /// read. The text is therefore as long as the straight-line code, however much is shared.

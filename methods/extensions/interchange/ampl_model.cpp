@@ -24,7 +24,7 @@ namespace {
 struct PlacedFormulas {
   Schedule schedule;                   // the cost, then rows
   std::vector<std::size_t> variables;  // of the program, by local unknowns
-  std::vector<std::size_t> rows;       // of the program, by outputs behind the cost
+  std::vector<std::size_t> rows;       // of the program, by outputs after the cost
 };
 
 /// Step, time and open parameters become numbers, so that values depending on them alone are computed here.

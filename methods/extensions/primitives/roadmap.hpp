@@ -41,7 +41,7 @@ class Roadmap {
   struct EdgeRange {
     /// Number of the first edge.
     std::size_t first = 0;
-    /// Number behind the last one.
+    /// One past the last number.
     std::size_t last = 0;
   };
   /// The edges that begin at a node.
@@ -59,7 +59,7 @@ class Roadmap {
   std::vector<int> durations_;
 };
 
-/// Edges of a roadmap one behind the other.
+/// Edges of a roadmap one after the other.
 struct RoadmapPath {
   std::vector<std::size_t> edges;  ///< numbers in `Roadmap::edges`
   double cost = 0.0;               ///< the sum of their costs

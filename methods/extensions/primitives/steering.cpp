@@ -13,7 +13,7 @@ Eigen::MatrixXd response_of(const std::vector<Eigen::MatrixXd>& derivatives, Eig
                             Eigen::Index m) {
   const auto intervals = static_cast<Eigen::Index>(derivatives.size());
   Eigen::MatrixXd response(2 * n, intervals * m);
-  Eigen::MatrixXd onwards = Eigen::MatrixXd::Identity(2 * n, 2 * n);  // from behind the interval to the end
+  Eigen::MatrixXd onwards = Eigen::MatrixXd::Identity(2 * n, 2 * n);  // from the end of the interval to the last node
   for (Eigen::Index k = intervals - 1; k >= 0; --k) {
     const Eigen::VectorXd entries = derivatives[static_cast<std::size_t>(k)].row(state).transpose();
     response.middleCols(k * m, m) = onwards * entries.tail(2 * n * m).reshaped(2 * n, m);

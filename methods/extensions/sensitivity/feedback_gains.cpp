@@ -14,7 +14,7 @@ namespace dmocbench {
 
 namespace {
 
-/// Deviations of state and costate of a node along which the conditions behind it hold: 2n × 2n each, a column per
+/// Deviations of state and costate of a node along which the conditions after it hold: 2n × 2n each, a column per
 /// deviation. The state is (q, p), or (q, v) for tangent-space collocation; the costate its conjugate, for the scaled
 /// cost.
 struct Deviations {
@@ -218,7 +218,7 @@ Deviations BackwardRecursion::at_end() {
   const Eigen::Index node = is_dmoc_ ? n_ : 2 * n_;
   const Eigen::Index velocity = shape.last_has_velocity ? n_ : 0;
   const Eigen::Index ties = velocity;            // rows
-  const Eigen::Index own = is_dmoc_ ? 0 : ties;  // whose multipliers are no costates
+  const Eigen::Index own = is_dmoc_ ? 0 : ties;  // whose multipliers are not costates
   const Eigen::Index states = 2 * n_;
   // Unknowns: (δx_N, δψ_N), δv_N, multipliers of own rows. Where DMOC's end is clamped, its momentum is fixed.
   const bool has_fixed_momentum = is_dmoc_ && velocity == 0;

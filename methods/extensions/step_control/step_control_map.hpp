@@ -54,7 +54,7 @@ class StepControlMap {
     std::vector<double> inputs;  ///< the solved interval, for `jacobian`
   };
 
-  /// Throws `Error` if the rule is `from_left` and σ depends on the velocity, which that rule does not know.
+  /// Throws `Error` if the rule is `from_left` and σ depends on the velocity, which that rule does not use.
   StepControlMap(const Problem& problem, const Tableau& tableau, const StepFunction& sigma, StepRule rule);
 
   /// One step at the pace Δτ > 0. Row i of `controls` is U_i (s × m). Throws `Error` if σ is not positive there, or the

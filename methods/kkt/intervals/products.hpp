@@ -7,7 +7,7 @@
 
 #include "methods/kkt/intervals/kernel_blocks.hpp"
 
-// Products of matrices whose sizes the compiler does not know. A tile of the result stays in registers while the
+// Products of matrices whose sizes are unknown at compile time. A tile of the result stays in registers while the
 // factors are read once, so that most operations are on registers. NOLINTBEGIN(*-avoid-c-arrays,*-member-init): arrays
 // that live in registers
 namespace dmocbench::kkt {

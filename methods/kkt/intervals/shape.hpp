@@ -71,7 +71,7 @@ constexpr bool is_plain(const FixedShape<sizes...>& /*shape*/) {
 }
 /// True if entry i of x_{k+1} is dependent and node rows exist; `node_in_next` as in `EliminationPlan`. The equalities
 /// then determine its increment x_{k+1,i} - x_{k,i}, and s_{k+1} is the sum with J_{k+1,k} x_k replaced by
-/// -J_{k+1,k} (x_{k+1} - x_k), which for DMOC has the size of a momentum, as the plain sum has not (README.md).
+/// -J_{k+1,k} (x_{k+1} - x_k), which for DMOC has the size of a momentum, unlike the plain sum (README.md).
 template <class S>
 constexpr bool moves_by_increment(const S& shape, const int* node_in_next, int i) {
   return shape.node_sums > 0 && (is_always_plain<S> || node_in_next[i] < shape.rows);

@@ -14,7 +14,7 @@ namespace {
 
 /// The multiples of the stiffness that are tried, one after the other.
 constexpr std::array multiples{1.0, 30.0, 1e3, 1e6};
-/// The multiple to begin with after a failure: smaller ones may be too small, the largest may drown the stiffness.
+/// The multiple to begin with after a failure: smaller ones may be too small, the largest may swamp the stiffness.
 constexpr std::size_t middle = 2;
 /// Failures of the largest multiple that are then accepted without trying smaller ones, after all multiples have
 /// failed once. Fewer than make `RefinedKkt` use the sparse factorisation, which costs more than all multiples do.

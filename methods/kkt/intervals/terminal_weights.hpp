@@ -15,7 +15,7 @@ namespace dmocbench::kkt {
 /// given state d, and prevents conjugate points inside (Finsler; README.md, "Terminal weights").
 ///
 /// The reachability Γ of a segment is about 1/(ρ + a), a_i being the stiffness that the free unknowns give its end. Too
-/// large a weight drowns a_i, and with it the digits of the join. So weights are multiples of the smallest stiffness
+/// large a weight swamps a_i, and with it the digits of the join. So weights are multiples of the smallest stiffness
 /// that was last observed, rescaled from matrix to matrix by the compliance of the free unknowns.
 class TerminalWeights {
  public:
@@ -41,7 +41,7 @@ class TerminalWeights {
   static constexpr double smallest_curvature = 1e-12;
   /// The diagonal entries of unknowns that the order of elimination leaves free.
   [[nodiscard]] std::vector<Diagonal> free_diagonals() const;
-  /// After a failure: takes the next larger multiple, behind the largest the smallest; it stays if it succeeds. False
+  /// After a failure: takes the next larger multiple, after the largest the smallest; it stays if it succeeds. False
   /// if none is left for this matrix. The largest is always among those that were tried.
   [[nodiscard]] bool next_multiple();
   /// Takes the largest multiple, which stays; false if it was taken already.

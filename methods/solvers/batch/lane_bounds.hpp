@@ -56,7 +56,7 @@ struct LaneBound {
   }
 };
 
-/// The bounds of eight barrier problems side by side. Unknowns and, behind them, the slacks of inequalities make one
+/// The bounds of eight barrier problems side by side. Unknowns and, after them, the slacks of inequalities make one
 /// vector, the primal one; z are the multipliers of the bounds, one vector. All instances of a batch have the same
 /// bounds, except entries whose two bounds are equal, which have none here.
 class LaneBounds : public interior_point::BoundFormulas<LaneBound> {

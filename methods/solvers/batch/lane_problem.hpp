@@ -27,7 +27,7 @@ struct LaneValues {
 };
 
 /// Eight barrier problems side by side: `interior_point::BarrierProgram` in lanes. A point is primal: the unknowns, and
-/// behind them the slacks of inequalities.
+/// after them the slacks of inequalities.
 class LaneProblem {
  public:
   /// `program` has an interval structure and must outlive this.

@@ -32,7 +32,7 @@ class BarrierProgram {
   [[nodiscard]] const NonlinearProgram& program() const noexcept { return program_; }
   [[nodiscard]] const BarrierBounds& bounds() const noexcept { return bounds_; }
   [[nodiscard]] bool has_bounds() const noexcept { return bounds_.count() > 0; }
-  /// The constraints that are no equalities, in the order of their slacks.
+  /// The constraints that are not equalities, in the order of their slacks.
   [[nodiscard]] const std::vector<Eigen::Index>& inequalities() const noexcept { return inequalities_; }
 
   /// Sets `at` to `start` and slacks a(start), pushed away from each bound by the share `push` of its size, at most of

@@ -28,7 +28,7 @@ inline constexpr double kappa_soc = 0.99;        // A-5.9
 inline constexpr int p_max = 4;
 // The restoration, section 3.3.
 inline constexpr double kappa_resto = 0.9;  // the share of θ that it may leave
-inline constexpr double largest_z = 1e3;    // larger multipliers of bounds become 1 behind it
+inline constexpr double largest_z = 1e3;    // larger multipliers of bounds become 1 after it
 // Its steps towards feasibility alone; ours.
 inline constexpr double shortest_feasibility_step = 1e-10;
 inline constexpr double sufficient_decrease = 1e-4;  // of the violation, as a share of the decrease by a whole step
@@ -42,7 +42,7 @@ inline constexpr int max_filter_resets = 5;
 // Ours, see README.md.
 inline constexpr double of_warm_start = 1e-6;  // a warm start's μ, and in the place of κ_1
 inline constexpr double most_growth = 10.0;    // of the violation in one step: "No leaps"
-inline constexpr double short_step = 0.1;      // "Multipliers may run away", "Corrections": behind a step so short
+inline constexpr double short_step = 0.1;      // "Multipliers may run away", "Corrections": after a step so short
 inline constexpr double runaway = 1e6;         // multipliers above this are estimated anew
 
 }  // namespace dmocbench::interior_point::constants

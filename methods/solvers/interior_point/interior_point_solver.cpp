@@ -248,7 +248,7 @@ class InteriorPointRun final : public PreparedRun {
     return false;
   }
 
-  /// Where bounds allow short steps only, every one of them may multiply the multipliers, until their Hessian drowns
+  /// Where bounds allow short steps only, every one of them may multiply the multipliers, until their Hessian swamps
   /// all else. Large ones that a long step leads to may be true.
   [[nodiscard]] bool has_runaway_multipliers() const {
     return length_ <= constants::short_step && largest_of(at_.multipliers) > constants::runaway;

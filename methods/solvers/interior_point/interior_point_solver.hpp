@@ -28,7 +28,7 @@ struct InteriorPointOptions {
   std::function<std::unique_ptr<kkt::KktSystem>(NonlinearProgram& program)> make_kkt_system = {};
 };
 
-/// The factorisation of that name, "intervals" or "sparse". Throws `Error` that lists the names if there is none.
+/// The factorisation with that name, "intervals" or "sparse". Throws `Error` that lists the names if there is none.
 [[nodiscard]] InteriorPointOptions::Factorisation factorisation_named(std::string_view name);
 
 /// The options from their names: factorisation=intervals|sparse. Throws `Error` on another name or value.

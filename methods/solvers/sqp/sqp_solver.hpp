@@ -20,7 +20,7 @@ struct SequentialOptions {
   std::function<void(const MinorIteration&)> on_minor_iteration = {};  ///< called for every one
 };
 
-/// The basis of that name, "none" or "basis". Throws `Error` that lists the names if there is none.
+/// The basis with that name, "none" or "basis". Throws `Error` that lists the names if there is none.
 [[nodiscard]] sqp::Crash crash_named(std::string_view name);
 
 /// The options from their names: crash=none|basis, pricing=largest|lowest|last|random, seed=(a whole number),

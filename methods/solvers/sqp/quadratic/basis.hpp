@@ -52,7 +52,7 @@ struct BasisChoice {
 /// Starts from `basics` and exchanges them for `others` until no entry of the table exceeds a small bound. Then
 /// Z = (-table; I) is well conditioned for any first basis: a rank-revealing factorisation of both lists
 /// together. Where `basics` are singular it starts from the slack basis; a slack that cannot be replaced stays. The
-/// exchanges are no minor iterations, since no point moves.
+/// exchanges are not minor iterations, since no point moves.
 [[nodiscard]] BasisChoice choose_basis(const QuadraticProgram& program, std::vector<Eigen::Index> basics,
                                        std::vector<Eigen::Index> others);
 
