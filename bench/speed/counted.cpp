@@ -33,7 +33,7 @@ struct CountedSolve {
   std::string parameter = {};
   double value = 0.0;
 
-  /// "orbital_transfer/dmoc/1", the parameter behind the problem.
+  /// "orbital_transfer/dmoc/1", the parameter after the problem.
   [[nodiscard]] std::string name() const {
     const std::string with = parameter.empty() ? "" : fmt::format("_{}_{}", parameter, value);
     return fmt::format("{}{}/{}/{}", problem, with, method, stages);
