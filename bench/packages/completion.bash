@@ -1,4 +1,4 @@
-# Completion of bash for dmocbench: the experiments, and behind one of them its options, both as --help lists them.
+# Completion of bash for dmocbench: the experiments, and after one of them its options, both as --help lists them.
 
 _dmocbench() {
   local word=${COMP_WORDS[COMP_CWORD]} program=${COMP_WORDS[0]} choices matches

@@ -30,7 +30,7 @@ constexpr std::array questions{
     Question{"Robustness", "cold_starts_confirmed_as_often", 3, "cold_starts_best_as_often"},
 };
 
-/// The claims of that name, one for each problem.
+/// The claims with that name, one for each problem.
 std::vector<const Row*> claims_named(const Table& claims, std::string_view name) {
   std::vector<const Row*> found;
   for (const Row& claim : claims.rows()) {

@@ -13,7 +13,7 @@ namespace dmocbench {
 
 /// A name as MathML shows it: "theta_1" as θ with the index 1, longer words upright.
 [[nodiscard]] std::string mathml_of_name(std::string_view name);
-/// The rate of a quantity of that name: with a dot.
+/// The rate of a quantity with that name: with a dot.
 [[nodiscard]] std::string mathml_of_rate(std::string_view name);
 /// A number: as a whole number, as a fraction or as a multiple of π where it is one to the last digit but one, or else
 /// with all its digits.
@@ -23,7 +23,7 @@ namespace dmocbench {
 /// sign.
 using MathTerms = std::vector<std::string>;
 
-/// Formulas as readers know them, in presentation MathML: fractions, powers, products without a sign.
+/// Formulas in usual notation, in presentation MathML: fractions, powers, products without a sign.
 struct TypesetFormulas {
   /// In the order in which they were given.
   std::vector<MathTerms> formulas;

@@ -102,7 +102,7 @@ Columns<EndsOfCell> columns_of_ends() {
       Columns<Ends>{
           {"elsewhere", "", "how many were confirmed and cost more than the reference",
            [](const Ends& ends) { return ends.confirmed.hits - ends.best.hits; }},
-          {"too_coarse", "", "how many were solved, but are no motions on this grid",
+          {"too_coarse", "", "how many were solved, but are not motions on this grid",
            [](const Ends& ends) { return ends.solved.hits - ends.confirmed.hits; }},
           {"lost", "", "how many were not solved", &Ends::lost},
           {"failures", "", "the statuses of those that were not solved, each with its number", &Ends::failures},

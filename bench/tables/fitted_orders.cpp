@@ -106,7 +106,7 @@ Fit above_the_floor(const Selection& curve, const std::string& column, const std
     fit.fine_end = name_of(range->fine_end);
     return fit;
   }
-  bool is_above = true;  // errors behind the first grid at the floor are noise
+  bool is_above = true;  // errors after the first grid at the floor are noise
   fit.grids = grids.where([&](const Row& row) {
     is_above = is_above && row.number(column, 0.0) > least;
     return is_above;
@@ -148,7 +148,7 @@ Columns<FittedCurve> order_columns() {
   using Curve = FittedCurve;
   return head_columns<Curve>(scheme_names, in_key) +
          Columns<Curve>{
-             {"quantity", "", "the error whose order is fitted: the column of that name with _error behind it",
+             {"quantity", "", "the error whose order is fitted: the column with that name and the suffix _error",
               &Curve::quantity, in_key},
              {"slope", "", "fitted order; empty where the verdict is not \"slope\"",
               from(&Curve::order, &FittedOrder::order)},

@@ -43,7 +43,7 @@ bool has_at_most(const Selection& minimum, const std::string& column, double lim
 
 bool is_motion(const Selection& minimum) { return has_at_most(minimum, "relative_jump", largest_jump_of_a_motion); }
 
-/// How many answers of a method are in minima that are no motion.
+/// How many answers of a method are in minima that are not motions.
 std::size_t unconfirmed_of(const std::vector<Selection>& minima, const std::string& method) {
   std::size_t count = 0;
   for (const Selection& minimum : minima) {

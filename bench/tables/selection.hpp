@@ -31,7 +31,7 @@ class Selection {
   Selection(const Table& table) : rows_(table.rows().begin(), table.rows().end()) {}
 
   [[nodiscard]] auto begin() const noexcept { return rows_.begin(); }       ///< the first row
-  [[nodiscard]] auto end() const noexcept { return rows_.end(); }           ///< behind the last row
+  [[nodiscard]] auto end() const noexcept { return rows_.end(); }           ///< past the last row
   [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }  ///< number of rows
   [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }       ///< whether there is no row
   [[nodiscard]] const Row& front() const;  ///< the first row; one without fields if there is none

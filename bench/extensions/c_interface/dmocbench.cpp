@@ -75,7 +75,7 @@ Handle& required(Handle* handle, const char* what) {
   return *handle;
 }
 
-/// The string at a number; null behind the last.
+/// The string at a number; null past the last.
 const char* at(const std::vector<std::string>& names, size_t number) {
   return number < names.size() ? names[number].c_str() : nullptr;
 }

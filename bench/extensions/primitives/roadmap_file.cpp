@@ -120,7 +120,7 @@ std::vector<RoadmapNode> nodes_from(const JsonPlace& content, const PrimitiveLib
   return nodes;
 }
 
-/// The part behind "content", whose checksum is right.
+/// The part after "content", whose checksum is right.
 RoadmapJson checked_content(std::string_view text) {
   RoadmapJson json = json_in(std::string(text), "it");
   const JsonPlace place(json, "its JSON");

@@ -27,7 +27,7 @@ struct RoadmapSystem {
 
 /// All problems whose primitives are chosen by hand. To add one, write its function below and a line into the list.
 [[nodiscard]] const std::vector<RoadmapSystem>& roadmap_systems();
-/// The one of that name; for any other problem `roadmap_along_a_motion`.
+/// The one with that name; for any other problem `roadmap_along_a_motion`.
 [[nodiscard]] const RoadmapSystem& roadmap_system(const std::string& problem);
 
 /// Problems whose trims turn about an axis (`Problem::symmetry`) at any rate: circular orbits, the cones of a spherical
