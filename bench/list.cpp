@@ -93,7 +93,7 @@ void print_reference(const Problem& problem) {
   print_field("remark", reference->remark);
 }
 
-/// The card's words, unless they are those of the default and the problem has a guess of its own.
+/// The card's words, unless they are the default's and the problem has a guess of its own.
 std::string guess_in_words(const Problem& problem) {
   std::string words = problem.card().guess;
   if (words != ProblemCard().guess) return words;
@@ -186,7 +186,7 @@ int print_all(CommandLine& line) {
   line.flag("--json", as_json, "the problems as cards in JSON, for other programs");
   line.option(
       "--schema", schema,
-      "a JSON Schema instead: problems (of --json), metadata (NAME.json beside results), claims or claims_rows");
+      "a JSON Schema instead: problems (of --json), metadata (NAME.json next to results), claims or claims_rows");
   bool as_gnuplot = false;
   line.flag("--families", as_gnuplot, "the families of methods with labels and line styles instead, for figures");
   parse_with_libraries(line);

@@ -1,4 +1,5 @@
-// Joins the parts of a run (--part) into the one table that the whole run would have written, and what is made of it.
+// Joins the parts of a run (--part) into the one table that the whole run would have written, and computes the results
+// that follow from it.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,14 +15,15 @@ int merge(CommandLine& line) {
   JoiningOptions options;
   options.out = "results";
   std::vector<std::string> folders;
-  line.option("--name", options.name, "name of the table: that of the experiment, unless its --name gave another");
+  line.option("--name", options.name, "name of the table: the experiment's, unless its --name gave another");
   line.option("--out", options.out,
               "results folder where the parts are (in NAME.parts), and where the table is written");
   line.option("--from", folders,
               "results folder of another machine with parts, besides the one of --out; may be repeated");
-  line.option("--grid", options.grid, "that of the parts: what names a file is taken from no part");
-  line.option("--start", options.start, "that of the parts, if it was a file");
-  line.option("--option", options.passed_on, "that of the parts, if it is of a foreign solver; may be repeated");
+  line.option("--grid", options.grid, "the grid file of the parts: names of files are not taken from parts");
+  line.option("--start", options.start, "the start of the parts, if it was a file");
+  line.option("--option", options.passed_on,
+              "the options of the parts, if they are a foreign solver's; may be repeated");
   add_library_option(line, options.libraries);
   line.parse();
   require_name(options.name, options.out);
@@ -36,9 +38,10 @@ int merge(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "merge",
-      "Joins the parts that an experiment wrote with --part into its table NAME.csv and computes what needs all rows: "
+      "Joins the parts that an experiment wrote with --part into its table NAME.csv and computes the results that need "
+      "all rows: "
       "every file that the whole run would have written. Parts that are missing, there twice or of another run are "
-      "named, and nothing is written. The exit code is that of the whole run: 1 if a solve failed.",
+      "named, and nothing is written. The exit code is as for the whole run: 1 if a solve failed.",
       argc, argv, merge);
 }
 

@@ -48,7 +48,7 @@ template <class Record = Benchmark>
 [[nodiscard]] Table solve_table(const Benchmarks& benchmarks);
 
 /// A row per pair of rows of `solve_table` that
-/// differ in `quantity`: "solver", Ipopt's seconds over those of `interior_point`, or "threads", the seconds of one
+/// differ in `quantity`: "solver", Ipopt's seconds over `interior_point`'s, or "threads", the seconds of one
 /// thread over the seconds of two. A ratio stands only where both solved the program with objectives that are equal to
 /// 1e-9 (the verdict is "same"): a pair on different branches is not comparable.
 [[nodiscard]] Table solve_ratios(const Table& solves);
