@@ -1,4 +1,4 @@
-# ADOL-C as the target ADOLC::ADOLC. (Its own pkg-config file asks for a library of Boost that it does not need.)
+# ADOL-C as the target ADOLC::ADOLC. (Its own pkg-config file requires a library of Boost that it does not need.)
 find_path(ADOLC_INCLUDE_DIR adolc/adolc.h)
 find_library(ADOLC_LIBRARY adolc)
 mark_as_advanced(ADOLC_INCLUDE_DIR ADOLC_LIBRARY)

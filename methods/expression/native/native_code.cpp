@@ -30,7 +30,7 @@ constexpr VectorRegisters vector_registers_of(InstructionSet set) {
   return {Xbyak::Operand::YMM, 16, 32};
 }
 
-/// Writes functions void(double* const* series, std::size_t width) by the calling convention of System V, and behind
+/// Writes functions void(double* const* series, std::size_t width) by the calling convention of System V, and after
 /// them the constants that they read.
 class StageWriter : public Xbyak::CodeGenerator {
  public:
