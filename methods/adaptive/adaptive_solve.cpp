@@ -132,7 +132,7 @@ class AdaptiveRun {
     return stopped_by_rounding(estimate.floor);
   }
 
-  /// Where a floor is above the accuracy, with a sentence about it.
+  /// True if a floor is above the accuracy; sets the outcome and a sentence about it.
   bool stopped_by_rounding(double floor) {
     if (floor <= options_.accuracy) return false;
     answer_.outcome = AdaptiveOutcome::rounding;

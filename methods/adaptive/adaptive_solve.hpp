@@ -48,7 +48,7 @@ struct AdaptiveOptions {
   void validate() const;
 };
 
-/// One grid on the way.
+/// One of the grids.
 struct GridAttempt {
   Eigen::Index intervals = 0;       ///< N
   Eigen::Index stages = 0;          ///< s
@@ -62,7 +62,7 @@ struct GridAttempt {
   double seconds = 0.0;             ///< set-up, solve, replay, estimate
 };
 
-/// How an adaptive solve ended.
+/// The outcome of an adaptive solve.
 enum class AdaptiveOutcome : std::uint8_t {
   reached,     ///< the estimated error is at most the requested accuracy
   not_solved,  ///< a program was not solved

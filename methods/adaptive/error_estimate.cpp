@@ -27,7 +27,7 @@ double scale_of(const Eigen::MatrixXd& nodes) {
 
 double largest_row(const Eigen::MatrixXd& rows) { return rows.rowwise().norm().maxCoeff(); }
 
-/// How far the replayed intervals miss the next node, row k for interval k; costates times the cost scale.
+/// The misses of the next node by the replayed intervals, row k for interval k; costates times the cost scale.
 struct Misses {
   ExtremalStates in_velocities;
   ExtremalCoordinates::Canonical in_momenta;

@@ -31,7 +31,7 @@ class ExtremalFlow {
   /// strictly convex in the control.
   ExtremalFlow(const TracedProblem& problem, double cost_scale);
 
-  /// Where the flow leads in the intervals.
+  /// The end points of the flow in the intervals.
   struct Carried {
     ExtremalStates states;  ///< row k at t_{k+1}, begun at node k
     Eigen::VectorXd cost;   ///< ∫ C dt over interval k, times `cost_scale`

@@ -23,7 +23,7 @@ struct EvenWidths {
 
 /// With defects d_k of order h^(r + 1): w_k (g/d_k)^(1/(r + 1)), where g is such that the sum of all defects falls to
 /// `share` of its value, or, if that takes more than `most_intervals`, such that it takes so many. `defects` are >= 0;
-/// those far below the others count as 1e-12 of the largest. No width becomes more than four times as wide or eight
+/// defects far below the others count as 1e-12 of the largest. No width becomes more than four times as wide or eight
 /// times as narrow. Where a defect is infinite all widths are halved.
 [[nodiscard]] EvenWidths equidistributed_widths(const Grid& grid, const Eigen::VectorXd& defects, int order,
                                                 double share, double most_intervals);

@@ -18,7 +18,7 @@ class IntervalConditions {
  public:
   IntervalConditions(Transcription& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
 
-  /// Without entries, of the right size.
+  /// Zeros of the right size.
   [[nodiscard]] LocalValues zero() const;
   /// The change of (gradient of ℓ_k, rows of interval k) where the local unknowns and the multipliers of the local rows
   /// change by `direction`.

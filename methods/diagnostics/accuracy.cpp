@@ -31,7 +31,7 @@ double range_of(const Eigen::MatrixXd& nodes) {
   return range > rounding_of(nodes) ? range : 0.0;
 }
 
-/// Where (q, v) of node k is carried by the controls of interval k; nothing where that fails.
+/// The end of (q, v) of node k under the controls of interval k; empty where that fails.
 std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& trajectory, Eigen::Index k, double tolerance) {
   const Eigen::Index n = trajectory.q.cols();
   std::vector<double> state(static_cast<std::size_t>(2 * n));

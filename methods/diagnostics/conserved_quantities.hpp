@@ -61,7 +61,7 @@ struct EnergyBalance {
 /// at the last node of that to its left.
 ///
 /// Where nothing depends on time, H is constant along exact solutions. Where the horizon is free,
-/// H(T) - ψ_p·L_vt(T) + ∂Φ/∂T = 0; the middle term is there because ends and Φ are stated in velocities, while ψ
+/// H(T) - ψ_p·L_vt(T) + ∂Φ/∂T = 0; the middle term appears because ends and Φ are stated in velocities, while ψ
 /// belongs to momenta. For discrete solutions both hold up to their order, since H_u = 0 removes the first-order effect
 /// of the control's error. Active path constraints do not enter H. Throws `Error` if the trajectory has no costates.
 [[nodiscard]] Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& trajectory);

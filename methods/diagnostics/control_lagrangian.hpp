@@ -15,7 +15,7 @@ enum class ControlLagrangianForm : std::uint8_t {
   acceleration,           ///< q̈ = a(q, q̇, u): F = a, P = q̇; ξ = L_vv ψ^p
 };
 
-/// How far a discrete solution is from the midpoint discretisation of such a Lagrangian,
+/// The distance of a discrete solution from the midpoint discretisation of such a Lagrangian,
 /// S_d = Σ_k h_k Λ((q_k + q_{k+1})/2, (q_{k+1} - q_k)/h_k, (ξ_k + ξ_{k+1})/2, (ξ_{k+1} - ξ_k)/h_k, U_k): the largest
 /// residuals of its discrete Euler-Lagrange equations at the inner nodes, divided by the step. The costates at the
 /// nodes give ξ. All numbers are dimensionless. They are O(h²) for every consistent method of order two, and rounding

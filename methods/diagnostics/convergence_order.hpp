@@ -50,7 +50,7 @@ struct AsymptoticRange {
   RangeEnd fine_end = RangeEnd::grids;    ///< why no finer grid belongs to it
 };
 
-/// So many grids make an order.
+/// The fewest grids for an order.
 inline constexpr std::size_t fewest_grids = 4;
 /// The orders between the neighbouring grids of a range differ by at most this much. An error c h^p (1 + a h) then
 /// gives a fitted order within `largest_spread` of p on grids whose steps span a factor of 4, because its local order

@@ -21,7 +21,7 @@ struct TrajectoryError {
   double control = 0.0;   ///< max over the stages of |u - u_ref| at the stage times
   std::optional<double> costate;  ///< max over the nodes of |ψ - ψ_ref|, ψ = (ψ_q, ψ_p); none without multipliers
   double objective = 0.0;         ///< |J - J_ref|
-  /// Only if the reference is given at the same stage times: stage values have an order of their own, which
+  /// Present only if the reference is given at the same stage times: stage values have an order of their own, which
   /// interpolation between other stages would hide.
   std::optional<StageError> stages;
 };

@@ -16,7 +16,7 @@ std::string UndefinedPoint::words() const {
 
 namespace {
 
-/// At eight points between the nodes of interval k.
+/// Checks eight points between the nodes of interval k.
 std::optional<UndefinedPoint> undefined_between(FormulaCheck& check, const Trajectory& trajectory, Eigen::Index k) {
   constexpr int points_per_interval = 8;
   const double left = trajectory.node_times[k];

@@ -8,7 +8,7 @@
 
 namespace dmocbench {
 
-/// Where a motion leaves a bound or a path constraint farthest, relative to its scale.
+/// The largest excess over a bound or a path constraint, relative to its scale.
 struct MotionViolation {
   double share = 0.0;      ///< relative to the constraint's scale; infinite where h is not a number
   double size = 0.0;       ///< the same in the unit of the constraint

@@ -14,7 +14,7 @@ namespace {
 
 using detail::Node;
 
-/// How a node depends on x.
+/// The dependence of a node on x.
 enum class Dependence : std::uint8_t { none, affine, nonlinear };
 
 /// Operands before the nodes that read them; `number` is the place.
@@ -45,7 +45,7 @@ Dependence dependence_of(Operation operation, Dependence left, Dependence right)
   }
 }
 
-/// By the numbers of the nodes.
+/// The dependence of every node, by their numbers.
 std::vector<Dependence> dependences(std::span<Node* const> nodes, const ExpressionVector& x) {
   std::vector<Dependence> result(nodes.size(), Dependence::none);
   for (const Expression& input : x) {

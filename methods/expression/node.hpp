@@ -39,9 +39,9 @@ class Node {
 
   /// The operation that computes it.
   [[nodiscard]] Operation operation() const noexcept { return key_.operation; }
-  /// Of a constant, or the exponent of a power.
+  /// The value of a constant, or the exponent of a power.
   [[nodiscard]] double value() const noexcept { return key_.value; }
-  /// Of an input.
+  /// The number of an input.
   [[nodiscard]] std::size_t index() const noexcept { return key_.index; }
   /// Null where the operation has fewer.
   [[nodiscard]] Node* operand(std::size_t which) const noexcept { return key_.operands[which]; }

@@ -64,7 +64,7 @@ class Writer {
  private:
   static constexpr std::uint32_t unwritten = std::numeric_limits<std::uint32_t>::max();
 
-  /// How a node is computed: by its own operation, or by a shorter one if an operand has no other reader.
+  /// The computation of a node: by its own operation, or by a shorter one if an operand has no other reader.
   struct Form {
     Operation operation = Operation::constant;
     std::array<Node*, 2> operands{};
@@ -125,7 +125,7 @@ class Writer {
     return static_cast<std::uint32_t>(steps_.size() - 1);
   }
 
-  // By the numbers of the nodes: their meanings, their readers, outputs among them, and the positions of their
+  // Indexed by the numbers of the nodes: their meanings, their readers, outputs among them, and the positions of their
   // steps.
   std::vector<Node*> meant_;
   std::vector<std::size_t> readers_;

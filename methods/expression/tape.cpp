@@ -31,7 +31,7 @@ std::uint64_t next_serial() {
 
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
-/// For every step, the last compound that reads it.
+/// The last compound that reads each step.
 std::vector<std::size_t> last_readers(const std::vector<CompoundStep>& compounds, std::size_t steps) {
   std::vector<std::size_t> last(steps, compounds.size());
   for (std::size_t c = 0; c < compounds.size(); ++c) {

@@ -41,7 +41,7 @@ class Tape {
   /// The memory of one evaluation: slots, constants and the table of series. Not to be shared between threads.
   class Workspace {
    public:
-    /// For this tape; it may be used for any number of evaluations, by one thread at a time.
+    /// A workspace for this tape; it may be used for any number of evaluations, by one thread at a time.
     explicit Workspace(const Tape& tape);
     // The table of series points into this workspace's own memory, which stays in place when it is moved.
     Workspace(const Workspace&) = delete;

@@ -11,7 +11,7 @@ namespace dmocbench {
 /// Intervals evaluated together: 128 numbers are a kilobyte, so some 30 series stay in a first-level cache.
 inline constexpr std::size_t tape_block_width = 128;
 
-/// How two numbers x and y are combined; `subtract_from` is y - x.
+/// The combinations of two numbers x and y; `subtract_from` is y - x.
 enum class Combination : std::uint8_t { add, subtract, multiply, subtract_from };
 
 /// The codes of all instructions of a tape's kernel: a single operation, sine and cosine of one number, or two or three

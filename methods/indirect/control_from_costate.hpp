@@ -23,7 +23,7 @@ class ControlFromCostate {
   [[nodiscard]] Eigen::VectorXd control(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                         const Eigen::VectorXd& psi_p, double t, const Eigen::VectorXd& start) const;
 
-  /// At all nodes of a trajectory with costates, (N + 1) × m. Throws `Error` without costates.
+  /// The controls at all nodes of a trajectory with costates, (N + 1) × m. Throws `Error` without costates.
   [[nodiscard]] Eigen::MatrixXd at_nodes(const Trajectory& trajectory) const;
 
  private:

@@ -39,8 +39,8 @@ struct IndirectAgreement {
 /// A solution of Pontryagin's boundary value problem, given at every time.
 class IndirectSolution {
  public:
-  /// From numbers that `extremal` returned earlier. The problem is traced and need not outlive the solution. Throws
-  /// `Error` if the numbers do not fit the problem.
+  /// A solution from numbers that `extremal` returned earlier. The problem is traced and need not outlive the solution.
+  /// Throws `Error` if the numbers do not fit the problem.
   IndirectSolution(const Problem& problem, CollocatedExtremal extremal, const IndirectAgreement& agreement);
 
   /// The motion at time t in [0, T] (times outside are moved to the ends): the collocation polynomial of (q, p, ψ), v
@@ -51,7 +51,7 @@ class IndirectSolution {
   [[nodiscard]] Eigen::VectorXd node_times() const;
   /// J, the true cost.
   [[nodiscard]] double cost() const;
-  /// How well two runs of different order and grid agree, at and between their nodes.
+  /// The agreement of two runs of different order and grid, at and between their nodes.
   [[nodiscard]] const IndirectAgreement& agreement() const noexcept { return agreement_; }
   /// Digits that the two runs share in state, costate, control and cost.
   [[nodiscard]] double certified_digits() const { return agreement_.digits(); }

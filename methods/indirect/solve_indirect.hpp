@@ -6,7 +6,7 @@
 
 namespace dmocbench {
 
-/// When `solve_indirect` stops refining.
+/// The stopping rule of `solve_indirect`.
 struct IndirectOptions {
   double tolerance = 1e-12;            ///< grids are refined until two runs agree to this, relative
   Eigen::Index fewest_intervals = 16;  ///< N to begin with; long horizons need a few intervals per period

@@ -52,7 +52,7 @@ class Confirmation {
  private:
   void judge_residuals(Solution& solution);
   [[nodiscard]] double scaled_residual(double tolerance, const Solution& solution);
-  /// Of the Newton step of all unknowns, and of all but the controls.
+  /// Lengths of the Newton step of all unknowns, and of all except the controls.
   struct StepLengths {
     double of_all = 0.0;
     double of_state = 0.0;
@@ -80,10 +80,10 @@ void tell_of_stop(Solution& solution);
 /// (`Confirmation::factor_of_cost`): "not confirmed".
 void refuse_small_cost(double factor, Solution& solution);
 
-/// How much larger than the tolerance our residual may be: ours is the largest entry as it is, solvers scale theirs.
+/// The permitted ratio of our residual to the tolerance: ours is the largest entry as it is, solvers scale theirs.
 inline constexpr double confirmation_factor = 10.0;
 
-/// How much larger the residual of an acceptable solution may be than a solved one's.
+/// The permitted ratio of the residual of an acceptable solution to a solved one's.
 inline constexpr double acceptable_factor = 100.0;
 
 /// The largest Newton step, relative to the answer, at which an answer is settled.

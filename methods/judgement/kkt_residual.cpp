@@ -46,7 +46,7 @@ Eigen::VectorXd jacobian_at(NonlinearProgram& program, const Eigen::VectorXd& pr
 /// The larger of both; NaN if one is NaN.
 double largest(double a, double b) { return std::isnan(b) ? b : std::max(a, b); }
 
-/// How far a value is outside its bounds; NaN if the value is NaN.
+/// The distance of a value from its bounds; NaN if the value is NaN.
 double outside(double x, double lower, double upper) {
   return std::isnan(x) ? x : std::max({0.0, lower - x, x - upper});
 }
@@ -120,7 +120,7 @@ Eigen::SparseMatrix<double> transposed(const BlockPattern& pattern, const Eigen:
     if (!rows.contains(i) || !variables.contains(j)) return;
     entries.emplace_back(variables.number_of(j), rows.number_of(i), values[e]);
   });
-  // Eigen's sparse QR wants at least as many rows as columns; rows of zeros change no least-squares solution.
+  // Eigen's sparse QR needs at least as many rows as columns; rows of zeros change no least-squares solution.
   Eigen::SparseMatrix<double> matrix(std::max(variables.count, rows.count), rows.count);
   matrix.setFromTriplets(entries.begin(), entries.end());
   matrix.makeCompressed();

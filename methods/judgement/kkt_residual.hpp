@@ -6,7 +6,7 @@
 
 namespace dmocbench {
 
-/// How far a point is from meeting the Karush-Kuhn-Tucker conditions, computed from the program alone.
+/// The residuals of the Karush-Kuhn-Tucker conditions at a point, computed from the program alone.
 struct KktResidual {
   /// Largest entry of ∇φ + (∂a/∂ξ)ᵀλ over the free variables, and largest multiplier of an inequality. Where a bound at
   /// the distance d may take up an entry g, |g| min(1, d) counts: stationarity without its multiplier, complementarity
@@ -73,7 +73,7 @@ void kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const
 [[nodiscard]] Eigen::VectorXd complete_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal,
                                                    const Eigen::VectorXd& known, double activity = 1e-3);
 
-/// How near to its bound a variable or a constraint counts as active; see above.
+/// The distance from a bound below which a variable or a constraint counts as active; see above.
 inline constexpr double activity_tolerance = 1e-8;
 
 /// True at a point that violates constraints and where, to first order, no step within the bounds of the variables

@@ -23,7 +23,7 @@ namespace dmocbench {
 /// the barrier keeps them away from bounds.
 class ViolationDescent {
  public:
-  /// From `start` (variable_count() entries), moved off its bounds.
+  /// A descent from `start` (variable_count() entries), moved off its bounds.
   ViolationDescent(NonlinearProgram& program, const Eigen::VectorXd& start);
 
   /// One step; false if none lets the violation fall, as where a number is not finite. It evaluates the program in

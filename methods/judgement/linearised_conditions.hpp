@@ -51,7 +51,7 @@ struct LinearisedConditions {
 /// A way to solve with such a matrix: by intervals where the program's structure allows it, since that takes time
 /// linear in their number, otherwise as below.
 [[nodiscard]] std::unique_ptr<kkt::KktSystem> kkt_system_of(const NonlinearProgram& program);
-/// By a sparse factorisation, whatever the point is: rounding of the multipliers may hide that it is a minimum.
+/// A sparse factorisation that accepts any point: rounding of the multipliers may hide that it is a minimum.
 [[nodiscard]] std::unique_ptr<kkt::KktSystem> kkt_system_of_any_point(const NonlinearProgram& program);
 
 }  // namespace dmocbench

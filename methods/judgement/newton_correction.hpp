@@ -17,13 +17,13 @@ namespace dmocbench {
 struct NewtonCorrection {
   Eigen::VectorXd primal;       ///< δξ, variable_count() entries
   Eigen::VectorXd multipliers;  ///< δλ, constraint_count() entries
-  /// How far it moves, see `NewtonCorrections`.
+  /// Its length, see `NewtonCorrections`.
   double length = 0.0;
   /// The same without the unknowns that are values of a control.
   double length_of_state = 0.0;
 };
 
-/// How far answers of a program are from the point where the Karush-Kuhn-Tucker conditions hold exactly, to first
+/// The distance of answers of a program from the point where the Karush-Kuhn-Tucker conditions hold exactly, to first
 /// order: the error of an answer that small residuals still permit. Where the cost is flat, or a step h is small,
 /// residuals at the tolerance may leave an unknown wrong in its second digit.
 ///
@@ -38,7 +38,7 @@ struct NewtonCorrection {
 /// have: at rest they are rounding, and so is a step. φ is scaled as the solver sees it.
 class NewtonCorrections {
  public:
-  /// How the linear systems are factorised.
+  /// The factorisation of the linear systems.
   enum class Factorisation : std::uint8_t {
     by_intervals,  ///< where the program's structure allows it, in time linear in the intervals; otherwise sparse
     sparse,        ///< with pivoting: slower, and the last digits are better

@@ -21,17 +21,17 @@ class StopRule {
   /// True if all constraints, and all variables, are allowed the same: then the largest residual decides.
   [[nodiscard]] bool is_one_for_all() const { return floors_.are_equal(); }
 
-  /// For the violation of any constraint or bound: the least that is allowed.
+  /// The smallest limit on the violation of any constraint or bound.
   [[nodiscard]] double violation() const { return std::max(tolerance_, floors_.smallest); }
-  /// For one constraint.
+  /// The limit for one constraint.
   [[nodiscard]] double violation(Eigen::Index row) const { return std::max(tolerance_, floors_.of_constraint(row)); }
 
-  /// For any entry of ∇_x of the Lagrangian: the least that is allowed. `mean_multiplier`, `largest_multiplier`:
+  /// The smallest limit on any entry of ∇_x of the Lagrangian. `mean_multiplier`, `largest_multiplier`:
   /// magnitudes; the mean excuses large residuals as s_d of Wächter and Biegler (2006), (6), does.
   [[nodiscard]] double stationarity(double mean_multiplier, double largest_multiplier) const {
     return stationarity_above(floors_.smallest, mean_multiplier, largest_multiplier);
   }
-  /// For the entry of one variable.
+  /// The limit on the entry of one variable.
   [[nodiscard]] double stationarity(double mean_multiplier, double largest_multiplier, Eigen::Index variable) const {
     return stationarity_above(floors_.of_variable(variable), mean_multiplier, largest_multiplier);
   }
@@ -48,7 +48,7 @@ class StopRule {
                          [&](Eigen::Index j) { return stationarity(mean_multiplier, largest_multiplier, j); });
   }
 
-  /// For the largest product of a bound's multiplier and the distance to it. `mean_multiplier`: over bounds.
+  /// The limit on the largest product of a bound's multiplier and the distance to it. `mean_multiplier`: over bounds.
   [[nodiscard]] double complementarity(double mean_multiplier) const { return tolerance_ * scale(mean_multiplier); }
 
   /// s_d and s_c of Wächter and Biegler: large multipliers excuse large residuals, up to `most_excused`.
@@ -57,7 +57,7 @@ class StopRule {
     return std::max(s_max, std::min(mean_multiplier, s_max * most_excused)) / s_max;
   }
 
-  /// By this factor at most: next to multipliers without a bound any residual would pass.
+  /// The largest such factor: next to multipliers without a bound any residual would pass.
   static constexpr double most_excused = 1e8;
 
  private:

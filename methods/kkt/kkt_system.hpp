@@ -38,7 +38,7 @@ struct KktStep {
 
 /// The outcome of a factorisation.
 enum class FactorisationStatus : std::uint8_t {
-  solved,         ///< H + diag(d) is positive definite on the null space of the equalities; the step is there
+  solved,         ///< H + diag(d) is positive definite on the null space of the equalities; the step is valid
   wrong_inertia,  ///< it is not
   singular,       ///< the constraints depend on each other, or a number is not finite
   untrusted,      ///< the elimination met so small a pivot that its result is meaningless
@@ -57,15 +57,15 @@ class KktSystem {
   KktSystem(KktSystem&&) = delete;
   KktSystem& operator=(KktSystem&&) = delete;
 
-  /// Before the matrices of another solve: forgets the observations of the last one, so that solves do not depend on
-  /// each other.
+  /// Call before the matrices of another solve: forgets the observations of the last one, so that solves do not depend
+  /// on each other.
   virtual void begin_solve() {}
 
   /// The step is written if the status is `solved`; otherwise it may hold anything.
   [[nodiscard]] virtual FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                                   const KktStep& step) = 0;
 
-  /// After `wrong_inertia`: whether rounding leaves no doubt about it. If not, the inertia may be right.
+  /// After `wrong_inertia`, true if rounding leaves no doubt about it. If not, the inertia may be right.
   [[nodiscard]] virtual bool is_certain() const noexcept { return false; }
 
  protected:

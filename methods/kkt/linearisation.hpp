@@ -21,13 +21,13 @@ struct Linearisation {
   [[nodiscard]] bool has_finite_values() const { return std::isfinite(objective) && constraints.allFinite(); }
 };
 
-/// Which variables may move: those whose bounds differ.
+/// True for the variables that may move: their bounds differ.
 [[nodiscard]] std::vector<bool> free_variables(const NonlinearProgram& program);
 /// The variables whose bounds are equal, in ascending order.
 [[nodiscard]] std::vector<Eigen::Index> fixed_variables(const NonlinearProgram& program);
 /// The constraints that are not equalities, in ascending order.
 [[nodiscard]] std::vector<Eigen::Index> inequalities_of(const NonlinearProgram& program);
-/// Which constraints are equalities.
+/// True for the constraints that are equalities.
 [[nodiscard]] std::vector<bool> equalities_of(const NonlinearProgram& program);
 
 /// Objective and constraints at a point.
@@ -38,7 +38,7 @@ void differentiate(NonlinearProgram& program, Linearisation& at);
 [[nodiscard]] Eigen::SparseMatrix<double> hessian_at(NonlinearProgram& program, const Eigen::VectorXd& point,
                                                      const Eigen::VectorXd& multipliers);
 
-/// By how much each constraint leaves its bounds: positive above the upper one, negative below the lower one.
+/// The amount by which each constraint leaves its bounds: positive above the upper one, negative below the lower one.
 [[nodiscard]] Eigen::VectorXd violations(const NonlinearProgram& program, const Eigen::VectorXd& constraints);
 
 /// Lower triangle of (H + δI, Eᵀ; E, 0), where E are the rows of the Jacobian that count. Fixed variables and the other

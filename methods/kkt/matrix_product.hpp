@@ -11,7 +11,7 @@ namespace dmocbench::kkt {
 
 struct MatrixTerm;
 
-/// How a sparse matrix is multiplied by a vector, run by run of its pattern.
+/// Multiplies a sparse matrix by a vector, run by run of its pattern.
 class MatrixProduct {
  public:
   /// J x.

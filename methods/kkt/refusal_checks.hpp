@@ -2,7 +2,7 @@
 
 namespace dmocbench::kkt {
 
-/// Which refusals of a fast system, its `wrong_inertia`s, are checked by an exact one. The fast test of the inertia may
+/// Chooses the refusals of a fast system (`wrong_inertia`) that an exact one checks. The fast test of the inertia may
 /// be stricter than the truth. Where it is so at one matrix it often is at the next ones too; each of them is then
 /// shifted for nothing, and Newton's method takes many short steps in the place of a few.
 ///
@@ -14,16 +14,16 @@ namespace dmocbench::kkt {
 /// - Once a refusal was wrong, all refusals are checked, until matrices show in the same way that they are right.
 class RefusalChecks {
  public:
-  /// Before the matrices of another solve.
+  /// Call before the matrices of another solve.
   void forget() noexcept { *this = {}; }
-  /// After a refusal: whether it is to be checked.
+  /// Call after a refusal; true if it has to be checked.
   [[nodiscard]] bool ask() noexcept {
     ++refusals_;
     return checks_all_ || refusals_ % most_believed == 0;
   }
   /// The refusal that was checked last was wrong.
   void contradict() noexcept { was_wrong_ = true; }
-  /// After a step; the next matrix is another one.
+  /// Call after a step; the next matrix is another one.
   void end_matrix() noexcept {
     if (refusals_ > 0) {
       count_refused_matrix();

@@ -12,7 +12,7 @@ namespace dmocbench {
 struct SparsityPattern {
   std::vector<int> rows;     ///< of each entry
   std::vector<int> columns;  ///< of each entry
-  /// How many entries there are.
+  /// The number of entries.
   [[nodiscard]] std::size_t size() const noexcept { return rows.size(); }
 };
 
@@ -27,7 +27,8 @@ struct PatternRun {
   Eigen::Index length = 1;       ///< how many entries the run has
 };
 
-/// Where the entries of a sparse matrix stand: runs, in the order of the array of values. No position occurs twice.
+/// The positions of the entries of a sparse matrix: runs, in the order of the array of values. No position occurs
+/// twice.
 ///
 /// The size of a pattern does not depend on the number of intervals: a quantity that an interval contributes is one run
 /// over all of them. A program without such structure has runs of one entry.

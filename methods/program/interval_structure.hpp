@@ -8,8 +8,8 @@
 
 namespace dmocbench {
 
-/// Where an unknown or a row of a transcribed program belongs: to a node k from 0 to N, to an interval k from 0 to N -
-/// 1, or to the border (a quantity of the whole horizon).
+/// The place of an unknown or a row of a transcribed program: a node k from 0 to N, an interval k from 0 to N -
+/// 1, or the border (a quantity of the whole horizon).
 struct Place {
   /// A node, an interval, or the whole horizon.
   enum class Kind : std::uint8_t { node, interval, border };
@@ -39,7 +39,7 @@ class Places {
 
   /// All runs; together they name every unknown, or row, once.
   [[nodiscard]] const std::vector<PlaceRun>& runs() const noexcept { return runs_; }
-  /// How many places there are.
+  /// The number of places.
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
   /// The number of the run that a member belongs to.

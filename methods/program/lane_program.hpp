@@ -23,7 +23,7 @@ class LaneProgram {
   LaneProgram(LaneProgram&&) = delete;
   LaneProgram& operator=(LaneProgram&&) = delete;
 
-  /// How many parameters an instance has: inputs of the formulas in addition to the unknowns.
+  /// The number of parameters of an instance: inputs of the formulas in addition to the unknowns.
   [[nodiscard]] virtual std::size_t parameter_count() const { return 0; }
   /// Gives the instance in a lane its parameters: `parameter_count()` of them, or none for the usual ones. Throws
   /// `Error` if they are not allowed.

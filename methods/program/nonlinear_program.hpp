@@ -68,7 +68,7 @@ class NonlinearProgram {
     return none;
   }
 
-  /// How unknowns and constraints belong to the intervals of a grid; null if the program has no such structure.
+  /// The places of unknowns and constraints on the grid; null if the program has no such structure.
   [[nodiscard]] virtual const IntervalStructure* interval_structure() const { return nullptr; }
 
  protected:

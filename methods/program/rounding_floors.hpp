@@ -13,9 +13,9 @@ namespace dmocbench {
 struct RoundingFloors {
   double smallest = 0.0;  ///< of all constraints and variables
   double largest = 0.0;   ///< of all constraints and variables
-  /// Of every constraint; empty where all floors are equal.
+  /// One for every constraint; empty where all floors are equal.
   Eigen::VectorXd constraints;
-  /// Of every variable, for its entry of (∂a/∂ξ)ᵀλ with |λ| = 1; empty where all floors are equal.
+  /// One for every variable, for its entry of (∂a/∂ξ)ᵀλ with |λ| = 1; empty where all floors are equal.
   Eigen::VectorXd variables;
 
   /// True if one floor holds for all.

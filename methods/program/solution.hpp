@@ -9,12 +9,12 @@
 
 namespace dmocbench {
 
-/// How often a solver called each evaluation of the program (`NonlinearProgram`).
+/// The numbers of calls of each evaluation of the program by a solver (`NonlinearProgram`).
 ///
 /// The meaning of `evaluations`, here and in tables with this column: the number of calls by which the solver's method
 /// evaluated the program's objective, gradient, constraints, Jacobian or Hessian, each call counted as one.
 /// `Solver::solve` counts them in one place for all solvers, so the numbers are comparable. A point of which a solver
-/// wants the values of objective and constraints costs two, with first derivatives four. Not counted are the calls by
+/// needs the values of objective and constraints costs two, with first derivatives four. Not counted are the calls by
 /// which we judge points: in `confirm`, and in the stopping test of `sqp` and `nlopt`, which is the same judgement.
 struct EvaluationCounts {
   int objective = 0;    ///< of φ
@@ -41,7 +41,8 @@ struct Solution {
   // Computed by us, from our derivatives, for every solver alike; see kkt_residual.hpp.
   std::optional<double> kkt_residual;  ///< none if the solver never started, or stopped late without multipliers
   std::optional<double> constraint_violation;  ///< none if the solver never started
-  /// How far a Newton step from here would move the answer (`NewtonCorrection::length`); none if not computed.
+  /// The distance by which a Newton step from here would move the answer (`NewtonCorrection::length`); none if not
+  /// computed.
   std::optional<double> correction;
   /// μ that an interior-point method ended with, the start of a neighbour's; none where the program has neither bounds
   /// nor inequalities, or the solver does not report it.

@@ -7,7 +7,7 @@ namespace dmocbench {
 /// Options of every solver. Further options of our own solvers are typed: `SequentialOptions`,
 /// `InteriorPointOptions`. Ipopt and NLopt take `NamedOptions`.
 struct SolverOptions {
-  /// For the KKT residual of the program as the solver sees it (scaled cost).
+  /// Tolerance on the KKT residual of the program as solved (scaled cost).
   double tolerance = 1e-10;
   int most_iterations = 500;  ///< after which a solve has failed
   /// Wall clock; 0 for no limit. The time of the innermost `StopScope` is a limit too.

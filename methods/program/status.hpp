@@ -5,7 +5,7 @@
 
 namespace dmocbench {
 
-/// How a solve ended. Only `solved` and `control_not_determined` are answers that our own residual confirms.
+/// The outcome of a solve. Only `solved` and `control_not_determined` are answers that our own residual confirms.
 enum class Status : std::uint8_t {
   not_run,                  ///< no solver has been called
   solved,                   ///< KKT residual and constraint violation are below the tolerance, or rounding (`StopRule`)
@@ -30,7 +30,7 @@ enum class Status : std::uint8_t {
 /// The name that tables use: "solved", "iteration limit", ...
 [[nodiscard]] std::string_view name_of(Status status) noexcept;
 
-/// Its meaning, in one sentence for a person.
+/// Its meaning, in one sentence.
 [[nodiscard]] std::string_view sentence_of(Status status) noexcept;
 
 /// The status with that name; `not_run` if there is none.

@@ -8,7 +8,7 @@ void check_environment();
 
 /// Lets MUMPS order unknowns on one thread, unless the environment sets SCOTCH_PTHREAD_NUMBER: Scotch 7, which orders
 /// for it, takes all processors otherwise, and its order, and with it the last digits of an answer, is not the same in
-/// every run. It changes the environment of this process: for `main`, before other threads are there, not for a
+/// every run. It changes the environment of this process: for `main`, before other threads exist, not for a
 /// library.
 void order_by_one_thread();
 

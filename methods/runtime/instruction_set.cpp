@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::array every_set{InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512};
 
-/// How many of `every_set` this processor can run: those whose instructions the flags of `dmocbench_kernel` allow.
+/// The number of sets of `every_set` that this processor can run: those whose instructions the flags of
+/// `dmocbench_kernel` allow.
 std::size_t count_of_sets() {
 #ifdef DMOCBENCH_X86_KERNELS
   // The type is bool in clang, int in GCC.

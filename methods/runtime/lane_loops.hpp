@@ -6,7 +6,7 @@
 
 namespace dmocbench {
 
-/// How many instances of a program are worked on side by side, one per lane of a vector register.
+/// The number of instances of a program that are processed side by side, one per lane of a vector register.
 inline constexpr std::size_t instance_lanes = 8;
 
 /// Loops over interleaved vectors: entry i of the vector of lane l stands at i * instance_lanes + l. `size` counts

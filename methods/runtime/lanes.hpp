@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-// For sources that are compiled once per instruction set. Before the first of the headers that include this one, such a
-// source defines DMOCBENCH_LANES: the name of the inline namespace that all of them are in, one of its own for each
-// source, because a linker may take either of two functions of the same name.
+// This header is for sources compiled once per instruction set. Before the first of the headers that include this one,
+// such a source defines DMOCBENCH_LANES: the name of the inline namespace that all of them are in, one of its own for
+// each source, because a linker may take either of two functions of the same name.
 #ifndef DMOCBENCH_LANES
 #define DMOCBENCH_LANES lanes_of_any_source
 #endif

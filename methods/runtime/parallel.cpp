@@ -95,7 +95,7 @@ class WorkerTeam {
   }
 
  private:
-  /// From the lowest bit: whether the job is open, how many helpers work on it, and the number of the call, which
+  /// The bits from the lowest: whether the job is open, how many helpers work on it, and the number of the call, which
   /// begins anew where it overflows.
   using State = std::uint32_t;
   static constexpr State is_open = 1;

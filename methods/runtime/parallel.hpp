@@ -4,8 +4,9 @@
 
 namespace dmocbench {
 
-/// How many threads work on one program where that pays: the last value of `set_thread_count`, else the environment
-/// variable DMOCBENCH_THREADS, else one per processor. Throws `Error` if the variable is not a number from 1 to 1024.
+/// The number of threads that work on one program where that pays: the last value of `set_thread_count`, else the
+/// environment variable DMOCBENCH_THREADS, else one per processor. Throws `Error` if the variable is not a number from
+/// 1 to 1024.
 [[nodiscard]] std::size_t thread_count();
 /// Throws `Error` unless 1 <= count <= 1024.
 void set_thread_count(std::size_t count);
@@ -15,9 +16,9 @@ void set_thread_count(std::size_t count);
 inline constexpr std::size_t intervals_per_part = 4096;
 /// The largest number of parts.
 inline constexpr std::size_t most_parts = 64;
-/// How many parts a number of intervals is cut into. Neither this nor any result depends on the number of threads.
+/// The number of parts into which intervals are cut. Neither this nor any result depends on the number of threads.
 [[nodiscard]] std::size_t part_count(std::size_t intervals, std::size_t per_part = intervals_per_part) noexcept;
-/// Where part `part` of `parts` begins among `count` items: a multiple of `unit`, or `count` if `part` is `parts`.
+/// The beginning of part `part` of `parts` among `count` items: a multiple of `unit`, or `count` if `part` is `parts`.
 [[nodiscard]] std::size_t begin_of_part(std::size_t part, std::size_t parts, std::size_t count,
                                         std::size_t unit = 1) noexcept;
 

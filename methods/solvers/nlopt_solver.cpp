@@ -27,7 +27,7 @@ namespace dmocbench {
 
 namespace {
 
-/// How near a point is to a solution: points that meet the constraints before those that do not.
+/// The distance of a point from a solution: points that meet the constraints before those that do not.
 struct Nearness {
   bool violates = true;
   double residual = unbounded;  // scaled_residual of confirm.hpp
@@ -109,7 +109,7 @@ class SlsqpRun {
     Solution solution;
     solution.status = Status::acceptable;
     solution.primal = nearest_point_;
-    if (free_.empty()) return solution;  // NLopt wants a variable
+    if (free_.empty()) return solution;  // NLopt needs a variable
     if (equalities_.size() > free_.size()) {
       return refused(Status::invalid_program,
                      fmt::format("NLopt's SLSQP takes no more equalities than free variables, the program has {} and "

@@ -28,7 +28,7 @@ namespace dmocbench {
 /// once.
 class PreparedSolve {
  public:
-  /// How answers are judged.
+  /// The judgement of answers.
   enum class Judgement : std::uint8_t {
     confirmed,       ///< as by `Solver::solve`: our residual, and a Newton step from the answer (`Confirmation`)
     residuals_only,  ///< without the Newton step, about one iteration: for warm starts next to an answer that was
@@ -38,10 +38,10 @@ class PreparedSolve {
   /// The program must outlive it. Throws `Error` as `make_solver` does.
   explicit PreparedSolve(NonlinearProgram& program, std::string_view solver = "interior_point",
                          const SolverOptions& options = {}, Judgement judgement = Judgement::confirmed);
-  /// The same by a solver that is there already.
+  /// The same by an existing solver.
   PreparedSolve(NonlinearProgram& program, std::unique_ptr<Solver> solver, Judgement judgement = Judgement::confirmed);
 
-  /// As `Solver::solve`, from a start (variable_count() entries) and, unless they are empty, multipliers
+  /// Solves as `Solver::solve`, from a start (variable_count() entries) and, unless they are empty, multipliers
   /// (constraint_count() entries) and a barrier parameter (`Solution::barrier_parameter` of a neighbour). The solution
   /// is valid until the next call. Throws `Error` if a size is wrong or the parameter is not positive.
   const Solution& solve(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
@@ -49,7 +49,7 @@ class PreparedSolve {
 
   /// The last solution; "not run" before the first.
   [[nodiscard]] const Solution& solution() const noexcept { return solution_; }
-  /// Whose method it is.
+  /// The solver of the method.
   [[nodiscard]] const Solver& solver() const noexcept { return *solver_; }
   /// The program that it solves.
   [[nodiscard]] NonlinearProgram& program() const noexcept { return program_; }

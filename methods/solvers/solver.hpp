@@ -77,7 +77,7 @@ class Solver {
                                const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
                                std::optional<double> barrier_parameter = std::nullopt) const;
 
-  /// As they were given.
+  /// The options as given.
   [[nodiscard]] const SolverOptions& options() const noexcept { return options_; }
 
   /// The method for solving one program again and again, with memory of its own. The solver and the program must

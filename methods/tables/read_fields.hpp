@@ -8,7 +8,7 @@
 namespace dmocbench {
 
 /// As long as it exists, records the fields that this thread reads, of rows with a place
-/// (`Table::name_places`): the data behind a conclusion from tables. The innermost one records.
+/// (`Table::name_places`): the data of a conclusion from tables. The innermost one records.
 class ReadFields {
  public:
   /// The fields read of a row.
@@ -16,7 +16,7 @@ class ReadFields {
     std::set<std::string, std::less<>> columns;  ///< their names
     bool has_number = false;                     ///< a field was read as a number, not only to choose the row
   };
-  /// By the places of rows.
+  /// Fields by the places of rows.
   using ByPlace = std::map<std::string, OfRow, std::less<>>;
 
   /// Begins to remember.

@@ -63,9 +63,9 @@ class Row {
   /// The numbers of a field that holds several (`joined_numbers`); none if it is empty. Throws `Error` that names the
   /// place and the column if something else stands there.
   [[nodiscard]] std::vector<double> numbers(std::string_view column) const;
-  /// Where the row stands, for errors: "objective.csv, record 2" (the header is record 1); empty if unknown.
+  /// The place of the row, for errors: "objective.csv, record 2" (the header is record 1); empty if unknown.
   [[nodiscard]] const std::string& place() const noexcept { return place_; }
-  /// Sets where the row stands, for errors.
+  /// Sets the place of the row, for errors.
   void set_place(std::string place) { place_ = std::move(place); }
   /// The fields of these columns as a line of comma-separated values (RFC 4180 quoting, ends with \n).
   [[nodiscard]] std::string csv(const std::vector<std::string>& columns) const;
@@ -94,12 +94,12 @@ struct FieldType {
 class Table {
  public:
   Table() = default;
-  /// Without rows.
+  /// A table without rows.
   explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 
   /// Their names, in their order.
   [[nodiscard]] const std::vector<std::string>& columns() const noexcept { return columns_; }
-  /// In the order in which they were added.
+  /// The rows in the order in which they were added.
   [[nodiscard]] const std::vector<Row>& rows() const noexcept { return rows_; }
   /// Adds a row at the end.
   void append(Row row) { rows_.push_back(std::move(row)); }

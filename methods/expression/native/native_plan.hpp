@@ -42,7 +42,7 @@ struct TapeSeries {
 /// A schedule as stages: a function is carried out as soon as its operands can be known, everything else as late as
 /// possible, so that few values pass from stage to stage. Those that do have a series of their own.
 struct NativePlan {
-  /// Where a value is stored outside registers.
+  /// The place of a value outside registers.
   struct Home {
     std::optional<double> constant;       ///< its value, if it is a constant
     std::optional<std::uint32_t> series;  ///< of inputs, of results of functions and of stored values

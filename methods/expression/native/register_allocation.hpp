@@ -8,7 +8,7 @@
 
 namespace dmocbench {
 
-/// Where a vector of numbers is while machine code runs.
+/// The place of a vector of numbers while machine code runs.
 struct OperandPlace {
   /// A register; or memory: a series at the present intervals, a constant of the plan, a place on the stack.
   enum class Kind : std::uint8_t { in_register, series, constant, stack };

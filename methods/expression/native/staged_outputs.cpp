@@ -9,7 +9,7 @@ namespace {
 /// Lines this far apart share a place in caches of 32 KB with 8 ways, and of 48 KB with 12.
 constexpr std::size_t period_bytes = 4096;
 constexpr std::size_t line_bytes = 64;
-/// How many lines may share a place. With 12 ways, staging becomes the faster way between 10 and 15 outputs.
+/// The most lines that share a place. With 12 ways, staging becomes the faster way between 10 and 15 outputs.
 constexpr std::size_t most_sharing = 12;
 
 }  // namespace

@@ -19,8 +19,8 @@ namespace dmocbench {
 /// the code writes to series of its own, which use the whole cache, and a kernel copies them column by column.
 class StagedOutputs {
  public:
-  /// For `count` outputs. In the table of series the code finds the outputs from `first_output` on; from `first_column`
-  /// on there is room for the columns that they go to.
+  /// Stages `count` outputs. In the table of series the code finds the outputs from `first_output` on; from
+  /// `first_column` on there is room for the columns that they go to.
   StagedOutputs(std::size_t count, std::uint32_t first_output, std::uint32_t first_column);
 
   /// Whether more of the columns share a place in the first-level cache than it has ways.
@@ -29,7 +29,7 @@ class StagedOutputs {
   /// Puts series of this into a table in the place of the outputs, and the columns that stood there after all others.
   void redirect(std::span<double*> table) noexcept;
 
-  /// From these series to the columns, for a block of intervals.
+  /// The copies from these series to the columns, for a block of intervals.
   [[nodiscard]] std::span<const TapeInstruction> copies() const noexcept { return copies_; }
 
  private:

@@ -12,10 +12,10 @@ namespace dmocbench {
 
 /// The readers of a defined variable. AMPL numbers the shared ones first, then the rows', then the objective's.
 enum class AmplReaders : std::uint8_t { rows_and_objective, rows, objective };
-/// How many kinds there are.
+/// The number of kinds.
 inline constexpr std::size_t ampl_reader_kinds = 3;
 
-/// How many defined variables each kind of readers has.
+/// The number of defined variables for each kind of readers.
 using AmplCounts = std::array<std::size_t, ampl_reader_kinds>;
 
 /// The text of formulas in AMPL's format (Gay, "Writing .nl files"): a line per operation, operand or number, operands
@@ -36,7 +36,7 @@ class AmplDefinitions {
   /// The definitions (V segments) so far, in the order of their numbers.
   [[nodiscard]] std::string text() const { return texts_[0] + texts_[1] + texts_[2]; }
 
-  /// How many defined variables a schedule adds, by their readers.
+  /// The numbers of defined variables that a schedule adds, by their readers.
   [[nodiscard]] static AmplCounts count(const Schedule& schedule);
 
  private:

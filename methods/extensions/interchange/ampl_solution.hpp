@@ -18,7 +18,7 @@ struct AmplSolution {
   /// the solver wrote none.
   Eigen::VectorXd multipliers;
   Eigen::Index variable_count = 0;  ///< of the program that was solved
-  /// Of the program that was solved, according to the file.
+  /// Rows of the program that was solved, according to the file.
   Eigen::Index constraint_count = 0;
   int code = 0;  ///< AMPL's solve_result_num
   /// The solver's status by that code: 0 solved, 100 acceptable, 200 infeasible, 300 diverged, 400 iteration limit,

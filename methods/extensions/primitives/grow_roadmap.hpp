@@ -9,9 +9,9 @@ namespace dmocbench {
 
 /// The parameters of a roadmap that is grown.
 struct GrowthRequest {
-  /// Where paths begin.
+  /// The start of the paths.
   RoadmapNode start;
-  /// Where they shall end.
+  /// The goal of the paths.
   RoadmapNode goal;
   int duration = 1;  ///< the horizon in time steps
   /// Nodes outside of a region are not visited; by default there is no such region.

@@ -119,7 +119,7 @@ class Joining {
   [[nodiscard]] Eigen::VectorXd target_of(const StatePair& pair) const {
     return lasts_.states.row(pair.last).transpose();
   }
-  /// Of both branches.
+  /// The cost of both branches.
   [[nodiscard]] double cost_to(const StatePair& pair) const {
     return firsts_.costs[pair.first] + lasts_.costs[pair.last];
   }

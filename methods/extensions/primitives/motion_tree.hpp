@@ -11,7 +11,7 @@
 
 namespace dmocbench {
 
-/// How a tree of motions grows.
+/// Options for the growth of a tree of motions.
 struct MotionTreeOptions {
   int layers = 1;                  ///< time steps
   int intervals_per_step = 1;      ///< steps of the flow in each

@@ -36,7 +36,7 @@ struct PrimitiveLibrary {
   /// All of them, in the order in which they were found.
   std::vector<Primitive> primitives;
 
-  /// Of no states and primitives.
+  /// An empty library.
   [[nodiscard]] static PrimitiveLibrary of(const Problem& problem, double step, int intervals_per_step);
   /// Throws `Error` in one sentence unless it was made for that problem with those parameters, all sizes fit, every
   /// primitive has the cost of its motion, and a horizon has at most a million steps.

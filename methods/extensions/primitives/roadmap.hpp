@@ -66,9 +66,9 @@ struct RoadmapPath {
   int duration = 0;                ///< the sum of their durations, in time steps
 };
 
-/// When a path has to arrive.
+/// The time at which a path has to arrive.
 enum class Arrival : std::uint8_t {
-  exactly,    ///< at the end of the horizon, as problems with a fixed horizon want it
+  exactly,    ///< at the end of the horizon, as problems with a fixed horizon require
   at_latest,  ///< then or before
 };
 

@@ -26,11 +26,11 @@ struct PrimitiveRequest {
   Motion start = {};
 };
 
-/// How primitives are solved.
+/// Options for solving primitives.
 struct PrimitiveOptions {
-  /// For the KKT residual of the scaled program.
+  /// The tolerance on the KKT residual of the scaled program.
   double tolerance = 1e-9;
-  /// Of a solve.
+  /// The most iterations of a solve.
   int most_iterations = 100;
   Eigen::VectorXd start_control;  ///< m entries; none for the problem's guess at t = 0
   bool falls_back = false;  ///< as in `BatchOptions`: instances that lanes cannot solve are solved again, one by one

@@ -8,12 +8,12 @@
 
 namespace dmocbench {
 
-/// How to get from a state to another one within some intervals, by DMOC linearised about the motion under a constant
+/// Steers from a state to another one within some intervals, by DMOC linearised about the motion under a constant
 /// control: where there are fewer controls than velocities, states that look near may be out of reach, and this shows
 /// it.
 class Steering {
  public:
-  /// Where the constant control leads: (q, v), 2n entries.
+  /// The end under the constant control: (q, v), 2n entries.
   [[nodiscard]] const Eigen::VectorXd& end() const noexcept { return end_; }
   /// The deviations from the constant control that lead to end + `miss`, with the least Σ h |δU|²/2: a row per
   /// interval.

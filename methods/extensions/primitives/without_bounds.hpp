@@ -8,7 +8,8 @@
 
 namespace dmocbench {
 
-/// A problem without its bounds on q, q̇ and u along the motion; all else is as it was. The problem must outlive it.
+/// A problem without its bounds on q, q̇ and u along the motion; everything else is unchanged. The problem must outlive
+/// it.
 class WithoutBounds final : public Problem {
  public:
   /// The problem must outlive it.

@@ -103,7 +103,7 @@ class BackwardRecursion {
 
   /// The deviations at the last node.
   [[nodiscard]] Deviations at_end();
-  /// From the deviations at node k + 1 to the ones at node k. Returns the controls that belong to them: s m rows.
+  /// Replaces the deviations at node k + 1 by the ones at node k. Returns the controls that belong to them: s m rows.
   [[nodiscard]] Eigen::MatrixXd step_back(Eigen::Index k, Deviations& deviations) const;
 
  private:
@@ -134,7 +134,7 @@ class BackwardRecursion {
   const Eigen::VectorXd& multipliers_;
 };
 
-/// With the stiffness of bounds at its left node and inside, and the compliance of its inequalities.
+/// Includes the stiffness of bounds at its left node and inside, and the compliance of its inequalities.
 Eigen::MatrixXd BackwardRecursion::matrix_of_interval(Eigen::Index k) const {
   const IntervalFunctions& functions = program_.functions();
   Eigen::MatrixXd matrix = conditions_matrix(functions, hessians_, jacobians_, k);

@@ -36,7 +36,7 @@ struct Sensitivity {
   Eigen::VectorXd multipliers;  ///< of λ, constraint_count() entries
 };
 
-/// How an optimum and its cost depend on parameters and end states, to first order.
+/// First-order dependence of an optimum and its cost on parameters and end states.
 ///
 /// The cost: the derivative of the Lagrangian, as the optimum's own motion does not change it (except for fixed
 /// variables and active bounds, which move with their values). The optimum: one linear system with the matrix of a

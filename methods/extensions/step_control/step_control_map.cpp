@@ -46,7 +46,7 @@ struct ControlledInterval {
     unknowns.t = t;
     return unknowns;
   }
-  /// At the left node, with the mean velocity.
+  /// The state at the left node, with the mean velocity.
   [[nodiscard]] ControlledState left() const { return {left_q, (right_q - left_q) / h, controls.front(), t}; }
 };
 

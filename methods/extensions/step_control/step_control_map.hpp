@@ -12,7 +12,7 @@
 
 namespace dmocbench {
 
-/// How σ determines the steps.
+/// The rule by which σ determines the steps.
 enum class StepRule : std::uint8_t {
   /// h = Δτ σ is a constraint of the principle: its variation appears in the equations of motion (KMLTMD; section 5).
   variational,
@@ -36,7 +36,7 @@ enum class StepRule : std::uint8_t {
 /// In the other rules λ = 0, and E is only the energy that the work accounts for.
 class StepControlMap {
  public:
-  /// Where a step begins.
+  /// The beginning of a step.
   struct From {
     Eigen::VectorXd q;         ///< n entries
     Eigen::VectorXd p;         ///< n entries

@@ -114,7 +114,7 @@ StepControlProgram::TracedUnknowns StepControlProgram::take_unknowns() const {
   return all;
 }
 
-/// In the order of the formulas: rows of both nodes, of the stage rates, of the step.
+/// The rows in the order of the formulas: rows of both nodes, of the stage rates, of the step.
 std::vector<SeriesPlace> StepControlProgram::places_of_local_rows() const {
   std::vector<SeriesPlace> rows;
   const auto add = [&](std::size_t column, Eigen::Index length, std::size_t right_node, Eigen::Index count) {

@@ -45,7 +45,7 @@ void BoundarySystem::number_lines(const IntervalEntries& entries) {
   append(entries.end_rows, rows_);
 }
 
-/// Every entry in its turn, until one belongs to neither end: then false.
+/// Places the entries in turn; false at the first that belongs to neither end.
 bool BoundarySystem::place(const IntervalEntries& entries) {
   using Lines = std::map<Eigen::Index, Eigen::Index>;
   const auto lines_of = [](const auto&... lists) {

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::is_same_v<lapack_int, int>);
 
-/// Multiplies rows and columns, of which the lower triangle is there, by factors that bring the largest entries near 1.
+/// Multiplies rows and columns, given by the lower triangle, by factors that bring the largest entries near 1.
 void equilibrate(Eigen::MatrixXd& lower, Eigen::VectorXd& factors) {
   const Eigen::Index n = lower.rows();
   factors.setZero(n);
@@ -35,7 +35,7 @@ double smallest_eigenvalue(double a, double b, double c) {
   return largest > 0.0 ? std::abs(a * c - b * b) / largest : 0.0;
 }
 
-/// From the blocks of one or two rows of D; a block of two has one eigenvalue of either sign.
+/// Counts by the blocks of one or two rows of D; a block of two has one eigenvalue of either sign.
 DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<int>& pivots) {
   const Eigen::Index n = factors.rows();
   constexpr double far_from_zero = 1e-11;  // hundreds of times the rounding of dependent rows
@@ -74,7 +74,7 @@ DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_han
   work.make(n);
   equilibrate(matrix, work.scale);
   right_hand_side.array() *= work.scale.array();
-  // Not LAPACKE's usual functions, which allocate and look for NaN once more.
+  // Not LAPACKE's usual functions, which allocate and look for NaN again.
   const auto order = static_cast<lapack_int>(n);
   const lapack_int info = LAPACKE_dsytrf_work(LAPACK_COL_MAJOR, 'L', order, matrix.data(), order, work.pivots.data(),
                                               work.numbers.data(), static_cast<lapack_int>(work.numbers.size()));

@@ -15,7 +15,7 @@ struct DenseInertia {
 
 /// Memory for `solve_symmetric`, used again from system to system.
 struct SymmetricWork {
-  /// Takes the memory for systems of `size` unknowns, unless it is there.
+  /// Takes the memory for systems of `size` unknowns, unless already allocated.
   void make(Eigen::Index size);
 
   Eigen::VectorXd scale;

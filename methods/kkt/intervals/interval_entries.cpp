@@ -81,7 +81,7 @@ class EntryTable {
   [[nodiscard]] bool is_of_an_end(const PlaceRun& run) const {
     return run.kind == Place::Kind::node && run.count == 1 && (run.index == 0 || run.index == structure_.intervals);
   }
-  /// How many of some consecutive bounds are equal.
+  /// The number of equal bounds among some consecutive ones.
   static Eigen::Index equal_bounds(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, std::size_t first,
                                    Eigen::Index length) {
     const auto begin = static_cast<Eigen::Index>(first);

@@ -44,7 +44,7 @@ struct PaddedRun {
   Eigen::Index padded_first;
 };
 
-/// Which entries of a program belong to its intervals, and which to the ends.
+/// The entries of a program that belong to its intervals, and to the ends.
 struct IntervalEntries {
   Shape shape{};
   Eigen::Index intervals = 0;

@@ -120,8 +120,8 @@ void IntervalKkt::find_last_carry(const NewtonArrays& arrays) {
   }
 }
 
-/// From the last segment to the first. Counts the negative eigenvalues of the eliminated blocks, beyond their number at
-/// a minimum; false if rounding hides them.
+/// Joins from the last segment to the first. Counts the negative eigenvalues of the eliminated blocks, beyond their
+/// number at a minimum; false if rounding hides them.
 bool IntervalKkt::join_segments() {
   const Eigen::Index X = state_size(entries_.shape);
   bool is_last = true;

@@ -127,7 +127,7 @@ inline constexpr auto reachability_columns = [](const auto& shape) { return stat
 inline constexpr auto scaled_columns = [](const auto& shape) { return column_count(shape) + state_size(shape); };
 inline constexpr auto one_column = [](const auto& /*shape*/) { return 1; };
 
-/// How many numbers of lanes `Work` takes from memory.
+/// The number of lane numbers that `Work` takes from memory.
 template <class Work, class S>
 int size_of(const S& shape) {
   Memory none{nullptr};

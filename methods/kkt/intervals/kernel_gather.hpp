@@ -4,7 +4,7 @@
 
 #include "methods/kkt/intervals/kernel_blocks.hpp"
 
-// How blocks of steps are read from the program's arrays and written to them.
+// Reads blocks of steps from the program's arrays and writes them.
 // NOLINTBEGIN(*-avoid-c-arrays,*-member-init): arrays that live in registers
 namespace dmocbench::kkt {
 inline namespace DMOCBENCH_LANES {

@@ -31,7 +31,7 @@ class LaneKkt {
   enum class Outcome : std::uint8_t {
     solved,
     wrong_inertia,  ///< the Hessian is not positive definite on the null space of the equalities
-    again,          ///< undecided: the same system is to be solved once more with other terminal weights
+    again,          ///< undecided: the same system has to be solved again with other terminal weights
     failed,         ///< singular, or pivots that cannot be trusted: a case for `RefinedKkt`
   };
   using Outcomes = std::array<Outcome, lane_count>;

@@ -42,7 +42,7 @@ Block block(LaneMatrix<S, rows, columns, false>& matrix) {
 inline Block column(Lanes* array) { return {array, 1, 0}; }
 inline ConstBlock column(const Lanes* array) { return {array, 1, 0}; }
 
-/// Which entries of a product are wanted: `lower` without those above the diagonal. Those less than `tile_columns`
+/// The entries of a product to compute: `lower` without entries above the diagonal. Entries less than `tile_columns`
 /// above it are written nevertheless.
 enum class Part : unsigned char { all, lower };
 
@@ -113,7 +113,7 @@ template <int... rows>
 constexpr auto writers_of_tiles(std::integer_sequence<int, rows...> /*counts*/) {
   return std::array{writers_of_height<rows + 1>(std::make_integer_sequence<int, tile_columns>())...};
 }
-/// By the numbers of rows and columns of a tile, less one.
+/// Indexed by the numbers of rows and columns of a tile, less one.
 inline constexpr auto tile_writers = writers_of_tiles(std::make_integer_sequence<int, tile_rows>());
 
 /// Start of a part when `length` is split into `count` parts that differ by at most one.

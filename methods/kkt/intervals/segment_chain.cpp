@@ -28,7 +28,7 @@ Matrix semidefinite_factor(const Matrix& gamma) {
   return factor;
 }
 
-/// For a symmetric matrix whose lower triangle is read and overwritten. A pivot that is NaN counts as positive.
+/// Factorises a symmetric matrix whose lower triangle is read and overwritten. A pivot that is NaN counts as positive.
 template <class Matrix>
 bool is_positive_definite(Matrix& lower) {
   const Eigen::Index n = lower.rows();
@@ -92,7 +92,7 @@ void SegmentChain::start(const SegmentValue& last, const Eigen::VectorXd& termin
   total_ = last;
   count_ = 0;
   negative_ = 0;
-  // So that `join_and_count` takes no memory.
+  // Allocated here so that `join_and_count` allocates nothing.
   const Eigen::Index both = 2 * last.P.rows();
   between_.resize(both, both);
   no_side_.resize(both);

@@ -9,7 +9,7 @@ namespace dmocbench::kkt {
 
 namespace {
 
-/// Beyond this number of intervals, their records no longer fit the second-level cache, and eliminating once more is
+/// Beyond this number of intervals, their records no longer fit the second-level cache, and eliminating again is
 /// not slower than fetching them (`build/bench/speed/solves` at N = 8192 and 16384).
 constexpr std::size_t most_recorded = 12288;
 /// The same of eight instances: as many records.

@@ -9,16 +9,16 @@
 
 namespace dmocbench::kkt {
 
-/// How small a pivot of the equalities may be, measured by those that the order of elimination was chosen by.
+/// The smallest trusted pivot of the equalities, relative to the pivots by which the order of elimination was chosen.
 inline constexpr double smallest_trusted_ratio = 1e-7;
 
 /// Eight segments and their memory, which is first touched by the thread that fills it.
 class GroupMemory {
  public:
-  /// Of the intervals `begin` to `end` - 1. Where `keeps_records` is false the forward sweep makes them again.
+  /// Memory for the intervals `begin` to `end` - 1. Where `keeps_records` is false the forward sweep makes them again.
   GroupMemory(const Shape& shape, std::size_t begin, std::size_t end, bool keeps_records);
 
-  /// Of eight instances, one per lane, with as many intervals each.
+  /// Memory for eight instances, one per lane, with as many intervals each.
   [[nodiscard]] static GroupMemory of_instances(const Shape& shape, std::size_t intervals);
 
   /// Makes room for a plan's sweeps: `numbers` is SegmentKernel::workspace_size of it.
@@ -31,7 +31,7 @@ class GroupMemory {
   GroupMemory() = default;
   void allocate(const Shape& shape);
 
-  /// One number of every lane, aligned as vector registers want them.
+  /// One number of every lane, aligned as vector registers require.
   struct alignas(lane_count * sizeof(double)) Line {
     std::array<double, lane_count> numbers;
   };

@@ -49,7 +49,7 @@ enum class FreePivots : unsigned char {
   near_zero,          ///< some are not positive, and some so near zero that rounding decides
 };
 
-/// How the intervals of a program are eliminated; the same for all of them.
+/// The plan by which the intervals of a program are eliminated; the same for all of them.
 struct EliminationPlan {
   Shape shape{};
   std::vector<Gather> gathers;
@@ -103,10 +103,10 @@ struct NewtonArrays {
 
 /// Both sweeps over a group of segments for one shape and one instruction set.
 struct SegmentKernel {
-  /// How many numbers of workspace a group needs.
+  /// The size of the workspace of a group, in numbers.
   std::size_t (*workspace_size)(const EliminationPlan& plan);
   void (*backward)(const EliminationPlan& plan, const NewtonArrays& arrays, SegmentGroup& group);
-  /// With the arrays of the backward sweep before.
+  /// Uses the arrays of the backward sweep before.
   void (*forward)(const EliminationPlan& plan, const NewtonArrays& arrays, const SegmentGroup& group,
                   double* primal_step, double* multiplier_step);
 };

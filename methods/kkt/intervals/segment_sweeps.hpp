@@ -10,7 +10,7 @@
 #include "methods/kkt/intervals/segment_kernel.hpp"
 #include "methods/kkt/intervals/shape.hpp"
 
-// Both sweeps over a group. DMOCBENCH_ANY_SIZE is 1 where a source wants the kernel for any shape only: where
+// Both sweeps over a group. DMOCBENCH_ANY_SIZE is 1 where a source needs the kernel for any shape only: where
 // processors usually have a wider instruction set, which saves a minute of compilation.
 #ifndef DMOCBENCH_ANY_SIZE
 #define DMOCBENCH_ANY_SIZE 0
@@ -91,7 +91,7 @@ inline void start_cost_to_go(const S& shape, const SegmentGroup& group, const do
   V.smallest_ratio = Lanes::all(1e300);
 }
 
-/// Which lanes have an interval at a step.
+/// The lanes that have an interval at a step.
 inline Lanes::Mask active_at(const SegmentGroup& group, int step) {
   Lanes length;
   for (std::size_t lane = 0; lane < lane_count; ++lane) length.set(lane, group.length[lane]);

@@ -88,7 +88,7 @@ struct BlockPlace {
   [[nodiscard]] constexpr int end() const { return first + rows * columns; }
 };
 
-/// Where the blocks of an interval's part of the KKT system stand in one array. Entries of Z come in the order of
+/// The places of the blocks of an interval's part of the KKT system in one array. Entries of Z come in the order of
 /// elimination: dependent ones first.
 template <class S>
 struct LocalBlocks {

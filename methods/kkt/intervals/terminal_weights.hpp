@@ -21,8 +21,8 @@ class TerminalWeights {
  public:
   explicit TerminalWeights(const IntervalEntries& entries);
 
-  /// For another order of elimination: which unknowns of the intervals it leaves free. (Unknowns that equalities
-  /// determine, such as stage rates, may cost nothing; their compliance is not the segment's.)
+  /// Takes another order of elimination and the unknowns of the intervals that it leaves free. (Unknowns that
+  /// equalities determine, such as stage rates, may cost nothing; their compliance is not the segment's.)
   void use(const EliminationPlan& plan);
   /// Forgets all observations and trials.
   void forget();
@@ -41,7 +41,7 @@ class TerminalWeights {
   static constexpr double smallest_curvature = 1e-12;
   /// The diagonal entries of unknowns that the order of elimination leaves free.
   [[nodiscard]] std::vector<Diagonal> free_diagonals() const;
-  /// After a failure: takes the next larger multiple, after the largest the smallest; it stays if it succeeds. False
+  /// Takes, after a failure, the next larger multiple, after the largest the smallest; it stays if it succeeds. False
   /// if none is left for this matrix. The largest is always among those that were tried.
   [[nodiscard]] bool next_multiple();
   /// Takes the largest multiple, which stays; false if it was taken already.
@@ -51,7 +51,7 @@ class TerminalWeights {
   void prefer_middle() noexcept;
   /// The next matrix begins with a larger multiple, unless this one is the middle one or larger.
   void raise() noexcept;
-  /// All multiples are to be tried after the next failure.
+  /// All multiples are tried after the next failure.
   void distrust_next_failure() noexcept { believed_ = 0; }
   /// Reads the stiffness off the reachability Γ of a segment that was eliminated with these weights.
   void observe(const Eigen::MatrixXd& Gamma);

@@ -10,7 +10,7 @@ namespace dmocbench {
 
 namespace {
 
-/// Where another method may do better.
+/// True if another method may do better.
 bool leaves_hope(Status status) {
   switch (status) {
     case Status::solved:

@@ -59,7 +59,7 @@ class SharedBatch {
   [[nodiscard]] Solution solve_alone(const BatchInstance& instance);
   void confirm(const BatchInstance& instance, Solution& solution);
   void count_round();
-  /// Where the time of a thread went.
+  /// Adds the times of a thread by phase.
   void add_seconds(const BatchSeconds& seconds);
 
   /// Work of a thread; an exception ends the batch.
@@ -97,7 +97,7 @@ class SharedBatch {
   std::exception_ptr error_;
 };
 
-/// Where eight lanes, which share a thread, fetch instances and leave answers. Both go to and fro in groups, so that
+/// The queue from which eight lanes of a thread fetch instances and to which they return answers, in groups, so that
 /// threads seldom meet.
 class BatchQueue {
  public:
@@ -115,7 +115,7 @@ class BatchQueue {
   void confirm(const Assignment& assignment, Solution& solution) { batch_.confirm(assignment.instance, solution); }
   [[nodiscard]] bool is_stopped() const { return batch_.is_stopped(); }
   void count_round() { batch_.count_round(); }
-  /// When all lanes are idle: delivers the remaining answers and adds the seconds.
+  /// Call when all lanes are idle: delivers the remaining answers and adds the seconds.
   void end_generation(const BatchSeconds& seconds);
 
  private:

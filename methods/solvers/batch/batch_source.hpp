@@ -19,8 +19,8 @@ struct Assignment {
   const Solution* neighbour = nullptr;  ///< null if there is none
 };
 
-/// Where the instances of a batch come from and their answers go, for all its threads. Instances come in generations:
-/// one begins when all answers to the one before have been taken.
+/// The source of the instances of a batch and the receiver of their answers, for all threads. Instances come in
+/// generations: one begins when all answers to the one before have been taken.
 class BatchSource {
  public:
   virtual ~BatchSource() = default;

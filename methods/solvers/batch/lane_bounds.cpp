@@ -33,7 +33,7 @@ void LaneBounds::push_inside(std::size_t lane, double push, Eigen::Index begin, 
   }
 }
 
-/// Of eight numbers at a time: a product is cheaper than eight logarithms.
+/// Multiplies eight numbers at a time: a product is cheaper than eight logarithms.
 OfLanes LaneBounds::barrier(const LaneVector& primal) const {
   constexpr std::size_t at_once = 8;
   OfLanes sum = OfLanes::Zero();

@@ -62,7 +62,7 @@ class LaneProblem {
   [[nodiscard]] LaneVector& hessian() noexcept { return hessian_; }
   [[nodiscard]] const LaneVector& gradient_of_lagrangian() const noexcept { return of_lagrangian_; }
 
-  /// How far steps move, as `NewtonCorrections` measures it: by the runs of the interval structure.
+  /// The lengths of steps, as `NewtonCorrections` measures them: by the runs of the interval structure.
   [[nodiscard]] OfLanes length_of(const LaneVector& step, const LaneVector& primal, const OfLanes& change_of_objective,
                                   const OfLanes& objective) const;
 

@@ -36,13 +36,13 @@ class LaneRun {
   /// The batch must outlive it.
   LaneRun(SharedBatch& batch, std::unique_ptr<LaneProgram> lanes, std::unique_ptr<kkt::LaneKkt> kkt);
 
-  /// Until the generation has no more instances.
+  /// Runs until the generation has no more instances.
   void run();
 
  private:
   enum class LanePhase : std::uint8_t {
     idle,        ///< no instance
-    fresh,       ///< its start is to be evaluated
+    fresh,       ///< its start has to be evaluated
     estimating,  ///< the next system gives the least-squares multipliers, (36)
     newton,      ///< the next system gives a Newton step, (13)
     restoring,   ///< the next system gives the shortest step to where the linearised constraints hold
@@ -53,7 +53,7 @@ class LaneRun {
     interior_point::FilterLineSearch line_search;
     interior_point::InertiaShift shift;
     double mu = 0.0;
-    // Of the present step.
+    // State of the present step.
     bool is_searching = false;  ///< its length is not accepted yet
     bool moves = false;         ///< there is one
     bool waits = false;         ///< for another attempt at its system in the next round
@@ -94,7 +94,7 @@ class LaneRun {
   void finish(std::size_t number, Status status);
   [[nodiscard]] interior_point::PointValues values_in(std::size_t number, const LaneValues& values) const;
   [[nodiscard]] bool is_warm(std::size_t lane) const;
-  /// How far a start is pushed away from its bounds.
+  /// The distance by which a start is pushed away from its bounds.
   [[nodiscard]] double push_of(std::size_t lane) const;
   [[nodiscard]] bool is_anyone(LanePhase phase) const;
   /// A number of every lane, `value(lane)`.

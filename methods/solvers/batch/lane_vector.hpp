@@ -17,10 +17,10 @@ inline constexpr auto width = static_cast<Eigen::Index>(instance_lanes);
 /// One number of every lane.
 using OfLanes = Eigen::Array<double, width, 1>;
 
-/// A vector of every lane, interleaved (lane_loops.hpp), and aligned as vector registers want it.
+/// A vector of every lane, interleaved (lane_loops.hpp), and aligned as vector registers require.
 class LaneVector {
  public:
-  /// Of `size` entries, all of them zero.
+  /// A vector of `size` zeros.
   explicit LaneVector(Eigen::Index size = 0) : lines_(static_cast<std::size_t>(size)) {}
 
   [[nodiscard]] Eigen::Index size() const noexcept { return static_cast<Eigen::Index>(lines_.size()); }

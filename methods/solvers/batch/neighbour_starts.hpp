@@ -16,7 +16,7 @@ using PlaceInstance = std::function<bool(std::size_t index, Eigen::VectorXd& coo
 /// instance then starts as in `solve_batch`.
 using NextFromNeighbour = std::function<void(std::size_t index, const Solution* neighbour, BatchInstance& instance)>;
 
-/// How many answers are kept as neighbours at most.
+/// The most answers that are kept as neighbours.
 inline constexpr std::size_t most_neighbours = 512;
 
 /// `solve_batch` of instances that start from the nearest solved one of those before them.

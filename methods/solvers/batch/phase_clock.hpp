@@ -12,7 +12,7 @@ namespace dmocbench::batch {
 /// Measures the time of one thread by phases: at any time it is in one of them.
 class PhaseClock {
  public:
-  /// As long as it exists, time counts for a phase; then again for the phase before.
+  /// While it exists, time counts for its phase; afterwards for the phase before.
   class Within {
    public:
     Within(PhaseClock& clock, BatchPhase phase) : clock_(clock), before_(clock.enter(phase)) {}

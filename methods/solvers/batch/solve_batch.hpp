@@ -15,14 +15,14 @@ namespace dmocbench {
 
 /// One instance of a program: the same structure, other numbers.
 struct BatchInstance {
-  /// Where the solve begins, variable_count() entries. Fixed unknowns have these values in this
+  /// The start of the solve, variable_count() entries. Fixed unknowns have these values in this
   /// instance (the states of clamped ends, `ClampedEnds`).
   Eigen::VectorXd start;
   /// The values of equalities, constraint_count() entries; none for the program's.
   Eigen::VectorXd equality_values;
   /// λ of an instance that is nearly the same, constraint_count() entries: a warm start. None for a cold one.
   Eigen::VectorXd multipliers;
-  /// As many as `LaneProgram::parameter_count`; none for the program's.
+  /// `LaneProgram::parameter_count` entries; none for the program's.
   Eigen::VectorXd parameters;
 };
 
@@ -33,7 +33,7 @@ struct BatchOptions {
   /// Instances that the lanes cannot finish are solved one by one by `interior_point`; if false they keep the status
   /// "step failed".
   bool falls_back = true;
-  /// How many threads share the instances; 0 for `thread_count()`.
+  /// The number of threads that share the instances; 0 for `thread_count()`.
   std::size_t threads = 0;
   /// Called once per iteration; true ends the batch: instances that are not finished are "interrupted", and no others
   /// are fetched.
@@ -46,17 +46,17 @@ struct BatchOptions {
 enum class BatchPhase : std::uint8_t {
   tapes,           ///< values and derivatives of the program
   linear_systems,  ///< assembling and solving them
-  line_search,     ///< all else of the search for a step's length
+  line_search,     ///< the rest of the search for a step's length
   one_by_one,      ///< instances that lanes cannot finish, and waiting for the program that they share
   exchange,        ///< fetching instances and delivering answers
   rest,            ///< judging iterates
 };
-/// How many phases there are.
+/// The number of phases.
 inline constexpr std::size_t batch_phases = 6;
-/// By phase.
+/// Seconds by phase.
 using BatchSeconds = std::array<double, batch_phases>;
 
-/// How a batch went.
+/// The result of a batch.
 struct BatchSummary {
   std::size_t instances = 0;  ///< how many were given
   std::size_t solved = 0;     ///< how many of them were solved
@@ -66,7 +66,7 @@ struct BatchSummary {
   /// Iterations of eight lanes together; all instances' iterations, divided by eight times this, give the share of busy
   /// lanes.
   std::size_t rounds = 0;
-  /// Of all threads together.
+  /// Seconds of all threads together.
   BatchSeconds seconds{};
 };
 

@@ -44,10 +44,10 @@ struct BoundStretch {
     return z[set].segment(bound, values.size()).array();
   }
   [[nodiscard]] auto multipliers(BoundMultipliers& z) const { return z[set].segment(bound, values.size()).array(); }
-  /// From the bounds; positive inside.
+  /// Distances from the bounds; positive inside.
   [[nodiscard]] auto distances(const Primal& of) const { return side * (entries(of) - values); }
 
-  // How `BoundFormulas` combines the numbers of a stretch.
+  // The combinations that `BoundFormulas` uses for the numbers of a stretch.
   [[nodiscard]] static double all(double value) { return value; }
   [[nodiscard]] static double sum(const auto& numbers) { return numbers.sum(); }
   [[nodiscard]] static double smaller(double than, const auto& numbers) { return std::min(than, numbers.minCoeff()); }

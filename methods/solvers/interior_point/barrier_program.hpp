@@ -56,7 +56,7 @@ class BarrierProgram {
   /// of the gradient or the Jacobian then is.
   [[nodiscard]] bool gradient_of_lagrangian(const Eigen::VectorXd& multipliers, Primal& result) const;
 
-  /// From the gradient of the Lagrangian, see above, and the values at an iterate.
+  /// The errors from the gradient of the Lagrangian, see above, and the values at an iterate.
   [[nodiscard]] OptimalityErrors optimality_errors(const Iterate& at, const Primal& gradient, const Evaluation& values);
   /// Whether an iterate, with the errors that the last `optimality_errors` returned for it, may be the answer.
   [[nodiscard]] bool meets(const StopRule& rule, const OptimalityErrors& errors, const Iterate& at,

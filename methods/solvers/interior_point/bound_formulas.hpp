@@ -22,7 +22,7 @@ class BoundFormulas {
  public:
   using Number = typename Stretch::Number;
 
-  /// How many bounds there are.
+  /// The number of bounds.
   [[nodiscard]] Eigen::Index count() const noexcept { return count_; }
 
   /// z = max(μ/d, ±gradient): multipliers that balance the gradient where they can.

@@ -35,7 +35,7 @@ inline constexpr double sufficient_decrease = 1e-4;  // of the violation, as a s
 inline constexpr double very_short_step = 1e-3;
 inline constexpr int most_blocked_steps = 20;  // very short ones in a row, where bounds leave no room
 
-// By the names of Ipopt's options: "A filter that blocks the way". Ipopt waits for 5 searches.
+// Named after Ipopt's options: "A filter that blocks the way". Ipopt waits for 5 searches.
 inline constexpr int filter_reset_trigger = 10;
 inline constexpr int max_filter_resets = 5;
 

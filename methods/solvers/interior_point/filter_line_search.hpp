@@ -13,15 +13,15 @@ struct PointValues {
   double phi = 0.0;        ///< φ_μ = f - μ Σ ln d
 };
 
-/// Which steps a solve takes: the filter line search of Wächter and Biegler, A-5.2 to. Three rules are
+/// Accepts the steps of a solve: the filter line search of Wächter and Biegler, A-5.2 to. Three rules are
 /// not theirs (README.md): differences within rounding count as none, the violation may not grow by large factors, and
 /// a filter that blocks the way is emptied.
 class FilterLineSearch {
  public:
-  /// Before a solve of a program with so many unknowns from a point with the violation θ, where violations below
+  /// Call before a solve of a program with so many unknowns from a point with the violation θ, where violations below
   /// `rounding_of_theta` are rounding.
   void begin(double theta, double rounding_of_theta, Eigen::Index unknowns);
-  /// Before another barrier problem: the filter forgets its points.
+  /// Call before another barrier problem: the filter forgets its points.
   void forget();
 
   /// α_min, (23): from a point with the violation θ along a step with this derivative of φ.

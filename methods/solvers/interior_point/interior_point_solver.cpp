@@ -249,12 +249,12 @@ class InteriorPointRun final : public PreparedRun {
   }
 
   /// Where bounds allow short steps only, every one of them may multiply the multipliers, until their Hessian swamps
-  /// all else. Large ones that a long step leads to may be true.
+  /// everything else. Large ones that a long step leads to may be true.
   [[nodiscard]] bool has_runaway_multipliers() const {
     return length_ <= constants::short_step && largest_of(at_.multipliers) > constants::runaway;
   }
 
-  /// Where they are large, at a point that was reached without them.
+  /// Resets them where they are large, at a point that was reached without them.
   void reset_bound_multipliers() {
     for (Eigen::VectorXd& z : at_.z) z = largest_of(z) > constants::largest_z ? Eigen::VectorXd::Ones(z.size()) : z;
   }

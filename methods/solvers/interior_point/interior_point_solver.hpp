@@ -17,7 +17,7 @@ class KktSystem;
 
 /// The choices of a user of `InteriorPointSolver`.
 struct InteriorPointOptions {
-  /// How the linear systems are factorised.
+  /// The factorisation of the linear systems.
   enum class Factorisation : std::uint8_t {
     intervals,  ///< interval by interval; a program whose structure does not allow it is refused
     sparse,     ///< by MUMPS, for any program

@@ -154,7 +154,7 @@ bool NewtonStep::solve(const Eigen::VectorXd& hessian, double shift, const Eigen
   return status == kkt::FactorisationStatus::solved;
 }
 
-/// With the unit matrix in place of the Hessian.
+/// Solves with the unit matrix in place of the Hessian.
 bool NewtonStep::solve_least_squares(const Eigen::VectorXd& gradient, const Eigen::VectorXd& constraints,
                                      Iterate& step) {
   if (no_hessian_.size() == 0) set_zero(no_hessian_, program_.hessian().size());

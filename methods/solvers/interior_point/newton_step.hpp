@@ -12,9 +12,9 @@ namespace dmocbench::interior_point {
 /// Biegler). Unlike there, the system without a shift is not tried first where a third was too little the last time.
 class InertiaShift {
  public:
-  /// Before a new system with the program's Hessian.
+  /// Call before a new system with the program's Hessian.
   void begin() noexcept;
-  /// Before one without a shift.
+  /// Call before a system without a shift.
   void clear() noexcept { shift_ = 0.0; }
   [[nodiscard]] double value() const noexcept { return shift_; }
   /// The next larger one; false beyond the largest.
@@ -38,7 +38,7 @@ class InertiaShift {
 class NewtonStep {
  public:
   NewtonStep(const BarrierProgram& program, kkt::KktSystem& kkt);
-  /// Before another solve: forgets the last one.
+  /// Call before another solve: forgets the last one.
   void begin_solve();
 
   /// Newton's step for the barrier problem, from the program's derivatives at the iterate, `gradient` of the Lagrangian

@@ -20,7 +20,7 @@ class Globalisation {
   explicit Globalisation(NonlinearProgram& program) : program_(program) {}
 
   /// Backtracks along `step` (with curvature dᵀHd) from the largest length up to 1 with |d_j| <= 2 (1 + |ξ_j|) until
-  /// the merit falls enough. If the first length fails, it is tried once more with a second-order correction, the
+  /// the merit falls enough. If the first length fails, it is tried again with a second-order correction, the
   /// shortest vector that removes the violation of the constraints to first order.
   [[nodiscard]] LineSearchResult search(const Linearisation& from, const Eigen::VectorXd& step, double curvature);
 

@@ -25,7 +25,7 @@ namespace sqp {
 
 namespace {
 
-/// Of the tolerance of the whole: with equal tolerances the last major iterations stall.
+/// Share of the solver's tolerance: with equal tolerances the last major iterations stall.
 constexpr double tolerance_of_quadratic_programs = 0.1;
 
 /// One run of the SQP method.

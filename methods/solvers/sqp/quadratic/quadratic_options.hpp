@@ -4,13 +4,13 @@
 
 namespace dmocbench::sqp {
 
-/// Where the first quadratic program starts.
+/// The start of the first quadratic program.
 enum class Crash : std::uint8_t {
   none,   ///< all slacks basic: phase 1 has to bring every constraint in
   basis,  ///< a well-conditioned basis of variables, chosen for free: the constraints hold from the start
 };
 
-/// Which of the columns that would lower the objective may move next.
+/// The choice of the next column to move, of those that would lower the objective.
 enum class PricingRule : std::uint8_t {
   largest,  ///< the one with the largest reduced gradient
   lowest,   ///< the one with the lowest index
@@ -18,7 +18,7 @@ enum class PricingRule : std::uint8_t {
   random,   ///< any of them, by a seeded generator
 };
 
-/// How quadratic programs are begun and priced.
+/// Options for starting and pricing quadratic programs.
 struct QuadraticOptions {
   double tolerance = 1e-9;    ///< for bounds and reduced gradients
   Crash crash = Crash::none;  ///< the basis to begin with

@@ -33,7 +33,7 @@ std::vector<PricedColumn> candidates_of(const QuadraticIterate& iterate, const E
   return candidates;
 }
 
-/// How far the columns `moving` may follow `change` (n + m entries).
+/// The distance by which the columns `moving` may follow `change` (n + m entries).
 RatioTest ratio_test(const QuadraticIterate& iterate, const std::vector<Eigen::Index>& moving,
                      const Eigen::VectorXd& change, double limit) {
   std::vector<MovingColumn> columns;
@@ -165,7 +165,7 @@ class PhaseTwo {
     return rates.size() > 0 ? rates.lpNorm<Eigen::Infinity>() : 0.0;
   }
 
-  /// From the point to the minimiser on the present sets: n + m entries.
+  /// The step from the point to the minimiser on the present sets: n + m entries.
   [[nodiscard]] Eigen::VectorXd newton_step() const {
     return iterate_.null_space_times(-reduced_.solve(rates_(iterate_.sets().superbasics())));
   }

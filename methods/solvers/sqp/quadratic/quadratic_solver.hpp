@@ -19,7 +19,7 @@ namespace dmocbench::sqp {
 /// iterations.
 using MinorObserver = std::function<bool(const MinorIteration&)>;
 
-/// How a quadratic program ended.
+/// The outcome of a quadratic program.
 enum class QuadraticStatus : std::uint8_t {
   optimal,
   infeasible,  ///< rows stay violated; `step` minimises the objective with their violations accepted

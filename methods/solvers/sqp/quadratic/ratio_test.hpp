@@ -15,7 +15,7 @@ struct MovingColumn {
   double upper = 0.0;
 };
 
-/// How far a direction may be followed.
+/// The distance by which a direction may be followed.
 struct RatioTest {
   double step = 0.0;
   std::optional<std::size_t> blocking;  ///< place in the list of the column that stops it; none if the limit does
