@@ -43,7 +43,7 @@ struct ChangedTime {
   /// True if the interval does not contain 1 either.
   [[nodiscard]] bool is_changed() const { return is_judged() && (ratio.lower > 1.0 || ratio.upper < 1.0); }
 };
-/// Of rows that were timed in rounds in both runs.
+/// The changed times of rows that were timed in rounds in both runs.
 [[nodiscard]] std::vector<ChangedTime> changed_times(const PairedRows& rows);
 
 }  // namespace dmocbench

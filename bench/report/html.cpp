@@ -13,7 +13,7 @@ namespace dmocbench {
 
 namespace {
 
-/// How many bytes a character takes that begins at `i`; 0 if no valid one does.
+/// The number of bytes of the character that begins at `i`; 0 if it is not valid.
 std::size_t length_of_character(std::string_view text, std::size_t i) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const std::size_t length = byte(i) < 0x80                      ? 1

@@ -25,7 +25,7 @@ using MathTerms = std::vector<std::string>;
 
 /// Formulas in usual notation, in presentation MathML: fractions, powers, products without a sign.
 struct TypesetFormulas {
-  /// In the order in which they were given.
+  /// The formulas in the order in which they were given.
   std::vector<MathTerms> formulas;
   /// Long parts that several places share: name and formula. Later ones may contain earlier ones.
   std::vector<std::pair<std::string, MathTerms>> shared;

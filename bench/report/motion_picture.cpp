@@ -203,7 +203,7 @@ std::string drawing_of(const std::vector<DrawnMotion>& motions, const std::strin
   return svg + "</svg>\n";
 }
 
-/// Where quantities over time are drawn, each in a strip of its own.
+/// The area for quantities over time, each in its own strip.
 struct Strips {
   static constexpr double width = 320.0;
   static constexpr double height = 70.0;
@@ -293,7 +293,7 @@ std::string strips_html(const std::string& problem, const std::vector<const Repo
          controls_html(problem, data);
 }
 
-/// Which line is whose, where there are several.
+/// The legend of the lines, where there are several.
 std::string legend_of(const std::vector<const ReportedMotion*>& motions) {
   std::string html;
   for (std::size_t i = 0; i < motions.size(); ++i) {

@@ -51,7 +51,7 @@ long long count_of(const ReportedRun& run, const std::string& key) {
                                                                                 : 0;
 }
 
-/// Where not every solve was solved, run by run.
+/// The runs with unsolved cases.
 std::string unsolved_html(const ResultsFolder& results) {
   std::vector<std::string> runs;
   long long unsolved = 0;
@@ -115,7 +115,7 @@ std::optional<double> last_end(const ResultsFolder& results) {
   return last;
 }
 
-/// When the runs began, and how long it took until the last one ended.
+/// The times when the runs began, and the duration until the last one ended.
 std::string times_in_words(const ResultsFolder& results) {
   const std::set<std::string> times = told(results, "utc_time");
   if (times.empty()) return "";

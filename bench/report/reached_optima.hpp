@@ -9,7 +9,7 @@
 
 namespace dmocbench {
 
-/// How near a method comes to the optimum of a problem in the rows of all runs that solve it as it is stated.
+/// The distance of a method from the optimum of a problem in the rows of all runs that solve it as it is stated.
 struct ReachedOptimum {
   std::string method;
   std::size_t rows = 0;

@@ -45,7 +45,7 @@ struct ResultsFolder {
   std::vector<ReportedMotion> motions;
   Table claims;                     ///< no rows if nothing has been judged
   Table claim_rows;                 ///< by which rows of which tables: claim, table, records, columns
-  std::vector<std::string> faults;  ///< files that are there and cannot be shown, a sentence each
+  std::vector<std::string> faults;  ///< files that cannot be shown, a sentence each
 
   /// The metadata of a run; null if there are none.
   [[nodiscard]] const nlohmann::ordered_json* metadata_of(const std::string& run) const;

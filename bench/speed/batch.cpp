@@ -39,7 +39,7 @@ namespace {
 constexpr int intervals = 64;
 constexpr std::size_t most_instances = 4096;
 
-/// Where instances start; all starts are moved with their ends (`ClampedEnds`).
+/// The kinds of starts; all starts are moved with their ends (`ClampedEnds`).
 enum class StartKind : std::uint8_t {
   cold,     ///< at the guess of the problem
   warm,     ///< at the motion of the problem itself, which is solved before, with its multipliers

@@ -18,12 +18,12 @@ struct Benchmark {
 
   /// Empty if there is none.
   [[nodiscard]] std::string label(std::string_view key) const;
-  // Of a number's repetitions; none if the benchmark does not have it.
+  // The median of a number's repetitions; none if the benchmark does not have it.
   [[nodiscard]] std::optional<double> median_of(std::string_view number) const;
   [[nodiscard]] std::optional<double> smallest_of(std::string_view number) const;
 };
 
-/// By name.
+/// Benchmarks by name.
 using Benchmarks = std::map<std::string, Benchmark>;
 
 /// The repetitions in a JSON file of Google Benchmark (`--benchmark_out`); aggregates and benchmarks that failed

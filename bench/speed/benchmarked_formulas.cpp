@@ -53,7 +53,7 @@ BenchmarkedFormulas::BenchmarkedFormulas(Formulas formulas)
 }
 
 Schedule fused(const BenchmarkedFormulas& formulas) {
-  // In this thread's graph, where equal expressions are shared.
+  // Copies in this thread's graph, where equal expressions are shared.
   std::vector<Expression> all;
   for (const Schedule* part : formulas.schedules()) {
     std::vector<Expression> inputs;

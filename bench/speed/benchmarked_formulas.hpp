@@ -36,7 +36,7 @@ class BenchmarkedFormulas {
   [[nodiscard]] const Formulas& formulas() const noexcept { return formulas_; }
   [[nodiscard]] Transcription& program() noexcept { return program_; }
   [[nodiscard]] const IntervalFunctions& functions() const noexcept { return program_.functions(); }
-  /// Of `quantities`: residual, Jacobian, Hessian of the Lagrangian.
+  /// The schedules of `quantities`: residual, Jacobian, Hessian of the Lagrangian.
   [[nodiscard]] std::array<const Schedule*, 3> schedules() const noexcept {
     return {&functions().rows.schedule, &functions().jacobian.schedule, &functions().hessian.schedule};
   }

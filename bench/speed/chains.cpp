@@ -1,5 +1,5 @@
-// How the cost of an iteration grows with the number of configurations: chains of links by DMOC; and how long the
-// program of a chain takes to make. `page` turns the result into chains.md.
+// The growth of the cost of an iteration with the number of configurations: chains of links by DMOC; and the time in
+// which the program of a chain is made. `page` turns the result into chains.md.
 #include <memory>
 #include <string>
 #include <utility>

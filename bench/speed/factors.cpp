@@ -33,7 +33,7 @@ std::unique_ptr<kkt::KktSystem> by_dissection(NonlinearProgram& program) {
   return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::along_the_horizon);
 }
 
-/// By the kernel for any sizes, which takes plain shapes too.
+/// The elimination by the kernel for any sizes, which takes plain shapes too.
 std::unique_ptr<kkt::KktSystem> by_intervals_of_any_size(NonlinearProgram& program) {
   auto made = kkt::IntervalKkt::make(program, [](const kkt::Shape& shape) {
     kkt::Shape any = shape;

@@ -25,7 +25,7 @@ void register_tapes(const BenchmarkedFormulas& point, const std::string& way, In
   register_benchmark(benchmark, checked_evaluation(point, all, "the tape on " + name, by_tape(point, all, set, use)));
 }
 
-/// How long the three tapes take to be made with their machine code.
+/// Times the making of the three tapes with their machine code.
 void register_making(const BenchmarkedFormulas& point, InstructionSet set) {
   Evaluation making{.evaluate = [&point, set] {
     for (const Schedule* schedule : point.schedules()) {

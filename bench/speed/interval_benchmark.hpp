@@ -30,7 +30,7 @@ void register_hand_benchmarks(const FormulasOfPaper& paper);
 
 /// program/...: the assembled program's evaluations, one by one and one after the other ("separate"), for every method,
 /// Gauss with 1 to 3 stages, the paper's problems and chains of 2 to 8 links. A program is made when the first
-/// benchmark wants it.
+/// benchmark requires it.
 void register_program_benchmarks();
 
 /// machine/arithmetic/SET: operations per second of fused multiplications and additions on registers (separate ones

@@ -11,7 +11,7 @@
 /// functions are inlined, or in a namespace of this set alone, may be used there.
 namespace dmocbench::speed {
 
-/// Where a function written by hand reads and writes; entry k of a column belongs to interval k.
+/// The arrays that a function written by hand reads and writes; entry k of a column belongs to interval k.
 struct HandSeries {
   // One column per input, numbered as in `LocalInputs`: left q, right q, u, the step h, the time (not read), the
   // factor of the cost (not read: `factor` below), multipliers of the left and of the right constraints.

@@ -75,7 +75,7 @@ std::unique_ptr<Solver> make_solver_of(const SolveCase& solve) {
   return make_solver(solve.solver, options);
 }
 
-/// How much memory of this process was in use at most while a program was made and solved, beyond what was before; none
+/// The peak memory of this process while a program was made and solved, less the memory before; none
 /// where the system does not report it.
 ///
 /// Memory that others freed before is handed back to the system first, so that it does not hide memory taken again;

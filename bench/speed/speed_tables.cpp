@@ -230,7 +230,7 @@ Table solve_exponents(const Table& solves) {
   constexpr double coarsest_grid = 1024;
   constexpr int fewest_grids = 3;
   std::vector<TimesOverGrids> all;
-  // By solvers first: two threads begin on a finer grid, and stand after one all the same.
+  // Grouped by solvers first: two threads begin on a finer grid, but come after one thread.
   for (const Selection& by_solver : Selection(solves).group_by({"problem", "method", "solver"})) {
     for (const Selection& curve : by_solver.group_by({"threads"})) {
       std::vector<GridError> points;

@@ -9,7 +9,7 @@
 
 namespace dmocbench {
 
-/// How well values of one cost agree that were found by different routes, among themselves and with a reference.
+/// The agreement of values of one cost by different routes, among themselves and with a reference.
 struct RouteAgreement {
   std::size_t routes = 0;
   int digits = 0;            ///< that all routes share, 0 .. 16

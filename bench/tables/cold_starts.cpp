@@ -35,7 +35,7 @@ struct BestCost {
     cost = is_reached ? *certified : lowest;
     kind = is_reached ? "certified" : "lowest confirmed";
   }
-  /// How far a cost is above, relative.
+  /// The relative excess of a cost.
   [[nodiscard]] double excess(const Row& row) const {
     const double difference = row.needed("objective") - cost.value_or(0.0);
     return difference == 0.0 ? 0.0 : difference / std::abs(cost.value_or(1.0));
@@ -61,7 +61,7 @@ constexpr std::array efforts{Effort{"iterations", "major_iterations", "", "major
 constexpr std::array quartiles{std::pair{"_lower_quartile", 0.25}, std::pair{"_median", 0.5},
                                std::pair{"_upper_quartile", 0.75}};
 
-/// How the starts of a cell ended.
+/// The outcomes of the starts of a cell.
 struct EndsOfCell {
   Row head;
   ShareCount solved;

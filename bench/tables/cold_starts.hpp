@@ -4,8 +4,8 @@
 
 namespace dmocbench {
 
-/// How solves from many cold starts ended (from a problem's guess and perturbed guesses, none from a solution), a row
-/// for each problem, method, tableau, number of stages, solver, derivatives and intervals.
+/// The outcomes of solves from many cold starts (from a problem's guess and perturbed guesses, none from a solution), a
+/// row for each problem, method, tableau, number of stages, solver, derivatives and intervals.
 ///
 /// The counts best, elsewhere, too_coarse and lost add up to `starts`. An answer is
 /// - solved if it is an optimum of the discrete program, confirmed by our own KKT residual;
@@ -23,7 +23,7 @@ namespace dmocbench {
 /// `every_problem` is the mean of the problems' shares, where there are several.
 [[nodiscard]] Table cold_start_profiles(const Selection& rows);
 
-/// In the column `problem`: the mean over all problems.
+/// The name in the column `problem` for the mean over all problems.
 inline constexpr const char* every_problem = "every_problem";
 
 }  // namespace dmocbench

@@ -18,9 +18,9 @@ namespace {
 /// Smaller errors come from the solver's tolerance (1e-10) and rounding, not from the grid; relative to the cost for
 /// errors of the cost. Used in a range of the user's.
 constexpr double rounding_level = 1e-11;
-/// How far above the floor an error shows the order.
+/// The factor above the floor from which an error shows the order.
 constexpr double above_floor = 100.0;
-/// So few grids make an order in a range of the user's.
+/// The fewest grids for an order in a range of the user's.
 constexpr std::size_t fewest_in_range = 3;
 
 constexpr std::array fitted_quantities{"state",

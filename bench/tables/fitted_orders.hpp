@@ -37,7 +37,7 @@ struct FittedOrders {
 [[nodiscard]] FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range,
                                       long long reference);
 
-/// How the worst interval (`accuracy`, which needs no other solution) predicts the true error: a row per curve of a
+/// Prediction of the true error by the worst interval (`accuracy`, which needs no other solution): a row per curve of a
 /// convergence table against an exact reference.
 ///
 /// Both slopes, of `largest_jump` and of the state error, are fitted on the same grids: those where both are above

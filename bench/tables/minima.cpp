@@ -43,7 +43,7 @@ bool has_at_most(const Selection& minimum, const std::string& column, double lim
 
 bool is_motion(const Selection& minimum) { return has_at_most(minimum, "relative_jump", largest_jump_of_a_motion); }
 
-/// How many answers of a method are in minima that are not motions.
+/// The number of answers of a method in minima that are not motions.
 std::size_t unconfirmed_of(const std::vector<Selection>& minima, const std::string& method) {
   std::size_t count = 0;
   for (const Selection& minimum : minima) {
@@ -107,7 +107,7 @@ Columns<StartInPlane> basin_columns() {
               from(&StartInPlane::minimum, is_motion_in_words)}};
 }
 
-/// How the starts of a method ended.
+/// The outcomes of the starts of a method.
 struct StartsOfMethod {
   Row head;
   std::size_t solved = 0;

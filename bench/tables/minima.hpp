@@ -15,7 +15,7 @@ namespace dmocbench {
 /// whole horizon ends near the final state for some answer. Rows that were not solved are in no minimum.
 [[nodiscard]] Table distinct_minima(const Selection& rows, double separation);
 
-/// How often each method found the best minimum.
+/// The shares of starts by which each method found the best minimum.
 [[nodiscard]] Table best_minimum_shares(const Selection& rows, double separation);
 
 /// The minimum, of `distinct_minima`, in which each start of a plane of them ended.

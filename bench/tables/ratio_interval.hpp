@@ -12,7 +12,7 @@ namespace dmocbench {
 
 /// Fewer rounds are too few for a verdict on times.
 inline constexpr std::size_t fewest_rounds = 10;
-/// How often the rounds are drawn anew.
+/// The number of resamples of the rounds.
 inline constexpr std::size_t resamples = 1000;
 
 /// The ratio of two times that were measured in turn, round after round, so that other load of the machine slowed both.

@@ -54,7 +54,7 @@ struct ComparedCost {
 ///
 /// Quantities are the errors of state and control, and the replay error. For errors 10^-k/2 that every method of a
 /// problem and tableau reaches within its grids, the number of intervals, of free variables and the seconds of a solve
-/// are read off the method's curve (straight lines in logarithms between grids). Ratios are to dmoc, where it is there.
+/// are read off the method's curve (straight lines in logarithms between grids). Ratios are to dmoc, if present.
 [[nodiscard]] Table equal_accuracy(const Selection& convergence);
 
 /// The cost of collocation compared with DMOC in every currency of an iterations table.

@@ -144,7 +144,7 @@ std::unique_ptr<dmocbench_solution> told(std::unique_ptr<dmocbench_solution> res
   return result;
 }
 
-/// Where the library is loaded, as programs do in `main`: answers are then the same in every run.
+/// Runs when the library is loaded, as programs do in `main`: answers are then the same in every run.
 [[gnu::constructor]] void order_by_one_thread_where_loaded() { order_by_one_thread(); }
 
 std::string method_of(const dmocbench_options& options) {

@@ -26,7 +26,7 @@ std::string with_unit(const PictureQuantity& quantity) {
   return quantity.unit.empty() ? quantity.name : fmt::format("{} [{}]", quantity.name, quantity.unit);
 }
 
-/// Where states are in the plane.
+/// The positions of states in the plane.
 class PicturePlane {
  public:
   PicturePlane(const Problem& problem, bool shows_configurations)

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int steps_of_rotation = 16;  // of the horizon
 constexpr int intervals_of_rotation = 4;
-/// From the first trim's rate to the last one's in so many equal parts.
+/// The number of equal parts from the first trim's rate to the last one's.
 constexpr int parts_of_rates = 4;
 
 /// Trims at the rates ω_k = ω_0 + kδ, ω_0 the rate of the problem's first state and ω_K, K = `parts_of_rates`, of its
@@ -53,8 +53,8 @@ class TurningTrims {
 
   [[nodiscard]] const std::vector<Trim>& trims() const noexcept { return trims_; }
   [[nodiscard]] double step() const noexcept { return step_; }
-  /// By the angle that lies `places` of the lattice beyond the turn of trim 0 in so many time steps, from the lattice
-  /// of trim `from` to the lattice of trim `to`.
+  /// The displacement by the angle that lies `places` of the lattice beyond the turn of trim 0 in so many time steps,
+  /// from the lattice of trim `from` to the lattice of trim `to`.
   [[nodiscard]] Displacement turn(int from, int to, int duration, int places) const {
     const double between = (to == parts_of_rates ? last_offset_ : 0.0) - (from == parts_of_rates ? last_offset_ : 0.0);
     return by_angle(first_rate_ * step_ * duration + places * width() + between);

@@ -85,7 +85,7 @@ Cells turned_by(int quarters, Cells speed) {
   return speed;
 }
 
-/// Which maneuvers are tried between two trims.
+/// The maneuvers that are tried between two trims.
 struct ManeuverRange {
   int quarters = 0;            ///< by which the frame turns
   std::vector<int> durations;  ///< in time steps

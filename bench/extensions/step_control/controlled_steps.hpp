@@ -9,7 +9,7 @@
 
 namespace dmocbench {
 
-/// How steps are chosen: all equal, or by a `StepRule`.
+/// The choice of steps: all equal, or by a `StepRule`.
 enum class StepPolicy : std::uint8_t { uniform, variational, imposed, from_left };
 /// The quantity that σ reads.
 enum class SigmaReads : std::uint8_t { nothing, distance, acceleration, thrust };
@@ -19,7 +19,7 @@ enum class SigmaReads : std::uint8_t { nothing, distance, acceleration, thrust }
 /// "nothing", "distance", "acceleration" or "thrust".
 [[nodiscard]] std::string_view name_of(SigmaReads sigma);
 
-/// How DMOC chooses its steps along a Kepler ellipse.
+/// The choice of DMOC's steps along a Kepler ellipse.
 struct StepChoice {
   StepPolicy rule = StepPolicy::uniform;
   SigmaReads sigma = SigmaReads::nothing;

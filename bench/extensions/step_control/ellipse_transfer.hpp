@@ -8,9 +8,9 @@
 
 namespace dmocbench {
 
-/// From the pericentre of an ellipse with semi-major axis 1 to the pericentre of one with semi-major axis 1.2 and the
-/// same eccentricity and direction, after one revolution, with the least C = ½|u|²: L = ½|q̇|² + 1/|q|, f = u in the
-/// plane.
+/// The transfer from the pericentre of an ellipse with semi-major axis 1 to the pericentre of one with semi-major
+/// axis 1.2 and the same eccentricity and direction, after one revolution, with the least C = ½|u|²: L = ½|q̇|² + 1/|q|,
+/// f = u in the plane.
 class EllipseTransfer final : public Problem {
  public:
   explicit EllipseTransfer(double eccentricity) : ellipse_(eccentricity) {}
