@@ -174,7 +174,7 @@ double Confirmation::factor_of_cost(double tolerance, const Eigen::VectorXd& sta
 void tell_of_stop(Solution& solution) {
   solution.status = seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
   solution.message = fmt::format(
-      "{} The residuals are below the tolerance; whether Newton steps would settle the answer is not known.",
+      "{} The residuals are below the tolerance; it is unknown whether Newton steps would settle the answer.",
       sentence_of(solution.status));
 }
 

@@ -269,12 +269,12 @@ void judge_infeasibility(const CountedProgram& program, const SolverOptions& opt
     solution.message =
         "Near the last point the constraints cannot be met any better, but descent on their violation alone, from the "
         "start or from half way between the bounds, meets them: the program is feasible, and the solver went astray; "
-        "begin at another motion.";
+        "start from another motion.";
     return;
   }
   if (is_least == claims) return;
   solution.status = is_least ? Status::infeasible : Status::step_failed;
-  solution.message = is_least ? "" : "The solver calls it infeasible, but its point is none of least violation.";
+  solution.message = is_least ? "" : "The solver calls it infeasible, but its point does not minimise the violation.";
 }
 
 }  // namespace dmocbench

@@ -31,7 +31,8 @@ std::string fault_of_start(const Eigen::VectorXd& start) {
 /// The answer to a program whose cost was multiplied by a factor, as one of the program itself.
 void state_without_factor(NonlinearProgram& program, double factor, Solution& solution) {
   solution.message += fmt::format(
-      " The cost was too small for the tolerance: the solver saw it times {:.0e}, as `cost_scale` of a problem does.",
+      " The cost was too small for the tolerance: the solver got it multiplied by {:.0e}, as `cost_scale` of a problem "
+      "does.",
       factor);
   if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would not see the factor
   if (solution.barrier_parameter) *solution.barrier_parameter /= factor;

@@ -121,7 +121,7 @@ class SolverWithoutMemory : public Solver {
 [[nodiscard]] std::vector<std::string> solver_names();
 
 /// The solver with that name. Ipopt and NLopt get the named options as they stand; our own solvers get typed options
-/// made from them . Throws `Error` that lists the names if it is unknown, or if an option is out of range or not the
+/// made from them. Throws `Error` that lists the names if it is unknown, or if an option is out of range or not the
 /// solver's.
 [[nodiscard]] std::unique_ptr<Solver> make_solver(std::string_view name, const SolverOptions& options = {},
                                                   const NamedOptions& named = {});
