@@ -256,30 +256,31 @@ Columns<BatchTimes> batch_columns() {
   Columns<Times> columns{
       label_column<Times>("problem", "name of the problem"),
       label_column<Times>("start", "cold, warm or nearest"),
-      label_column<Times>("way", "batch, fill (it is filled only), or the solver of a loop"),
-      label_column<Times>("threads", "that work", FieldKind::integer),
-      label_column<Times>("instances", "that are solved", FieldKind::integer),
-      {"repetitions", "", "how often it was measured",
+      label_column<Times>("way", "batch, fill (lanes are filled, not solved), or the solver of a loop"),
+      label_column<Times>("threads", "number of threads", FieldKind::integer),
+      label_column<Times>("instances", "number of instances", FieldKind::integer),
+      {"repetitions", "", "number of repetitions",
        [](const Times& times) { return times.numbers.at("real_time").size(); }},
       {"seconds", "s", "time per instance, the median over the rounds", &Times::seconds},
-      {"seconds_lower", "s", "of the interval of 99 % of this median",
+      {"seconds_lower", "s", "lower end of the 99 % interval of this median",
        [](const Times& times) { return MedianOfRounds(times.rounds()).lower; }},
-      {"seconds_upper", "s", "of the same interval",
+      {"seconds_upper", "s", "upper end of this interval",
        [](const Times& times) { return MedianOfRounds(times.rounds()).upper; }},
-      {"solves_per_second", "1/s", "by the median", [](const Times& times) { return times.rate(times.seconds()); }},
-      {"rate_lower", "1/s", "of the interval of 99 % of this rate",
+      {"solves_per_second", "1/s", "solves per second, by the median time",
+       [](const Times& times) { return times.rate(times.seconds()); }},
+      {"rate_lower", "1/s", "lower end of the 99 % interval of this rate",
        [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).upper); }},
-      {"rate_upper", "1/s", "of the same interval",
+      {"rate_upper", "1/s", "upper end of this interval",
        [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).lower); }},
       {"ratio", "", "seconds by the batch's on all threads, from the same start", &Times::ratio},
       counter_column<Times>("processor_seconds", "s", "time of all processors per instance"),
-      counter_column<Times>("median_iterations", "", "of a solve"),
-      counter_column<Times>("solved", "", "share of the instances"),
+      counter_column<Times>("median_iterations", "", "iterations of a solve, the median"),
+      counter_column<Times>("solved", "", "share of the instances that are solved"),
       counter_column<Times>("one_by_one", "", "share of the instances that leave their lanes"),
-      counter_column<Times>("lanes_in_use", "", "share of the turns of all lanes")};
+      counter_column<Times>("lanes_in_use", "", "share of the lanes' rounds with an instance")};
   for (const char* const phase : phase_names) {
     columns.push_back(
-        counter_column<Times>(fmt::format("share_{}", phase), "", "of the phase in the time of all threads"));
+        counter_column<Times>(fmt::format("share_{}", phase), "", "share of the phase in the time of all threads"));
   }
   return columns;
 }

@@ -142,11 +142,11 @@ TablesBySuffix tables_of(const Benchmarks& benchmarks) {
       label_column("method", "family of elements"),
       label_column("start", "warm or cold"),
       label_column("intervals", "number of intervals N", FieldKind::integer),
-      counter_column("iterations", "", "of a solve"),
+      counter_column("iterations", "", "iterations of a solve"),
       counter_column("solved", "", "1 if the program is solved"),
-      counter_column("plain_microseconds", "us", "of a solve by Solver::solve"),
-      counter_column("prepared_microseconds", "us", "of a solve by PreparedSolve"),
-      counter_column("residuals_microseconds", "us", "of one that judges answers by residuals only"),
+      counter_column("plain_microseconds", "us", "time of a solve by Solver::solve"),
+      counter_column("prepared_microseconds", "us", "time of a solve by PreparedSolve"),
+      counter_column("residuals_microseconds", "us", "time of a PreparedSolve that judges by residuals only"),
       counter_column("plain_over_prepared", "", "plain_microseconds by prepared_microseconds"),
       counter_column("over_long_grid", "", "time per interval and iteration by a long grid's")};
   std::vector<Benchmark> solves = without_names(benchmarks);

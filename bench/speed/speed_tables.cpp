@@ -74,22 +74,22 @@ Columns<Evaluation> evaluation_columns() {
   constexpr auto roof = &Evaluation::roof;
   const auto label = label_column<Evaluation>;
   return {
-      label("way", "how it is evaluated", FieldKind::text),
+      label("way", "way of evaluation", FieldKind::text),
       label("quantity", "evaluated quantity", FieldKind::text),
       label("problem", "name of the problem", FieldKind::text),
-      label("links", "of a chain", FieldKind::integer),
+      label("links", "number of links of a chain", FieldKind::integer),
       label("method", "family of elements", FieldKind::text),
       label("tableau", "family of Butcher tableaus", FieldKind::text),
       label("stages", "number of stages s", FieldKind::integer),
-      label("instruction_set", "of the processor", FieldKind::text),
+      label("instruction_set", "instruction set of the processor", FieldKind::text),
       label("intervals", "number of intervals N", FieldKind::integer),
-      {"repetitions", "", "how often it was measured",
+      {"repetitions", "", "number of repetitions",
        [](const Evaluation& of) { return of.numbers.at(ns_per_interval).size(); }},
-      {"nanoseconds", "ns", "per interval, the median", &Evaluation::time},
-      {"smallest_nanoseconds", "ns", "per interval, the least",
+      {"nanoseconds", "ns", "time per interval, the median", &Evaluation::time},
+      {"smallest_nanoseconds", "ns", "time per interval, the least",
        [](const Evaluation& of) { return of.smallest_of(ns_per_interval); }},
-      {"operations", "", "per interval", &Evaluation::operations},
-      {"bytes", "", "per interval, read and written", &Evaluation::bytes},
+      {"operations", "", "operations per interval", &Evaluation::operations},
+      {"bytes", "", "bytes per interval, read and written", &Evaluation::bytes},
       {"operations_per_byte", "", "operations by bytes",
        [](const Evaluation& of) { return of.bytes() ? std::optional(of.operations() / *of.bytes()) : std::nullopt; }},
       {"operations_per_second", "1/s", "operations by their time",
@@ -110,17 +110,17 @@ Columns<Benchmark> solve_columns() {
           label_column("method", "family of elements"),
           label_column("intervals", "number of intervals N", FieldKind::integer),
           label_column("solver", "name of the solver"),
-          label_column("threads", "of a solve", FieldKind::integer),
-          {"repetitions", "", "how often it was solved",
+          label_column("threads", "number of threads of a solve", FieldKind::integer),
+          {"repetitions", "", "number of repetitions",
            [](const Benchmark& of) { return of.numbers.at("real_time").size(); }},
-          {"seconds", "s", "of a solve, the median", seconds},
-          {"smallest_seconds", "s", "of a solve, the least",
+          {"seconds", "s", "time of a solve, the median", seconds},
+          {"smallest_seconds", "s", "time of a solve, the least",
            [](const Benchmark& of) { return second * of.smallest_of("real_time").value_or(NAN); }},
           {"iterations", "", "major iterations", [](const Benchmark& of) { return of.median_of("major_iterations"); }},
-          counter_column("linear_systems", "", "that were solved"),
+          counter_column("linear_systems", "", "number of linear systems solved"),
           {"solved", "", "1 if every repetition ended solved",
            [](const Benchmark& of) { return of.smallest_of("solved") == 1.0; }},
-          counter_column("objective", "cost", "of the answer"),
+          counter_column("objective", "cost", "objective of the answer"),
           {"ns_per_interval_iteration", "ns", "time of a solve by intervals and iterations",
            [seconds](const Benchmark& of) {
              const double iterations = std::max(1.0, of.median_of("major_iterations").value_or(0.0));
@@ -128,7 +128,7 @@ Columns<Benchmark> solve_columns() {
            }},
           counter_column("evaluation_share", "", "share of derivatives in the time"),
           counter_column("bytes_per_interval", "", "largest memory of a solve, by intervals"),
-          counter_column("setup_seconds", "s", "that making the program took")};
+          counter_column("setup_seconds", "s", "time to make the program")};
 }
 
 /// Two solves of a program.
@@ -152,10 +152,10 @@ struct SolvesOfPair {
 Columns<SolvesOfPair> pair_columns() {
   using Pair = SolvesOfPair;
   return head_columns<Pair>({"problem", "method", "intervals"}, in_key) +
-         Columns<Pair>{{"quantity", "", "in which the two solves differ: solver or threads", &Pair::quantity, in_key},
-                       {"ratio", "", "of their seconds, Ipopt's or one thread's above",
+         Columns<Pair>{{"quantity", "", "difference of the two solves: solver or threads", &Pair::quantity, in_key},
+                       {"ratio", "", "ratio of their seconds, Ipopt's or one thread's in the numerator",
                         [](const Pair& pair) { return pair.ratio_of("seconds"); }},
-                       {"ratio_of_smallest", "", "of their smallest seconds",
+                       {"ratio_of_smallest", "", "ratio of their smallest seconds",
                         [](const Pair& pair) { return pair.ratio_of("smallest_seconds"); }},
                        {"verdict", "", "same where the costs are equal", &Pair::verdict}};
 }
@@ -175,8 +175,8 @@ Columns<TimesOverGrids> exponent_columns() {
   constexpr auto line = &TimesOverGrids::line;
   return head_columns<TimesOverGrids>({"problem", "method", "solver", "threads"}, in_key) +
          Columns<TimesOverGrids>{
-             {"exponent", "", "of N in the time per iteration", from(line, &FittedOrder::order)},
-             {"standard_error", "", "of the exponent", from(line, &FittedOrder::standard_error)},
+             {"exponent", "", "exponent of N in the time per iteration", from(line, &FittedOrder::order)},
+             {"standard_error", "", "standard error of the exponent", from(line, &FittedOrder::standard_error)},
              {"grids", "", "number of grids used", from(line, &FittedOrder::points)},
              {"coarsest", "", "smallest number of intervals used", from(line, &FittedOrder::first_abscissa)},
              {"finest", "", "largest number of intervals used", from(line, &FittedOrder::last_abscissa)}};
@@ -199,10 +199,10 @@ Table interval_table(const Benchmarks& benchmarks) {
 }
 
 Table machine_table(const Benchmarks& benchmarks) {
-  const Columns<Benchmark> columns{label_column("instruction_set", "of the processor"),
+  const Columns<Benchmark> columns{label_column("instruction_set", "instruction set of the processor"),
                                    label_column("limit", "arithmetic, or a level of memory"),
                                    {"rate", "1/s", "operations or bytes per second", rate_of},
-                                   label_column("array_bytes", "of the arrays that are worked on", FieldKind::integer)};
+                                   label_column("array_bytes", "size of the arrays, in bytes", FieldKind::integer)};
   return table_of(columns, of_the_machine(benchmarks));
 }
 

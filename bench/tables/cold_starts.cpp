@@ -77,10 +77,10 @@ struct EndsOfCell {
 /// NAME, NAME_share, NAME_lower and NAME_upper.
 Columns<EndsOfCell> share_columns(const std::string& name, const std::string& meaning, ShareCount EndsOfCell::*count) {
   return {{name, "", meaning, from(count, &ShareCount::hits)},
-          {name + "_share", "", "of all starts", from(count, &ShareCount::share)},
-          {name + "_lower", "", "Wilson's interval of 95 % of the share",
+          {name + "_share", "", "share of all starts", from(count, &ShareCount::share)},
+          {name + "_lower", "", "lower end of Wilson's 95 % interval of the share",
            from(count, wilson_interval, &ShareInterval::lower)},
-          {name + "_upper", "", "of the same interval", from(count, wilson_interval, &ShareInterval::upper)}};
+          {name + "_upper", "", "upper end of this interval", from(count, wilson_interval, &ShareInterval::upper)}};
 }
 
 /// A column of every row of the tables.
@@ -95,21 +95,23 @@ Columns<EndsOfCell> columns_of_ends() {
       head_columns<Ends>(cell_columns, in_key) +
       Columns<Ends>{start_kind_column<Ends>(),
                     {"starts", "", "number of starts", from(&Ends::solved, &ShareCount::trials)}} +
-      share_columns("solved", "how many ended at a confirmed optimum of the discrete program", &Ends::solved) +
-      share_columns("confirmed", "how many were solved and whose intervals, replayed alone, join", &Ends::confirmed) +
-      share_columns("best", "how many were confirmed and cost no more than the reference, to the tolerance",
+      share_columns("solved", "number of starts that ended at a confirmed optimum of the discrete program",
+                    &Ends::solved) +
+      share_columns("confirmed", "number of solved starts whose intervals, replayed alone, join", &Ends::confirmed) +
+      share_columns("best", "number of confirmed starts that cost no more than the reference, to the tolerance",
                     &Ends::best) +
       Columns<Ends>{
-          {"elsewhere", "", "how many were confirmed and cost more than the reference",
+          {"elsewhere", "", "number of confirmed starts that cost more than the reference",
            [](const Ends& ends) { return ends.confirmed.hits - ends.best.hits; }},
-          {"too_coarse", "", "how many were solved, but are not motions on this grid",
+          {"too_coarse", "", "number of solved starts whose answers are not motions on this grid",
            [](const Ends& ends) { return ends.solved.hits - ends.confirmed.hits; }},
-          {"lost", "", "how many were not solved", &Ends::lost},
-          {"failures", "", "the statuses of those that were not solved, each with its number", &Ends::failures},
-          {"below_reference", "", "how many of the best cost less than the reference", &Ends::below_reference},
-          {"certified_objective", "cost", "the certified optimum of the problem, where there is one",
+          {"lost", "", "number of unsolved starts", &Ends::lost},
+          {"failures", "", "the statuses of the unsolved starts, each with its number", &Ends::failures},
+          {"below_reference", "", "number of the best that cost less than the reference", &Ends::below_reference},
+          {"certified_objective", "cost", "the certified optimum of the problem, if known",
            [](const Ends& ends) { return ends.head.number("reference_objective"); }},
-          {"reference_objective", "cost", "that answers are compared with", from(&Ends::reference, &BestCost::cost)},
+          {"reference_objective", "cost", "cost that answers are compared with",
+           from(&Ends::reference, &BestCost::cost)},
           {"reference_kind", "", "certified, or the lowest confirmed cost on the grid",
            from(&Ends::reference, &BestCost::kind)}};
   for (std::size_t i = 0; i < efforts.size(); ++i) {
@@ -201,7 +203,7 @@ Columns<BudgetPoint> profile_columns() {
              {"measure", "", "measure of the budget", &BudgetPoint::measure, in_key},
              {"budget", "", "largest number of evaluations, or of seconds, that a solve may take", &BudgetPoint::budget,
               in_key},
-             {"share", "", "of all starts that are solved and confirmed within the budget", &BudgetPoint::share}};
+             {"share", "", "share of all starts that are solved and confirmed within the budget", &BudgetPoint::share}};
 }
 
 void append_profiles_of_problems(std::vector<BudgetPoint>& points, const Selection& rows, const std::string& measure) {

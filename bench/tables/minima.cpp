@@ -83,7 +83,7 @@ Columns<Minimum> minimum_columns(const std::vector<std::string>& methods) {
               [](const Minimum& minimum) {
                 return yes_or_no(has_at_most(minimum.answers, "replay_error", confirmed_replay));
               }}} +
-         column_group<Minimum>(methods, "", "how often this method ended there", found_by);
+         column_group<Minimum>(methods, "", "number of starts by which this method ended there", found_by);
 }
 
 /// A start, and the minimum that it ended in, if it ended in one.
@@ -121,16 +121,17 @@ Columns<StartsOfMethod> best_share_columns() {
   using Starts = StartsOfMethod;
   return head_columns<Starts>({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals"},
                               in_key) +
-         Columns<Starts>{{"starts", "", "number of starts", from(&Starts::best, &ShareCount::trials)},
-                         {"solved", "", "how many were solved", &Starts::solved},
-                         {"unsolved", "", "how many were not solved",
-                          [](const Starts& starts) { return starts.best.trials - starts.solved; }},
-                         {"unconfirmed", "", "how many ended in a minimum that is not a motion", &Starts::unconfirmed},
-                         {"best", "", "how many ended in the best minimum", from(&Starts::best, &ShareCount::hits)},
-                         {"share", "", "best by starts", from(&Starts::best, &ShareCount::share)},
-                         {"share_lower", "", "Wilson's interval of 95 % of the share",
-                          from(&Starts::interval, &ShareInterval::lower)},
-                         {"share_upper", "", "of the same interval", from(&Starts::interval, &ShareInterval::upper)}};
+         Columns<Starts>{
+             {"starts", "", "number of starts", from(&Starts::best, &ShareCount::trials)},
+             {"solved", "", "number of solved starts", &Starts::solved},
+             {"unsolved", "", "number of unsolved starts",
+              [](const Starts& starts) { return starts.best.trials - starts.solved; }},
+             {"unconfirmed", "", "number of starts that ended in a minimum that is not a motion", &Starts::unconfirmed},
+             {"best", "", "number of starts that ended in the best minimum", from(&Starts::best, &ShareCount::hits)},
+             {"share", "", "best by starts", from(&Starts::best, &ShareCount::share)},
+             {"share_lower", "", "lower end of Wilson's 95 % interval of the share",
+              from(&Starts::interval, &ShareInterval::lower)},
+             {"share_upper", "", "upper end of this interval", from(&Starts::interval, &ShareInterval::upper)}};
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ Columns<ProfilePoint> point_columns() {
          head_columns<Point>(competitor_columns) +
          Columns<Point>{
              {"ratio", "", "effort of a competitor by the best one's on the same instance", &Point::ratio},
-             {"share", "", "of all instances on which the competitor stays within the ratio", &Point::share}};
+             {"share", "", "share of all instances on which the competitor stays within the ratio", &Point::share}};
 }
 
 /// A competitor's effort by one measure.
@@ -132,7 +132,7 @@ Columns<LibraryAnswer> library_columns() {
                           [](const Answer& answer) { return answer.head.number("reference_digits"); }}} +
          head_columns<Answer>({"reference_kind", "method", "tableau", "stages", "solver", "derivatives", "intervals",
                                "status", "objective"}) +
-         Columns<Answer>{{"relative_difference", "", "of the objective from the reference, with its sign",
+         Columns<Answer>{{"relative_difference", "", "difference of the objective from the reference, with its sign",
                           &Answer::relative_difference}} +
          head_columns<Answer>({"success", "replay_error", "message"});
 }

@@ -55,9 +55,9 @@ struct MedianOfRounds {
 /// the arguments of `from` after one.
 template <class Record, class... Members>
 [[nodiscard]] Columns<Record> round_columns(Members... ratios) {
-  return {{"ratio_lower", "", "of the interval of 99 % of the median ratio, where rounds were timed",
+  return {{"ratio_lower", "", "lower end of the 99 % interval of the median ratio, where rounds were timed",
            from(ratios..., &MedianOfRounds::lower)},
-          {"ratio_upper", "", "of the same interval", from(ratios..., &MedianOfRounds::upper)},
+          {"ratio_upper", "", "upper end of this interval", from(ratios..., &MedianOfRounds::upper)},
           {"round_ratios", "", "the ratio in each round, with spaces between them",
            from(ratios..., &MedianOfRounds::rounds)}};
 }

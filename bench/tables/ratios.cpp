@@ -49,7 +49,7 @@ Columns<AccuracyCost> accuracy_cost_columns() {
   using Paid = AccuracyCost;
   return head_columns<Paid>({"problem", "tableau", "stages"}, in_key) +
          Columns<Paid>{{"quantity", "", "quantity that is compared", &Paid::quantity, in_key},
-                       {"error", "", "that all methods of a problem and tableau reach", &Paid::error, in_key}} +
+                       {"error", "", "error that all methods of a problem and tableau reach", &Paid::error, in_key}} +
          head_columns<Paid>({"method"}, in_key) +
          Columns<Paid>{{"intervals", "", "number of intervals N, not always whole where it is read off a curve",
                         &Paid::intervals},
@@ -132,11 +132,12 @@ CostRatios cost_ratios(const Row& row, const Selection& others, const Cost& cost
 Columns<ComparedCost> compared_cost_columns(const ColumnNames& of_head, const std::string& name,
                                             const std::string& meaning) {
   return head_columns<ComparedCost>(of_head, in_key) +
-         Columns<ComparedCost>{{name, "", meaning, &ComparedCost::name, in_key},
-                               {"ratio_at_equal_intervals", "", "of the method to dmoc on the same number of intervals",
-                                from(&ComparedCost::ratios, &CostRatios::at_equal_intervals)},
-                               {"ratio_at_equal_accuracy", "", "of the method to dmoc where their errors are the same",
-                                from(&ComparedCost::ratios, &CostRatios::at_equal_accuracy)}} +
+         Columns<ComparedCost>{
+             {name, "", meaning, &ComparedCost::name, in_key},
+             {"ratio_at_equal_intervals", "", "ratio of the method to dmoc on the same number of intervals",
+              from(&ComparedCost::ratios, &CostRatios::at_equal_intervals)},
+             {"ratio_at_equal_accuracy", "", "ratio of the method to dmoc at equal errors",
+              from(&ComparedCost::ratios, &CostRatios::at_equal_accuracy)}} +
          round_columns<ComparedCost>(&ComparedCost::rounds);
 }
 

@@ -185,7 +185,7 @@ Motion motion_of(const dmocbench_solution& solution, const Problem& problem) {
   if (!solution.motion) throw Error("the solution to start from has no motion");
   const bool fits = solution.motion->q.cols() == static_cast<Eigen::Index>(problem.configuration_names().size()) &&
                     solution.motion->stage_u.cols() == static_cast<Eigen::Index>(problem.control_names().size());
-  if (!fits) throw Error("the solution to start from is of a problem with other numbers of q or u");
+  if (!fits) throw Error("the solution to start from belongs to a problem with different numbers of q or u");
   return smooth_motion(*solution.motion);
 }
 

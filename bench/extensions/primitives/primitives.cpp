@@ -41,32 +41,36 @@ const Columns<PlannedMotion> columns{
     {"states", "", "kind of the nodes", [](const PlannedMotion& p) { return p.system->nodes; }},
     {"horizontal", "", "x of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).x; }},
     {"vertical", "", "y of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).y; }},
-    {"primitives", "", "in the library", [](const PlannedMotion& p) { return stored_of(p).library.primitives.size(); }},
-    {"nodes", "", "of the roadmap", [](const PlannedMotion& p) { return stored_of(p).roadmap.nodes().size(); }},
-    {"edges", "", "of the roadmap", [](const PlannedMotion& p) { return stored_of(p).roadmap.edges().size(); }},
+    {"primitives", "", "number of primitives in the library",
+     [](const PlannedMotion& p) { return stored_of(p).library.primitives.size(); }},
+    {"nodes", "", "number of nodes of the roadmap",
+     [](const PlannedMotion& p) { return stored_of(p).roadmap.nodes().size(); }},
+    {"edges", "", "number of edges of the roadmap",
+     [](const PlannedMotion& p) { return stored_of(p).roadmap.edges().size(); }},
     {"roadmap", "", "built or read", [](const PlannedMotion& p) { return p.roadmap.is_read ? "read" : "built"; }},
-    {"roadmap_seconds", "s", "to build or read the roadmap", [](const PlannedMotion& p) { return p.roadmap.seconds; }},
+    {"roadmap_seconds", "s", "time to build or read the roadmap",
+     [](const PlannedMotion& p) { return p.roadmap.seconds; }},
     {"plan_milliseconds", "ms", "median time of a search on the roadmap",
      from(&PlannedMotion::milliseconds, &RatioInterval::ratio)},
-    {"plan_lower", "ms", "lower end of its interval, 99 %", from(&PlannedMotion::milliseconds, &RatioInterval::lower)},
-    {"plan_upper", "ms", "upper end", from(&PlannedMotion::milliseconds, &RatioInterval::upper)},
-    {"rounds", "", "searches that were timed", from(&PlannedMotion::milliseconds, &RatioInterval::rounds)},
+    {"plan_lower", "ms", "lower end of its 99 % interval", from(&PlannedMotion::milliseconds, &RatioInterval::lower)},
+    {"plan_upper", "ms", "upper end of this interval", from(&PlannedMotion::milliseconds, &RatioInterval::upper)},
+    {"rounds", "", "number of timed searches", from(&PlannedMotion::milliseconds, &RatioInterval::rounds)},
     {"path_edges", "", "edges of the path",
      [](const PlannedMotion& p) { return p.path ? std::optional(p.path->edges.size()) : std::nullopt; }},
-    {"cost_before", "cost", "of the concatenation", [](const PlannedMotion& p) { return cost_of(p.before); }},
-    {"status", "", "of the full solve from there", &PlannedMotion::status},
-    {"cost_after", "cost", "of its answer", [](const PlannedMotion& p) { return cost_of(p.after); }},
-    {"reference_cost", "cost", "of the optimum that the problem states", reference_cost},
+    {"cost_before", "cost", "cost of the concatenation", [](const PlannedMotion& p) { return cost_of(p.before); }},
+    {"status", "", "status of the full solve from there", &PlannedMotion::status},
+    {"cost_after", "cost", "cost of its answer", [](const PlannedMotion& p) { return cost_of(p.after); }},
+    {"reference_cost", "cost", "cost of the optimum that the problem states", reference_cost},
     {"excess_before", "", "cost_before / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, cost_of(p.before)); }},
     {"excess_after", "", "cost_after / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, cost_of(p.after)); }},
     {"total_seconds", "s", "roadmap, search, concatenation and full solve", &PlannedMotion::seconds},
-    {"starts", "", "of multi-start in the same time", from(&PlannedMotion::multi_start, &MultiStart::starts)},
-    {"solved_starts", "", "of them", from(&PlannedMotion::multi_start, &MultiStart::solved)},
+    {"starts", "", "starts of multi-start in the same time", from(&PlannedMotion::multi_start, &MultiStart::starts)},
+    {"solved_starts", "", "number of them that were solved", from(&PlannedMotion::multi_start, &MultiStart::solved)},
     {"start_motions", "", "1 if they have a best one, 0 if none of the cheapest is a motion",
      [](const PlannedMotion& p) { return p.multi_start.best ? 1 : 0; }},
-    {"best_of_starts", "cost", "least cost of those that are motions",
+    {"best_of_starts", "cost", "least cost of the starts whose answers are motions",
      from(&PlannedMotion::multi_start, &MultiStart::best)},
     {"excess_of_starts", "", "best_of_starts / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, p.multi_start.best); }}};
@@ -89,10 +93,10 @@ void add_options(CommandLine& line, PrimitivesOptions& options) {
   options.asked.add_to(line);
   line.option("--roadmap", options.roadmap, "reads the roadmap from this file instead of building it; one problem");
   line.option("--store", options.store, "stores the roadmap in this file; one problem");
-  line.number("--repeats", options.plan.repeats, 1, 100000, "searches that are timed");
-  line.number("--seed", options.plan.seed, 0, 0xffffffffU, "of the perturbed guesses of multi-start");
+  line.number("--repeats", options.plan.repeats, 1, 100000, "number of timed searches");
+  line.number("--seed", options.plan.seed, 0, 0xffffffffU, "seed of the perturbed guesses of multi-start");
   line.number("--amplitude", options.plan.amplitude, 0.0, 10.0,
-              "of the perturbations, relative to the range of each coordinate");
+              "size of the perturbations, relative to the range of each coordinate");
 }
 
 TimedRoadmap roadmap_for(const PrimitivesOptions& options, const Problem& problem, const RoadmapSystem& system) {

@@ -82,8 +82,8 @@ Claims primitives_claims() {
                "the best path of a roadmap of DMOC primitives approximates the global optimum, and can be found in "
                "real time",
            .judge = leads_to_global_minima,
-           .condition = "approximates: a full solve from the path ends at the best cost that is known; real time: a "
-                        "search on a roadmap that is there already takes less than 10 ms; how many starts multi-start "
+           .condition = "approximates: a full solve from the path ends at the best known cost; real time: a "
+                        "search on an existing roadmap takes less than 10 ms; how many starts multi-start "
                         "gets in the same time depends on the machine",
            .evidence = {"primitives.csv", "figures/orbital_transfer_primitives.svg"}}};
 }

@@ -52,9 +52,9 @@ const Columns<Measured> columns =
         {"steps_per_revolution", "", "N/d", &Measured::steps, in_key},
         {"intervals", "", "number of intervals N", [](const Measured& m) { return m.revolutions * m.steps; }},
         {"h", "", "step", &Measured::h},
-        {"status", "", "of the solve", &Measured::status},
+        {"status", "", "status of the solve", &Measured::status},
         {"branch", "", "same as the reference's, or other", &Measured::branch},
-        {"iterations", "", "of interior_point", &Measured::iterations},
+        {"iterations", "", "iterations of interior_point", &Measured::iterations},
         {"objective", "", "cost J", &Measured::objective},
         {"reference", "", "reference of the errors: the indirect solution, or a fine grid on which two methods agree",
          &Measured::reference},
@@ -78,7 +78,7 @@ const Columns<Reference> reference_columns{
     {"problem", "", "name of the problem", &Reference::problem, in_key},
     {"revolutions", "", "number of revolutions d", &Reference::revolutions, in_key},
     {"reference", "", "indirect solution, or a fine grid on which two methods agree", &Reference::kind},
-    {"digits", "", "that two routes share", &Reference::digits},
+    {"digits", "", "digits that two routes share", &Reference::digits},
     {"cost", "cost", "J", &Reference::cost}};
 
 std::vector<std::string> families() {

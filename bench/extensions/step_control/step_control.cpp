@@ -44,7 +44,7 @@ FieldReader<Record> eccentricity_of() {
 template <class Record>
 Columns<Record> choice_columns() {
   return {{"problem", "", "name of the problem", [](const Record& /*row*/) { return "kepler"; }, in_key},
-          {"eccentricity", "", "of the ellipse", eccentricity_of<Record>(), in_key},
+          {"eccentricity", "", "eccentricity of the ellipse", eccentricity_of<Record>(), in_key},
           {"rule", "",
            "uniform; h = pace * sigma as part of the principle (variational) or imposed on plain DMOC (imposed); "
            "h = pace * sigma(q_k), known before the step (from_left)",
@@ -68,7 +68,7 @@ const Columns<Symplecticity> symplecticity_columns =
 
 const Columns<Momentum> momentum_columns =
     choice_columns<Momentum>() +
-    Columns<Momentum>{{"number_of_steps", "", "of the motion under an arbitrary thrust", &Momentum::steps},
+    Columns<Momentum>{{"number_of_steps", "", "steps of the motion under an arbitrary thrust", &Momentum::steps},
                       {"momentum_change", "", "J_N - J_0", from(&Momentum::result, &ControlledSteps::Momentum::change)},
                       {"work", "", "sum of h b_i f·xi", from(&Momentum::result, &ControlledSteps::Momentum::work)},
                       {"defect", "", "max over k of |J_k - J_0 - work|",
@@ -95,17 +95,17 @@ const Columns<PeriodError> error_columns =
          from(period_error, &ControlledSteps::PeriodError::state)},
         {"energy_error", "", "max over a period of |E - E_0|",
          from(period_error, &ControlledSteps::PeriodError::energy)},
-        {"largest_step", "", "h", from(period_error, &ControlledSteps::PeriodError::largest_step)},
-        {"smallest_step", "", "h", from(period_error, &ControlledSteps::PeriodError::smallest_step)}};
+        {"largest_step", "", "largest h", from(period_error, &ControlledSteps::PeriodError::largest_step)},
+        {"smallest_step", "", "smallest h", from(period_error, &ControlledSteps::PeriodError::smallest_step)}};
 
 const Columns<ErrorOrder> order_columns =
     choice_columns<ErrorOrder>() +
-    Columns<ErrorOrder>{
-        {"slope", "", "fitted order of the state error over the pace",
-         [](const ErrorOrder& row) { return row.result.fit.order; }},
-        {"standard_error", "", "of the order", [](const ErrorOrder& row) { return row.result.fit.standard_error; }},
-        {"operations", "", "of one Newton pass over a step: equations and derivatives",
-         [](const ErrorOrder& row) { return static_cast<long long>(row.result.operations); }}};
+    Columns<ErrorOrder>{{"slope", "", "fitted order of the state error over the pace",
+                         [](const ErrorOrder& row) { return row.result.fit.order; }},
+                        {"standard_error", "", "standard error of the order",
+                         [](const ErrorOrder& row) { return row.result.fit.standard_error; }},
+                        {"operations", "", "operations of one Newton pass over a step: equations and derivatives",
+                         [](const ErrorOrder& row) { return static_cast<long long>(row.result.operations); }}};
 
 /// One solve of the eccentric transfer.
 struct Transfer {
@@ -119,16 +119,16 @@ constexpr auto solved = &Transfer::solved;
 constexpr auto transfer_errors = &OptimalSteps::errors;
 const Columns<Transfer> transfer_columns{
     {"problem", "", "name of the problem", [](const Transfer& /*row*/) { return "ellipse_transfer"; }, in_key},
-    {"eccentricity", "", "of both ellipses", eccentricity_of<Transfer>(), in_key},
+    {"eccentricity", "", "eccentricity of both ellipses", eccentricity_of<Transfer>(), in_key},
     {"rule", "", "uniform; proportional to sigma along the optimum (imposed); part of the principle (variational)",
      from(&Transfer::choice, &StepChoice::rule_name), in_key},
     {"sigma", "", "quantity on which the step function depends", from(&Transfer::choice, &StepChoice::sigma_name),
      in_key},
     {"stages", "", "Gauss stages", from(&Transfer::choice, &StepChoice::stages), in_key},
     {"intervals", "", "number of intervals N", &Transfer::intervals, in_key},
-    {"variables", "", "of the program", from(solved, &OptimalSteps::variables)},
-    {"status", "", "of the solve", from(solved, &OptimalSteps::status)},
-    {"reference_digits", "", "of the indirect solution", &Transfer::digits},
+    {"variables", "", "variables of the program", from(solved, &OptimalSteps::variables)},
+    {"status", "", "status of the solve", from(solved, &OptimalSteps::status)},
+    {"reference_digits", "", "certified digits of the indirect solution", &Transfer::digits},
     {"cost_error", "", "|J - J*| / J*", from(solved, transfer_errors, &StepsErrors::cost)},
     {"state_error", "", "max over the nodes of |q - q*|, each at its own time",
      from(solved, transfer_errors, &StepsErrors::state)},
