@@ -17,7 +17,7 @@ inline constexpr std::size_t resamples = 1000;
 
 /// The ratio of two times that were measured in turn, round after round, so that other load of the machine slowed both.
 ///
-/// The ratio is the median over the rounds. Its interval comes from the bootstrap: rounds are drawn anew with
+/// The ratio is the median over the rounds. Its interval comes from the bootstrap: rounds are drawn again with
 /// replacement, `resamples` times from a fixed seed, and the interval holds 99 % of the medians. Equal numbers of
 /// rounds draw the same rounds, so that `resampled[b]` of several ratios belong together.
 struct RatioInterval {
@@ -33,7 +33,7 @@ struct RatioInterval {
 [[nodiscard]] RatioInterval ratio_interval(std::span<const double> ratios);
 
 /// The ratio of the medians of two times that were not measured in turn, such as times of two runs. Its interval comes
-/// from the bootstrap, which draws the rounds of either anew by itself; `rounds` is the smaller number of rounds.
+/// from the bootstrap, which draws the rounds of either separately; `rounds` is the smaller number of rounds.
 /// Whatever else slowed the machine during one of the runs is in the ratio. Throws `Error` without times or if one is
 /// not a finite number above zero.
 [[nodiscard]] RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others);

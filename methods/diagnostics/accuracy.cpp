@@ -93,7 +93,7 @@ Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, dou
 
   const auto intervals = static_cast<std::size_t>(trajectory.intervals());
   constexpr double shortest = 1e-9;      // 0 would be no limit
-  constexpr std::size_t per_part = 256;  // takes some ten milliseconds
+  constexpr std::size_t per_part = 256;  // takes about ten milliseconds
   const std::size_t parts = part_count(intervals, per_part);
   std::vector<std::unique_ptr<EquationsOfMotion>> motions;  // one per part, since each has memory of its own
   motions.reserve(parts);

@@ -106,7 +106,7 @@ std::size_t first_unused_input(std::span<Node* const> nodes, const ExpressionVec
   return unused;
 }
 
-/// The formulas, whose nodes these are, operands first, with `replacements` in the place of `originals`.
+/// The formulas, whose nodes these are, operands first, with `replacements` in place of `originals`.
 std::vector<Expression> replaced_among(std::span<Node* const> nodes, std::span<const Expression> formulas,
                                        const ExpressionVector& originals, const ExpressionVector& replacements) {
   std::unordered_map<const Node*, Expression> replacement_of;

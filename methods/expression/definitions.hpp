@@ -13,7 +13,7 @@ struct Definitions {
   ExpressionVector formulas;  ///< their definitions, as many
 };
 
-/// The formulas with `replacements` in the place of `nodes`, as many.
+/// The formulas with `replacements` in place of `nodes`, as many.
 [[nodiscard]] std::vector<Expression> replaced(std::span<const Expression> formulas, const ExpressionVector& nodes,
                                                const ExpressionVector& replacements);
 

@@ -28,7 +28,7 @@ class Schedule {
   Schedule() = default;
   /// The code that computes these outputs, in their order.
   explicit Schedule(std::span<const Expression> outputs) : Schedule(outputs, Definitions{}) {}
-  /// The same, with formulas in the place of the inputs that stand for them.
+  /// The same, with formulas in place of the inputs that stand for them.
   Schedule(std::span<const Expression> outputs, const Definitions& definitions);
   /// The same of a vector.
   explicit Schedule(const ExpressionVector& outputs) : Schedule(entries_of(outputs)) {}

@@ -12,7 +12,7 @@ namespace dmocbench {
 /// straight line. Derivatives of the traced formula are the derivatives of s; the third one, which second derivatives
 /// of equations of motion read where a table stands in a Lagrangian, is constant between two points and jumps there.
 ///
-/// A traced value takes about ten operations for every interval of the table: some ten to fifty points are a table,
+/// A traced value takes about ten operations for every interval of the table: about ten to fifty points are a table,
 /// thousands should be thinned out first.
 class Spline {
  public:

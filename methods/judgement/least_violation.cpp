@@ -95,7 +95,7 @@ Eigen::SparseMatrix<double> ViolationDescent::matrix(const Eigen::VectorXd& diag
   const auto m = static_cast<int>(excess_.size());
   const auto is_free = [&](Eigen::Index i) { return bool{is_free_[static_cast<std::size_t>(i)]}; };
   std::vector<Eigen::Triplet<double>> entries;
-  // Without curvature the entries stay, as zeros: another pattern would be analysed anew.
+  // Without curvature the entries stay, as zeros: another pattern would be analysed again.
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program_.hessian_structure().size()));
   if (with_curvature) program_.hessian(at_.point, 0.0, excess_, values);
   program_.hessian_structure().for_each([&](Eigen::Index e, int i, int j) {

@@ -4,13 +4,13 @@ namespace dmocbench::kkt {
 
 /// Chooses the refusals of a fast system (`wrong_inertia`) that an exact one checks. The fast test of the inertia may
 /// be stricter than the truth. Where it is so at one matrix it often is at the next ones too; each of them is then
-/// shifted for nothing, and Newton's method takes many short steps in the place of a few.
+/// shifted for nothing, and Newton's method takes many short steps in place of a few.
 ///
 /// - Every fourth refusal of one matrix is checked: a Hessian usually has the right inertia after two or three shifts.
 /// - After 32 matrices that were refused, all refusals of the next ones are, until one of them decides: a wrong
 ///   refusal, or several of one matrix that were right. One alone, mostly of the matrix without a shift, proves
 ///   little; four such matrices are enough. Where all were right, twice as many matrices are accepted before the next
-///   check. Two matrices in a row that are not refused begin the count anew.
+///   check. Two matrices in a row that are not refused restart the count.
 /// - Once a refusal was wrong, all refusals are checked, until matrices show in the same way that they are right.
 class RefusalChecks {
  public:

@@ -16,7 +16,7 @@ class CountedProgram final : public ForwardingProgram {
     if (most_seconds > 0.0) most_seconds_ = most_seconds;
   }
 
-  /// Begins to count and to measure anew, for another solve.
+  /// Begins to count and to measure again, for another solve.
   void restart(double most_seconds) {
     counts_ = {};
     seconds_ = 0.0;

@@ -51,7 +51,7 @@ class Job {
   std::exception_ptr error_;
 };
 
-/// Yields the processor, some ten microseconds in all, until `holds`: a thread that sleeps needs as long to wake. False
+/// Yields the processor, about ten microseconds in all, until `holds`: a thread that sleeps needs as long to wake. False
 /// if it does not hold by then.
 template <class Condition>
 bool holds_soon(const Condition& holds) {
@@ -96,7 +96,7 @@ class WorkerTeam {
 
  private:
   /// The bits from the lowest: whether the job is open, how many helpers work on it, and the number of the call, which
-  /// begins anew where it overflows.
+  /// starts again where it overflows.
   using State = std::uint32_t;
   static constexpr State is_open = 1;
   static constexpr State one_inside = 2;

@@ -71,7 +71,7 @@ class Solver {
   /// sentence.
   ///
   /// Where the cost is so small that the tolerance does not constrain it (`Confirmation::factor_of_cost`), it is solved
-  /// once more with the cost times that factor, and the message reports it. Counts and times belong to the second
+  /// again with the cost times that factor, and the message reports it. Counts and times belong to the second
   /// solve, the limit of time holds for both.
   [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start,
                                const Eigen::VectorXd& multipliers = Eigen::VectorXd(),

@@ -189,7 +189,7 @@ std::vector<std::uint32_t> constants_by_use(std::vector<MachineStep>& steps, std
 /// Steps read the constants where they are kept, by values; loads of them are left out.
 void read_kept(std::vector<MachineStep>& steps, const std::vector<std::optional<OperandPlace>>& kept,
                std::size_t registers) {
-  std::vector<std::optional<OperandPlace>> meant(registers);  // the register that is read in the place of another
+  std::vector<std::optional<OperandPlace>> meant(registers);  // the register that is read in place of another
   const auto is_needless = [&](MachineStep& step) {
     for (OperandPlace* operand : {&step.left, &step.right}) {
       const std::optional<OperandPlace>* other = nullptr;

@@ -26,7 +26,7 @@ class StagedOutputs {
   /// Whether more of the columns share a place in the first-level cache than it has ways.
   [[nodiscard]] static bool are_needed(std::span<double* const> columns) noexcept;
 
-  /// Puts series of this into a table in the place of the outputs, and the columns that stood there after all others.
+  /// Puts series of this into a table in place of the outputs, and the columns that stood there after all others.
   void redirect(std::span<double*> table) noexcept;
 
   /// The copies from these series to the columns, for a block of intervals.

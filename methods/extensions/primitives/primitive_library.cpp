@@ -74,11 +74,11 @@ void PrimitiveLibrary::require_made_for(const Problem& asked) const {
   }
   const auto expected = parameters_with_values(asked);
   if (parameters.size() != expected.size()) {
-    throw Error(fmt::format("the primitives of {} were made with other parameters; make them anew", problem));
+    throw Error(fmt::format("the primitives of {} were made with other parameters; make them again", problem));
   }
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (parameters[i] == expected[i]) continue;
-    throw Error(fmt::format("the primitives of {} were made with {} = {:g}, not {} = {:g}; make them anew", problem,
+    throw Error(fmt::format("the primitives of {} were made with {} = {:g}, not {} = {:g}; make them again", problem,
                             parameters[i].first, parameters[i].second, expected[i].first, expected[i].second));
   }
   const Eigen::Index n = asked.configuration_size();
@@ -86,7 +86,7 @@ void PrimitiveLibrary::require_made_for(const Problem& asked) const {
   bool all_fit = asked.horizon() / most_steps <= step && std::isfinite(step) && intervals_per_step >= 1;
   for (const BoundaryState& state : states) all_fit = all_fit && has_size(state.q, n, 1) && has_size(state.v, n, 1);
   for (const Primitive& each : primitives) all_fit = all_fit && fits(each, *this, n, asked.control_size());
-  if (!all_fit) throw Error(fmt::format("the primitives of {} are damaged: sizes do not fit; make them anew", problem));
+  if (!all_fit) throw Error(fmt::format("the primitives of {} are damaged: sizes do not fit; make them again", problem));
   require_true_costs(*this, asked);
 }
 

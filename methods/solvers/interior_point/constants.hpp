@@ -40,9 +40,9 @@ inline constexpr int filter_reset_trigger = 10;
 inline constexpr int max_filter_resets = 5;
 
 // Ours, see README.md.
-inline constexpr double of_warm_start = 1e-6;  // a warm start's μ, and in the place of κ_1
+inline constexpr double of_warm_start = 1e-6;  // a warm start's μ, and in place of κ_1
 inline constexpr double most_growth = 10.0;    // of the violation in one step: "No leaps"
 inline constexpr double short_step = 0.1;      // "Multipliers may run away", "Corrections": after a step so short
-inline constexpr double runaway = 1e6;         // multipliers above this are estimated anew
+inline constexpr double runaway = 1e6;         // multipliers above this are estimated again
 
 }  // namespace dmocbench::interior_point::constants

@@ -42,7 +42,7 @@ class QuadraticSolver {
   QuadraticSolver(const QuadraticOptions& options, const Pricing& pricing, MinorObserver observer)
       : options_(options), pricing_(pricing), observer_(std::move(observer)) {}
 
-  /// Solves from the sets of the last call (the basis chosen anew from the basic and superbasic columns), or from a
+  /// Solves from the sets of the last call (the basis chosen again from the basic and superbasic columns), or from a
   /// start by `Crash` at the first call. If these sets leave variables outside their bounds, or break down, it starts
   /// again from the slack basis; all minor iterations are observed.
   [[nodiscard]] QuadraticSolution solve(const QuadraticProgram& program);
