@@ -1,4 +1,4 @@
-# Installation of what runs: the program dmocbench, which is every experiment, the figures, and the frame of experiments as a
+# Installation of the program dmocbench, which contains every experiment, the figures, and the frame of experiments as a
 # target of the package.
 install(TARGETS bench_dmocbench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 
