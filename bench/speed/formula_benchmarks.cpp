@@ -75,7 +75,7 @@ Evaluation evaluation_of(BenchmarkedFormulas& point, std::size_t quantity) {
 }
 
 void register_formulas(const Formulas& formulas) {
-  // Made when it is first wanted: of some hundred benchmarks most are left out of a run.
+  // Made when it is first needed: of some hundred benchmarks most are left out of a run.
   const auto point = std::make_shared<std::unique_ptr<BenchmarkedFormulas>>();
   const auto evaluate = [point, formulas](std::size_t quantity) {
     if (!*point) *point = std::make_unique<BenchmarkedFormulas>(formulas);

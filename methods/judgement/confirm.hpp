@@ -76,7 +76,7 @@ void confirm(NonlinearProgram& program, double tolerance, Solution& solution);
 /// "interrupted".
 void tell_of_stop(Solution& solution);
 
-/// Status and message where nothing is known of an answer, because the tolerance cannot see the cost
+/// Status and message where an answer is undecided, because the tolerance does not constrain the cost
 /// (`Confirmation::factor_of_cost`): "not confirmed".
 void refuse_small_cost(double factor, Solution& solution);
 

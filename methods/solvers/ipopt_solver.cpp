@@ -200,7 +200,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   }
 
  private:
-  /// Ipopt looks at CPU time, and between iterations only. Values that are not numbers end a long line search too.
+  /// Ipopt checks CPU time, and between iterations only. Values that are not numbers end a long line search too.
   [[nodiscard]] bool must_end() {
     is_late_ = is_late_ || program_.is_out_of_time();
     return is_late_;

@@ -252,7 +252,7 @@ class SlsqpRun {
   const SolverOptions& options_;
   const NamedOptions& named_;
   double constraint_tolerance_;
-  std::vector<Eigen::Index> free_;  // the variables that NLopt sees
+  std::vector<Eigen::Index> free_;  // the variables passed to NLopt
   OneSidedConstraints equalities_;
   OneSidedConstraints inequalities_;
   Linearisation at_;

@@ -10,7 +10,7 @@ namespace dmocbench {
 /// SLSQP of NLopt: Kraft's sequential quadratic programming, dense, with a quasi-Newton (BFGS) matrix in place of the
 /// Hessian. It takes our exact first derivatives and never needs second ones.
 ///
-/// NLopt sees the free variables only, and a start moved into their bounds. SLSQP tests no KKT residual and gives no
+/// NLopt gets the free variables only, and a start moved into their bounds. SLSQP tests no KKT residual and gives no
 /// multipliers, so we estimate them wherever it evaluates a gradient (`least_squares_multipliers`) and end the solve
 /// as soon as the KKT residual meets the tolerance; the point that came nearest to it is the answer. Where SLSQP makes
 /// no further progress it starts again from that point, as long as that helps. Its line search compares merits, so it

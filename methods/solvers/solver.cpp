@@ -34,7 +34,7 @@ void state_without_factor(NonlinearProgram& program, double factor, Solution& so
       " The cost was too small for the tolerance: the solver got it multiplied by {:.0e}, as `cost_scale` of a problem "
       "does.",
       factor);
-  if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would not see the factor
+  if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would ignore the factor
   if (solution.barrier_parameter) *solution.barrier_parameter /= factor;
   solution.multipliers /= factor;
   if (solution.primal.size() > 0) judge_residuals(program, solution);

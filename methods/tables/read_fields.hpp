@@ -19,7 +19,7 @@ class ReadFields {
   /// Fields by the places of rows.
   using ByPlace = std::map<std::string, OfRow, std::less<>>;
 
-  /// Begins to remember.
+  /// Begins to record.
   ReadFields();
   ~ReadFields();
   ReadFields(const ReadFields&) = delete;

@@ -44,8 +44,8 @@ struct RoadmapSystem {
 [[nodiscard]] StoredRoadmap acrobot_roadmap(const Problem& problem, const PrimitiveOptions& options);
 
 /// Any problem: a lattice of states, whose cells are a share of the ranges of the motion that DMOC finds from the
-/// problem's guess, and whose controls go a little beyond that motion's. Throws `Error` if there is none, or as
-/// `lattice_roadmap`.
+/// problem's guess, and whose controls go a little beyond that motion's. Throws `Error` if DMOC finds
+/// none, or as `lattice_roadmap`.
 [[nodiscard]] StoredRoadmap roadmap_along_a_motion(const Problem& problem, const PrimitiveOptions& options);
 
 }  // namespace dmocbench

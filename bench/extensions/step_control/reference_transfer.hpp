@@ -22,8 +22,8 @@ class ReferenceTransfer {
  public:
   static constexpr double wanted_digits = 9.0;
 
-  /// `problem` is the name of one with the parameter `revolutions`. Throws `Error` if there is no such problem or
-  /// with so many revolutions, or no optimum is found.
+  /// `problem` is the name of one with the parameter `revolutions`. Throws `Error` if there is no such problem, if
+  /// it does not allow so many revolutions, or if no optimum is found.
   ReferenceTransfer(const std::string& problem, int revolutions, const SolverOptions& options);
 
   [[nodiscard]] const std::shared_ptr<const Problem>& problem() const noexcept { return problem_; }

@@ -110,8 +110,9 @@ class BatchQueue {
   void deliver(std::size_t index, Solution& solution);
   /// Solves an instance that the lanes cannot finish, and delivers the answer.
   void solve_one_by_one(const Assignment& assignment, const Solution& so_far);
-  /// `Confirmation::judge` of an answer. Where the tolerance cannot see its cost (`Confirmation::factor_of_cost`), the
-  /// instance is solved one by one, or, where the batch does not fall back, not confirmed.
+  /// `Confirmation::judge` of an answer. Where the tolerance does not constrain its cost
+  /// (`Confirmation::factor_of_cost`), the instance is solved one by one, or, where the batch does not fall back, not
+  /// confirmed.
   void confirm(const Assignment& assignment, Solution& solution) { batch_.confirm(assignment.instance, solution); }
   [[nodiscard]] bool is_stopped() const { return batch_.is_stopped(); }
   void count_round() { batch_.count_round(); }
