@@ -24,7 +24,7 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
   do for [one in system(rows_awk("-v take=all -v distinct=method -v where='".group."'", basins))] {
     there = there." ".entry(one, "method")
   }
-  # In the order of the other figures, then what else there is.
+  # In the order of the other figures, then any others.
   methods = ""
   do for [known in families] { if (place_in(there, known) > 0) { methods = methods." ".known } }
   do for [other in there] { if (place_in(methods, other) == 0) { methods = methods." ".other } }

@@ -16,7 +16,7 @@ panel_title(quantity) = quantity eq "lagrangian" ? "discrete Lagrangian L_d"\
 formula(quantity) = quantity eq "lagrangian" ? "|L_d − L_d^E|" : quantity eq "map" ? "distance from the exact (q_1, p_1)"\
     : quantity eq "left_force" ? "|f_d^{−} − f_d^{E−}|" : quantity eq "right_force" ? "|f_d^{+} − f_d^{E+}|"\
     : quantity eq "left_legendre" ? "|𝔽^{f−}L_d − 𝔽^{f−}L_d^E|" : "|𝔽^{f+}L_d − 𝔽^{f+}L_d^E|"
-# What a problem's slope of a quantity and a tableau is, as text.
+# The slope of a quantity for a problem and a tableau, as text.
 measured(where, quantity) = system(rows_awk("-v where='".where.",quantity=".quantity."'", "consistency_order_slopes").\
     " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"slope\") c = i; next } { printf \"%.2f\", $c }'")
 points_of(where) = entry(where, "tableau") eq "gauss" ? 7 : 6

@@ -56,7 +56,7 @@ do for [name in "convergence convergence_512"] {
         if (strlen(range) > 0 && strstrt(fitted, range) == 0) { fitted = fitted.(strlen(fitted) > 0 ? " or " : "").range }
       }
       guide_remark = one_stage && h_ref > 0\
-          ? " C (h² − h_{ref}²) is what an error C h² becomes against a reference of step h_{ref}." : ""
+          ? " C (h² − h_{ref}²) is an error C h² measured against a reference of step h_{ref}." : ""
       set title title_text(problem_label(problem).": error of the ".quantity." over the step",\
           (quantity eq "state" ? of_paper(problem, "kepler\\_error, left", "twolink\\_error a)")\
               : of_paper(problem, "kepler\\_error, right", "twolink\\_error b)"))\

@@ -1,4 +1,4 @@
-# What a solve takes and reaches with each back end of derivatives: section 4.1, "Automatic Differentiation".
+# Effort and accuracy of a solve with each back end of derivatives: section 4.1, "Automatic Differentiation".
 #   gnuplot -e "results='results'" plots/derivatives.gp
 # Reads derivatives.csv, and derivatives_quasi_newton.csv if it is there.
 plots = system("dirname '".ARG0."'")

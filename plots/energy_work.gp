@@ -28,7 +28,7 @@ do for [where in has_free_motions ? problems_of("structure_modified_energy", "dr
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_modified_energy", 900, 760)
     set title title_text(problem_label(problem).", no force: range of the modified energy",\
-        "Modified energy of the midpoint rule, cut off behind one, two and three terms.",\
+        "Modified energy of the midpoint rule, cut off after one, two and three terms.",\
         "One motion, simulated in long double; range over its nodes.")
     eval power_axis("xy")
     eval step_tics

@@ -1,5 +1,5 @@
-# Equal solutions of DMOC and Hamiltonian collocation, other ones of tangent-space collocation (th:equi), and what solved
-# multipliers leave in the adjoint Runge-Kutta scheme (th:orderapp), over the number of intervals.
+# Equal solutions of DMOC and Hamiltonian collocation, other ones of tangent-space collocation (th:equi), and the residual of solved
+# multipliers in the adjoint Runge-Kutta scheme (th:orderapp), over the number of intervals.
 #   gnuplot -e "results='results'" plots/equivalence.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
@@ -60,7 +60,7 @@ do for [problem_word in problems_of(name, "")] {
     eval end_figure(kind, problem."_equivalence")
 
     eval begin_figure(kind, problem."_adjoint", 1100, 620)
-    set title title_text(problem_label(problem).": what solved multipliers leave in the adjoint Runge-Kutta scheme",\
+    set title title_text(problem_label(problem).": residual of solved multipliers in the adjoint Runge-Kutta scheme",\
         conditions(name).", then Newton steps to rounding.",\
         "Triangles: the same multipliers with the coefficients of ψ^q and ψ^p not exchanged; for Gauss they are equal.")
     eval measure(name, problem_word.",method=dmoc,tableau=lobatto", "intervals", "adjoint_residual_by_plain_coefficients")

@@ -1,5 +1,5 @@
 # Minor iterations of the SQP method over the number of intervals: fig:kepler_iterations and fig:twolink_iterations; and
-# what collocation costs beside DMOC in every currency.
+# the cost of collocation compared with DMOC in every currency.
 #   gnuplot -e "results='results'" plots/iterations.gp
 # Reads iterations.csv with its ratios, iterations_limited_memory.csv with its ratios if they are there; the last figure
 # iterations_common_ratios.csv if it is there, else iterations_ratios.csv.
@@ -89,7 +89,7 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_savings", 1300, 620)
-    set multiplot layout 1, 3 title title_text(problem_label(problem).": what collocation takes, in multiples of DMOC",\
+    set multiplot layout 1, 3 title title_text(problem_label(problem).": effort of collocation, in multiples of DMOC",\
         conditions(solves).". Above the line DMOC takes less. Warm solves take few iterations: one more is a large ratio.",\
         "Replay error: how far from the final state the continuous system ends under the computed control.")\
         offset 0, -0.4 margins 0.065, 0.79, 0.12, 0.77 spacing 0.025

@@ -57,7 +57,7 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
         sprintf("Cold starts (the guess and perturbed guesses) by %s; tolerance %s; N = %s.%s",\
         solver_label(entry(word(distinct(shares, "solver", group, ""), 1), "solver")), told("local_minima", "tolerance"), entry(group, "intervals"), found > drawn\
             ? sprintf(" The %d lowest of %d confirmed minima.", drawn, found) : ""),\
-        "Unconfirmed: replayed one by one, the intervals do not join; the answer is no motion.")\
+        "Unconfirmed: replayed one by one, the intervals do not join; the answer is not a motion.")\
         offset 0, -0.4
 
     set lmargin at screen 0.065; set rmargin at screen 0.64; set tmargin at screen 0.77; set bmargin at screen 0.19

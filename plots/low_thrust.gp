@@ -22,7 +22,7 @@ do for [problem_word in problems_of("low_thrust", "cost_error")] {
     set multiplot layout lines_of_figure, columns_of_figure title title_text(\
         problem_label(problem)." with many revolutions, one Gauss stage or one step of shooting per interval",\
         "Error of the optimal cost over the steps per revolution.",\
-        "J* as the panel’s title tells; all solves start from one motion.")\
+        "J* as in the panel’s title; all solves start from one motion.")\
         offset 0, -0.4 margins 0.1, 0.985, 0.28 / lines_of_figure, 0.99 - 0.2 / lines_of_figure spacing 0.08, 0.14
     do for [panel in panels] {
       where = problem_word.",revolutions=".entry(panel, "revolutions")

@@ -34,7 +34,7 @@ do for [where in problems_of("objective", "")] {
         of_paper(problem, "", "twolink\\_obj a)").conditions("objective").".",\
         panels == 1 ? "" : is_certified\
         ? "Right: J* is the certified cost of the continuous problem; an error that changes its sign dips."\
-        : "Right: J_{ref} is that of ".reference_words."; an error that changes its sign dips.")
+        : "Right: J_{ref} belongs to ".reference_words."; an error that changes its sign dips.")
     if (panels == 2) { eval two_panels(0.135) } else { set title figure_title }
     if (panels == 2) { eval key_below } else { set key top right }
     eval measure("objective", where, "intervals", "objective")

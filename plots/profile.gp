@@ -1,4 +1,4 @@
-# All methods across the library of problems: performance profiles after Dolan and Moré, and what accuracy costs on
+# All methods across the library of problems: performance profiles after Dolan and Moré, and the cost of accuracy on
 # every problem.
 #   gnuplot -e "results='results'" plots/profile.gp
 # Reads profile.csv, profile_profiles.csv and profile_summary.csv; draws nothing if they are not there.
@@ -49,7 +49,7 @@ profile_rows(i, measure) = rows("profile_profiles", where_of(i).",measure=".meas
 fine_ratios = "set xtics (1, 1.5, 2, 3, 5, 10, 15, 20)"
 coarse_ratios = "set xtics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)"
 
-# Places of the labels, from the top: beside the plateau where there is room, below the one before.
+# Places of the labels, from the top: next to the plateau where there is room, below the one before.
 array label_at[most_competitors]
 label_gap = 0.1
 lower(a, b) = a < b ? a : b
@@ -139,7 +139,7 @@ height = 50 + head + 235 * lines
 do for [kind in kinds] {
   eval begin_figure(kind, "library_work_precision", 1400, height)
   set multiplot layout lines, columns title title_text(\
-      "What an accurate cost takes on every problem of the library", timed_conditions("profile").".",\
+      "Effort for an accurate cost on every problem of the library", timed_conditions("profile").".",\
       "Each line goes over the grids, coarsest first; only solves that met the reference's cost are drawn.".left_out)\
       offset 0, -0.2 margins 0.065, 0.985, 75.0 / height, 1 - head / height spacing 0.045, 74.0 / height
   do for [p = 1:words(problems)] {
@@ -148,7 +148,7 @@ do for [kind in kinds] {
     unset logscale; set autoscale; unset mxtics; set xlabel ""; set ylabel ""; unset key
     set title panel_title(entry(problem_word, "problem")) font ",13" offset 0, -0.5
     if (p == 1) {
-      set label 100 "error of the cost |J − J_{ref}| [unit beside the title]"\
+      set label 100 "error of the cost |J − J_{ref}| [unit next to the title]"\
           at screen 0.017, screen 0.5 center rotate by 90
       set label 101 "time of the solver [ms]" at screen 0.5, screen 22.0 / height center
       set key at screen 0.985, screen 90.0 / height right bottom vertical maxrows count

@@ -1,14 +1,14 @@
-# Picks from a result table what a figure may draw. Columns are known by name; text in double quotes is dropped first.
+# Picks the rows of a result table that a figure may draw. Columns are found by name; text in double quotes is dropped first.
 #   awk -f rows.awk [-v where=problem=a,method=b] [-v need=column] [-v without=column] TABLE
 #       the header and the rows that were solved on the same branch, meet every condition of `where`, have a value above
 #       zero in `need` and an empty field in `without`
 #   awk -f rows.awk -v take=unsolved ... TABLE       (or take=all)
 #       the same of the rows that were tried and not solved, or of both
 #   awk -f rows.awk -v take=coarse ... TABLE         (or take=drawn)
-#       the same of the rows whose answer is no motion (too coarse, or violating constraints between stages), or of the
+#       the same of the rows whose answer is not a motion (too coarse, or violating constraints between stages), or of the
 #       solved rows and these
 #   awk -f rows.awk -v branches=any ... TABLE
-#       the same whatever the branch, for tables that tell none
+#       the same whatever the branch, for tables without one
 #   awk -f rows.awk -v distinct=problem,method ... TABLE
 #       of those rows, the distinct values: words such as problem=a,method=b, which serve as `where` again
 #   awk -f rows.awk -v fields=slope,standard_error ... TABLE
@@ -34,7 +34,7 @@ BEGIN {
   close(table)
 }
 
-# Words of a table become parts of commands that gnuplot gives to a shell: what means something there is no part of a name.
+# Words of a table become parts of commands that gnuplot gives to a shell: special characters are not part of a name.
 # Answers without a determined control are solved for cost and state, which is all but the error of the control.
 function clean() {
   sub(/"solved, control not determined"/, need == "control_error" ? "control not determined" : "solved")

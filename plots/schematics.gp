@@ -14,7 +14,7 @@ set style arrow 2 head filled size screen 0.014, 18 linewidth 2.6 linecolor rgb 
 set style arrow 3 heads filled size screen 0.01, 18 linewidth 1.2 linecolor rgb grey
 set style arrow 4 nohead linewidth 1.2 dashtype (4, 4) linecolor rgb grey
 set style arrow 5 head filled size screen 0.012, 18 linewidth 2.4 linecolor rgb blue
-# To be evaluated: a frame with words, and an arrow with words beside its middle.
+# To be evaluated: a frame with words, and an arrow with words next to its middle.
 frame(x, y, width, height, words) = sprintf("set object rectangle center %g, %g size %g, %g fillstyle empty border\
     linecolor rgb ink linewidth 1.3; set label \"%s\" at %g, %g center offset 0, %g", x, y, width, height, words, x, y,\
     0.5 * lines_of(words) - 0.5)
@@ -151,7 +151,7 @@ do for [kind in kinds] {
   set object circle center x1, y1 size 1.4 arc [0:68] fillstyle empty border linecolor rgb vermilion linewidth 1.8 nowedge
   set label "θ_1" at x0 + 2.15 * cos(0.5 * angle_1), y0 + 2.15 * sin(0.5 * angle_1) center textcolor rgb blue
   set label "θ_2" at x1 + 1.7 * cos(0.5 * angle_2), y1 + 1.7 * sin(0.5 * angle_2) center textcolor rgb vermilion
-  # Lengths beside the links, masses and moments of inertia on them.
+  # Lengths next to the links, masses and moments of inertia on them.
   d = 0.3
   set arrow from x0 - d * sin(angle_1), y0 + d * cos(angle_1) to x1 - d * sin(angle_1), y1 + d * cos(angle_1) arrowstyle 3
   set arrow from x1 - d * sin(angle_2), y1 + d * cos(angle_2) to x2 - d * sin(angle_2), y2 + d * cos(angle_2) arrowstyle 3

@@ -23,7 +23,7 @@ do for [problem_word in problems_of("sequence", "microseconds")] {
     eval begin_figure(kind, problem."_sequence", 1200, 600)
     set multiplot layout 1, 2 title title_text(problem_label(problem).": time of a step that starts warm",\
         "Each problem starts from unknowns and multipliers of the one before; interior point, N = ".grid.".",\
-        "Medians of iterations and of times; the time of a step is that of the solver alone, the smallest of its repeats.")\
+        "Medians of iterations and of times; the time of a step is the solver's alone, the smallest of its repeats.")\
         offset 0, -0.4 margins 0.075, 0.985, 0.31, 0.79 spacing 0.1
     do for [panel = 1:words(sequences)] {
       where = problem_word.",".word(sequences, panel)

@@ -1,4 +1,4 @@
-# Shooting beside DMOC (section 3.3): errors of the state, the condition of the programs, and the share of cold starts that
+# Shooting compared with DMOC (section 3.3): errors of the state, the condition of the programs, and the share of cold starts that
 # end in a solved and confirmed motion.
 #   gnuplot -e "results='results'" plots/shooting.gp
 # Reads shooting.csv, convergence_shooting.csv, convergence_shooting_two_stages.csv and
@@ -32,10 +32,10 @@ do for [problem_word in distinct("shooting", "problem", "", "")] {
   starts = entry(word(distinct(shares, "starts", problem_word, ""), 1), "starts")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_shooting", 1400, 600)
-    set multiplot layout 1, 3 title title_text(problem_label(problem).": shooting beside DMOC",\
+    set multiplot layout 1, 3 title title_text(problem_label(problem).": shooting and DMOC",\
         (has_errors ? "Errors against the indirect solution; condition" : "Condition")." of the KKT matrix, rows and columns brought to one size;"\
         ." ".starts." cold starts (the guess, and perturbed ones) by Ipopt, N = ".grid.", 95 % intervals (Wilson).",\
-        "rk4 with one step per interval and a constant control (s = 1) where nothing else is said.")\
+        "rk4 with one step per interval and a constant control (s = 1) unless stated otherwise.")\
         offset 0, -0.4
     set tmargin at screen 0.81; set bmargin at screen 0.13
     if (has_errors) {

@@ -1,4 +1,4 @@
-# Errors of the state over the step where bounds are active and the optimal control has kinks, beside smooth optima:
+# Errors of the state over the step where bounds are active and the optimal control has kinks, compared with smooth optima:
 # (main_theorem) and its remark on control constraints.
 #   gnuplot -e "results='results'" plots/smoothness.gp
 plots = system("dirname '".ARG0."'")

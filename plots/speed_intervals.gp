@@ -1,7 +1,7 @@
-# Times of exact derivatives per interval: by every way, over the size of the formulas, and against what the machine can do.
+# Times of exact derivatives per interval: by every way, over the size of the formulas, and against the peak of the machine.
 #   gnuplot -e "results='results'" plots/speed_intervals.gp
 # Reads speed.csv and speed_machine.csv (build/bench/speed/speed --csv results/speed.csv); draws nothing if they are not
-# there, and of what was left out of that run.
+# there, or for cases left out of that run.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 if (!exists_table("speed")) { exit }
@@ -37,7 +37,7 @@ do for [problem in paper] { if (here("way=tape,problem=".problem, "nanoseconds")
 if (words(drawn) > 0) {
   do for [kind in kinds] {
     eval begin_figure(kind, "speed_ways", 1180, 560)
-    set multiplot layout 1, words(drawn) title title_text("What exact derivatives of an interval cost by every way", "",\
+    set multiplot layout 1, words(drawn) title title_text("Cost of exact derivatives of an interval by every way", "",\
         sprintf("DMOC with the midpoint rule, N = %s, %s, one core; smaller is better.", intervals, set_label))\
         offset 0, -0.4 margins 0.085, 0.985, 0.15, 0.82 spacing 0.04
     do for [i = 1:words(drawn)] {

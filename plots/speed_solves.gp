@@ -1,7 +1,7 @@
 # Times of whole solves over the number of intervals: by interior_point and by Ipopt, and their ratio.
 #   gnuplot -e "results='results'" plots/speed_solves.gp
 # Reads speed_solves.csv and speed_solves_ratios.csv (build/bench/speed/solves --csv results/speed_solves.csv); draws nothing
-# if they are not there, and of what was left out of that run.
+# if they are not there, or for cases left out of that run.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 if (!exists_table("speed_solves")) { exit }
@@ -27,7 +27,7 @@ do for [m = 1:3] { do for [s = 1:2] {
 grids_axis = "set logscale x 2; unset mxtics; set format x '%g'; set xrange [45:1.5e6]; set xlabel 'number of intervals N';\
     set xtics ('64' 64, '1024' 1024, '16384' 16384, '' 65536, '' 262144, '2^{20}' 1048576) font ',13'"
 
-# One panel per problem. Titles and key need the width of two; margins are those of the labels, however wide the figure is.
+# One panel per problem. Titles and key need the width of two; margins follow the labels, for any width of the figure.
 panels_width(n) = 150 + 400 * (n < 2 ? 2 : n)
 panels_margins(n, bottom) = sprintf("margins %g, %g, %g, 0.82 spacing %g",\
     108.0 / panels_width(n), 1 - 20.0 / panels_width(n), bottom, 54.0 / panels_width(n))
@@ -42,7 +42,7 @@ if (words(drawn) > 0) {
     eval begin_figure(kind, "speed_solves", panels_width(words(drawn)), 600)
     key_rows = words(drawn) > 2 ? 2 : 3
     title = title_text("Time of a solve per interval and iteration", "",\
-        "One thread, tolerance 10^{−10}, from the problem's own guess; what was not solved is left out. Smaller is better.")
+        "One thread, tolerance 10^{−10}, from the problem's own guess; unsolved cases are left out. Smaller is better.")
     eval "set multiplot layout 1, words(drawn) title title offset 0, -0.4 ".\
         panels_margins(words(drawn), key_rows == 2 ? 0.25 : 0.28)
     do for [p = 1:words(drawn)] {

@@ -26,7 +26,7 @@ do for [where in problems_of("structure_energy", "energy_largest")] {
     eval begin_figure(kind, problem."_energy", 1200, 600)
     set multiplot layout 1, 2 title title_text(\
         "Unforced Kepler orbit, eccentricity 0.3: error of the energy", "Simulated, nothing is optimised: neither warm nor cold.",\
-        "Energies in units of GM/a, a the semi-major axis; the Runge-Kutta methods beside DMOC are not symplectic.")\
+        "Energies in units of GM/a, a the semi-major axis; the Runge-Kutta methods next to DMOC are not symplectic.")\
         offset 0, -0.4 margins 0.075, 0.985, 0.13, 0.78 spacing 0.1
     eval power_axis("xy")
     set xrange [1:P_max]

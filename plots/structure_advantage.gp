@@ -1,11 +1,11 @@
-# What collocation costs beside DMOC, solver by solver: rem:savings, and how much of it belongs to the solver.
+# The cost of collocation compared with DMOC, solver by solver: rem:savings, and how much of it belongs to the solver.
 #   gnuplot -e "results='results'" plots/structure_advantage.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 name = "structure_advantage_ratios"
 eval require(name, "problem,method,tableau,stages,solver,factorisation,intervals,quantity,ratio_at_equal_intervals")
 
-# Solvers in the order of the legend. Ipopt does not tell the time of its linear systems: it is drawn by its time per
+# Solvers in the order of the legend. Ipopt does not report the time of its linear systems: it is drawn by its time per
 # iteration without evaluations.
 orange = "#E69F00"
 ways = "ipopt sparse intervals"
@@ -24,9 +24,9 @@ do for [where in problems_of(name, ratio)] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_structure_advantage", 1100, 640)
     set multiplot layout 1, 2 title title_text(problem_label(problem)\
-        .": Hamiltonian collocation beside DMOC, by solvers that know more or less of the structure",\
+        .": Hamiltonian collocation and DMOC, by solvers that use more or less of the structure",\
         timed_conditions("structure_advantage").". Above the line DMOC takes less.",\
-        "Bars: 99 % intervals over the rounds. Ipopt does not tell its linear systems: time per iteration without evaluations.")\
+        "Bars: 99 % intervals over the rounds. Ipopt does not report its linear systems: time per iteration without evaluations.")\
         offset 0, -0.4 margins 0.08, 0.985, 0.26, 0.81 spacing 0.1
     # Both panels have one range, which holds all that is drawn.
     low = 1; high = 1

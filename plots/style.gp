@@ -1,7 +1,7 @@
 # Shared by all figures: input tables, names and units, line styles, output as SVG and PNG.
 # A script sets `plots` (this folder) and loads this file; `results` is the folder of the tables.
 if (!exists("results")) results = "results"
-# gnuplot runs what stands between backquotes, wherever the folder's name is evaluated.
+# gnuplot runs text between backquotes, wherever the folder's name is evaluated.
 if (strstrt(results, '`') > 0) { print "the folder of the results must have no backquote in its name"; exit status 1 }
 set encoding utf8
 set datafile separator comma
@@ -12,7 +12,7 @@ table(name) = results."/".name.".csv"
 exists_table(name) = system("test -s '".table(name)."' && echo 1 || echo 0") + 0
 rows_awk(options, name) = "awk -f '".plots."/rows.awk' ".options." '".table(name)."'"
 
-# To be evaluated: ends the script with one line if the table or one of its columns is missing. Figures tell from then on
+# To be evaluated: ends the script with one line if the table or one of its columns is missing. Figures show from then on
 # whether the run of that table was incomplete.
 require(name, columns) = sprintf(\
     "complaint = exists_table('%s') ? system(rows_awk('-v missing=\"%s\"', '%s')) : '-';\
@@ -62,13 +62,13 @@ fit_range_text(fields) = words(fields) < 2 ? "" : sprintf("N = %s to %s", word(f
 with_slope(label, slope) = strlen(slope) == 0 ? label : label.", ".slope
 
 # --- How a table was made --------------------------------------------------------------------------------------------
-# A value of the run's metadata, results/NAME.json, as text; empty if it is not told.
+# A value of the run's metadata, results/NAME.json, as text; empty if it is missing.
 told(name, key) = system(sprintf("sed -n 's/^  \"%s\": \"*\\([^\",]*\\)\"*,*$/\\1/p' '%s/%s.json' 2>/dev/null",\
     key, results, name))
-# The run that wrote a table: the longest beginning of the table's name with metadata beside it; empty if there is none.
+# The run that wrote a table: the longest beginning of the table's name with metadata next to it; empty if there is none.
 run_of(name) = strlen(name) == 0 ? "" : system(sprintf("test -s '%s/%s.json' && echo 1", results, name)) ne "" ? name\
     : run_of(system("echo '".name."' | sed 's/_*[^_]*$//'"))
-# What a figure says of a table whose run did not come to its end; empty if it did, or if nobody knows.
+# The note of a figure on a table whose run did not come to its end; empty if it did, or if unknown.
 incomplete_run(name) = told(run_of(name), "complete") eq "false" ? what_is_there(run_of(name)) : ""
 what_is_there(run) = run.".csv: ".(strlen(told(run, "cases")) == 0 ? "its run has not ended"\
     : told(run, "rows")." of ".told(run, "cases")." rows, its run was interrupted")
@@ -102,7 +102,7 @@ with_unit(text, unit) = strlen(unit) == 0 ? text : unit eq "dimensionless" ? tex
 axis_label(text, problem, column) = with_unit(text, described(problem, column))
 
 # Families of methods: a method has the name of its family, or begins with it: multiple_shooting_rk4_2 is "Multiple shooting,
-# rk4, 2 steps". What no family has the name of is called as it is.
+# rk4, 2 steps". Other methods keep their names.
 load plots."/families.inc"
 family_of(method) = sum [i_family = 1:words(families)] (strstrt(method."_", word(families, i_family)."_") == 1 ? i_family : 0)
 method_label(method) = family_of(method) == 0 ? method\
@@ -143,8 +143,8 @@ set tics nomirror out scale 0.8, 0.4 textcolor rgb "#202020"
 set grid xtics ytics linecolor rgb "#DADADA" linewidth 1 dashtype 1
 set key reverse Left samplen 3.5 spacing 1.25 width 1 noautotitle font ",13"
 set style fill solid 1.0 noborder
-# Title: what is drawn in bold, and remarks below, a line each; empty ones are left out. A title asserts nothing: what
-# came out stands in legends, as numbers of the tables.
+# Title: the drawn quantities in bold, and remarks below, a line each; empty ones are left out. A title asserts nothing:
+# results stand in legends, as numbers of the tables.
 remark(line) = strlen(line) == 0 ? "" : "\n{/*0.8 ".line."}"
 title_text(title, first, second) = "{/:Bold ".title."}".remark(first).remark(second)
 
@@ -193,5 +193,5 @@ stamp = "unset label 901; unset label 902; if (strlen(incomplete) > 0) {\
     set label 902 incomplete at screen 0.5, screen 0.44 center front noenhanced font ',18' textcolor rgb '#20D55E00' }"
 end_figure(kind, name) = sprintf("unset output; system \"%s mv '%s' '%s/%s.%s'\"",\
     kind eq "svg" ? keep_spaces(hidden(kind, name)) : "", hidden(kind, name), figures, name, kind)
-# Without this, viewers of SVG drop spaces beside subscripts.
+# Without this, viewers of SVG drop spaces next to subscripts.
 keep_spaces(file) = sprintf("sed -i 's/<text>/<text xml:space=%spreserve%s>/' '%s' &&", '\\\"', '\\\"', file)

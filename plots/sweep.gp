@@ -3,7 +3,7 @@
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 eval require("sweep", "problem,method,intervals,status,objective,major_iterations,instance")
-# The columns behind `instance` are the quantities.
+# The columns after `instance` are the quantities.
 quantities = system("awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if (found) print $i; if ($i == \"instance\") found = 1 } }' '"\
     .table("sweep")."'")
 if (words(quantities) < 2) { print "a sweep of one quantity has no map"; exit status 0 }

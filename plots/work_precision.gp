@@ -1,4 +1,4 @@
-# What accuracy costs: state error over time and over free variables (the paper compares sizes in rem:savings).
+# The cost of accuracy: state error over time and over free variables (the paper compares sizes in rem:savings).
 #   gnuplot -e "results='results'" plots/work_precision.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
@@ -14,7 +14,7 @@ do for [where in problems_of("convergence", "state_error")] {
     eval begin_figure(kind, problem."_work_precision", 1100, 600)
     figure_title = title_text(problem_label(problem).": state error over time and over free variables",\
         timed_conditions("convergence").".",\
-        "Bars: quartiles of these solves, one after the other. Times from a warm start are those of few iterations.")
+        "Bars: quartiles of these solves, one after the other. Solves from a warm start take few iterations.")
     eval two_panels(0.1)
     set ylabel axis_label("state error ".error_of("q"), problem, "state_unit")
     do for [i = 1:2] {
