@@ -47,7 +47,7 @@ refuses("magic", tutorial.solve_accurately(problem, options_with(), 1e-4, b"magi
 refuses("1e-14", tutorial.solve_accurately(problem, options_with(), 0.0, b"h"))
 other = tutorial.make_problem(b"two_link_manipulator")
 of_other = tutorial.solve(other, options_with())
-refuses("other numbers", tutorial.solve_from(problem, options_with(), of_other))
+refuses("different numbers", tutorial.solve_from(problem, options_with(), of_other))
 error = ctypes.c_double()
 refuses("NULL", tutorial.estimate_error(of_other, None))
 

@@ -58,7 +58,7 @@ TEST(AmplSolution, IsRefusedIfItIsSomethingElse) {
   const auto expect_named = [](const std::string& part, const std::string& text) {
     tests::expect_error_naming({part}, [&] { static_cast<void>(read_ampl_solution(text)); });
   };
-  expect_named("no text", std::string(6, '\0'));
+  expect_named("not a text file", std::string(6, '\0'));
   expect_named("Options", "t,q\n0,1\n");
   expect_named("cut off", "\nOptions\n0\n1000000000000\n1000000000000\n0\n0\n");
   expect_named("much", "\nOptions\n0\n1\n0\n1\n1\nmuch\nobjno 0 0\n");
