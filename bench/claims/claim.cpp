@@ -48,7 +48,7 @@ bool has_no_number(const std::string& measured) {
   return std::regex_search(measured, none);
 }
 
-/// What is found; "not yet", with what is lacking, where nothing can be found.
+/// What is found; "not judged", with what is lacking, where nothing can be found.
 template <std::invocable Judge>
 Finding finding_of(const Judge& judge) {
   try {
@@ -122,13 +122,14 @@ std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
 
 /// What is written behind a verdict: the cause where the claim differs, the condition, what the tables tell.
 std::string reason_of(const Claim& claim, const std::string& problem, const Finding& finding) {
-  if (finding.verdict == ClaimVerdict::not_yet) return "";
+  if (finding.verdict == ClaimVerdict::not_judged) return "";
   std::vector<std::string> sentences;
   const auto append = [&](const std::string& sentence) {
     if (!sentence.empty()) sentences.push_back(sentence);
   };
   if (finding.verdict == ClaimVerdict::differs) append(claim.cause.on(problem));
   append(claim.condition.on(problem));
+  if (claim.by_counting) append("it follows from counting the unknowns or from a choice, so that no solve can turn it");
   append(finding.reason);
   return fmt::format("{}", fmt::join(sentences, "; "));
 }
@@ -158,19 +159,39 @@ JudgedClaim judge_claim(const Claim& claim, const ResultTables& tables, const st
           .reason = reason_of(claim, problem, finding),
           .evidence = evidence_of(claim, problem),
           .sure = std::move(finding.sure),
-          .rows = read_rows(fields)};
+          .rows = read_rows(fields),
+          .by_counting = claim.by_counting,
+          .headline = claim.headline};
 }
 
 }  // namespace
 
 std::string_view name_of(ClaimVerdict verdict) noexcept {
-  constexpr std::array names{"reproduced", "differs", "undecided", "floor", "not yet"};
+  constexpr std::array names{"reproduced", "differs", "undecided", "floor", "measured", "not judged"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
 std::string_view name_of(Whose whose) noexcept {
-  constexpr std::array names{"paper", "paper's remark", "ours", "misprint"};
+  constexpr std::array names{"paper", "ours", "misprint", "extension"};
   return names[static_cast<std::size_t>(whose)];
+}
+
+ClaimVerdict verdict_on_interval(double lower, double upper, double band_lower, double band_upper) {
+  if (lower > band_lower && upper < band_upper) return ClaimVerdict::reproduced;
+  return lower > band_upper || upper < band_lower ? ClaimVerdict::differs : ClaimVerdict::undecided;
+}
+
+ClaimVerdict verdict_on_order(const Row& row, double expected, double near) {
+  const double slope = row.needed("slope");
+  const double half_width = 2.0 * row.needed("standard_error");
+  return verdict_on_interval(slope - half_width, slope + half_width, expected - near, expected + near);
+}
+
+ClaimVerdict verdict_on_all(const std::vector<ClaimVerdict>& verdicts) {
+  for (const ClaimVerdict decisive : {ClaimVerdict::differs, ClaimVerdict::undecided}) {
+    if (std::ranges::count(verdicts, decisive) > 0) return decisive;
+  }
+  return ClaimVerdict::reproduced;
 }
 
 double quotient(const Row& numerator, const Row& denominator, const std::string& column) {

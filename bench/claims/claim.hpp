@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,13 +22,14 @@ enum class ClaimVerdict : std::uint8_t {
   differs,     ///< the predicate does not hold
   undecided,   ///< the interval of what was measured holds values on both sides of what decides
   floor,       ///< only rounding was measured: nothing can be said
-  not_yet,     ///< it lacks a table, a row or a number
+  measured,    ///< a finding of ours or of an extension that draws no line: its numbers are the answer
+  not_judged,  ///< it lacks a table, a number or usable rows
 };
 /// All verdicts, in the order of tables.
-inline constexpr std::array all_verdicts{ClaimVerdict::reproduced, ClaimVerdict::differs, ClaimVerdict::undecided,
-                                         ClaimVerdict::floor, ClaimVerdict::not_yet};
+inline constexpr std::array all_verdicts{ClaimVerdict::reproduced, ClaimVerdict::differs,  ClaimVerdict::undecided,
+                                         ClaimVerdict::floor,      ClaimVerdict::measured, ClaimVerdict::not_judged};
 
-/// "reproduced", "differs", "undecided", "floor" or "not yet".
+/// "reproduced", "differs", "undecided", "floor", "measured" or "not judged".
 [[nodiscard]] std::string_view name_of(ClaimVerdict verdict) noexcept;
 
 inline constexpr const char* orbit = "orbital_transfer";         ///< the paper's first problem
@@ -45,15 +48,15 @@ inline const Problems examples{"examples"};
 
 /// Who makes a statement.
 enum class Whose : std::uint8_t {
-  paper,     ///< the paper, as a theorem, an equation or a result
-  remark,    ///< the paper in passing: a remark, an expectation, a motive
-  ours,      ///< not the paper: a sharper form of its statement, or one that it does not make
-  misprint,  ///< the paper as it is printed, but not as it is meant
+  paper,      ///< the paper: its statements and remarks
+  ours,       ///< a finding of ours: a sharper form of a statement, or one that the paper does not make
+  misprint,   ///< the paper as it is printed, but not as it is meant
+  extension,  ///< about an extension of the suite, also where section 5 of the paper names the topic
 };
 /// All of them, in the order of the summary.
-inline constexpr std::array all_sources{Whose::paper, Whose::remark, Whose::ours, Whose::misprint};
+inline constexpr std::array all_sources{Whose::paper, Whose::ours, Whose::misprint, Whose::extension};
 
-/// "paper", "paper's remark", "ours" or "misprint".
+/// "paper", "ours", "misprint" or "extension".
 [[nodiscard]] std::string_view name_of(Whose whose) noexcept;
 
 /// A text of a claim: one for every problem, or one for each of the paper's.
@@ -75,8 +78,8 @@ class Wording {
 
 /// The result of judging a claim by the tables.
 struct Finding {
-  std::string measured;                          ///< in words and numbers
-  ClaimVerdict verdict = ClaimVerdict::not_yet;  ///< what follows
+  std::string measured;                             ///< in words and numbers
+  ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< what follows
   std::string reason = {};     ///< the cause or condition that the tables show; written after the claim's own
   std::string sure = "exact";  ///< "exact", or how often the verdict came out among replicates
 
@@ -92,7 +95,7 @@ struct Finding {
   }
 };
 
-/// Judges a claim about a problem. Throws `Error` that names what it lacks; the claim is then "not yet".
+/// Judges a claim about a problem. Throws `Error` that names what it lacks; the claim is then "not judged".
 using Predicate = std::function<Finding(const ResultTables& tables, const std::string& problem)>;
 
 /// A row of the table of claims before it is judged. To add one, write it into an array of its topic.
@@ -107,26 +110,30 @@ struct Claim {
   Wording condition = "";             ///< under which condition it holds; written whatever the verdict
   Wording cause = "";                 ///< why it differs; written where it does
   std::vector<std::string> evidence;  ///< files of the results folder; "{}" stands for the problem
+  bool by_counting = false;           ///< it follows from counting unknowns or from a choice: no solve can turn it
+  bool headline = false;              ///< a finding that the summary of the written table states
   std::string needs = {};  ///< left out where this table is not there: the experiment is not part of every run
 };
 
 /// A row of the written table.
 struct JudgedClaim {
-  std::string id;                                ///< "orbital_transfer/state_slope"
-  std::string where;                             ///< section or label in the paper
-  std::string figure;                            ///< label of the paper's figure
-  Whose whose = Whose::paper;                    ///< who makes the statement
-  std::string states;                            ///< what is stated
-  std::string measured;                          ///< what was found, or what is lacking
-  ClaimVerdict verdict = ClaimVerdict::not_yet;  ///< what the predicate found
-  std::string reason;                            ///< why it differs, or under which condition it holds
-  std::string evidence;                          ///< the tables and figures, with "; " between them
-  std::string sure;                 ///< "exact", or how often the verdict came out among replicates; "" for "not yet"
+  std::string id;                                   ///< "orbital_transfer/state_slope"
+  std::string where;                                ///< section or label in the paper
+  std::string figure;                               ///< label of the paper's figure
+  Whose whose = Whose::paper;                       ///< who makes the statement
+  std::string states;                               ///< what is stated
+  std::string measured;                             ///< what was found, or what is lacking
+  ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< what the predicate found
+  std::string reason;                               ///< why it differs, or under which condition it holds
+  std::string evidence;                             ///< the tables and figures, with "; " between them
+  std::string sure;  ///< "exact", or how often the verdict came out among replicates; "" for "not judged"
   std::vector<ReadRows> rows = {};  ///< by which it was judged
+  bool by_counting = false;         ///< it follows from counting unknowns or from a choice
+  bool headline = false;            ///< the summary states it
 };
 
-/// Every claim with its verdict, and the paper's misprints. Rows that are not solved or on another branch make a claim
-/// about all grids "differs", never better.
+/// Every claim with its verdict, and the paper's misprints. Only rows that are solved on the wanted branch decide;
+/// where too few are left the claim is not judged.
 [[nodiscard]] std::vector<JudgedClaim> judge_claims(const ResultTables& tables);
 
 /// The same for some claims only: those whose name in the written table ("orbital_transfer/state_slope") is chosen.
@@ -158,9 +165,23 @@ template <class Outcome, class... Values>
   return {fmt::format(words, std::forward<Values>(values)...), verdict_on(outcome)};
 }
 
-/// Whether the order that was fitted in a row is as expected.
-[[nodiscard]] inline bool has_order(const Row& row, double expected) {
-  return std::abs(row.needed("slope") - expected) < near_order;
+/// The verdict on "what was measured lies in a band" by its interval: `reproduced` inside, `differs` outside,
+/// `undecided` across an end of the band. So a noisier measurement does not pass more easily.
+[[nodiscard]] ClaimVerdict verdict_on_interval(double lower, double upper, double band_lower, double band_upper);
+
+/// The same of the order that was fitted in a row, with the interval of two standard errors on either side and a band
+/// of `near` around the expected order. Throws `Error` without slope or standard error.
+[[nodiscard]] ClaimVerdict verdict_on_order(const Row& row, double expected, double near = near_order);
+
+/// The verdict on all of several: one that differs decides, then one that is undecided.
+[[nodiscard]] ClaimVerdict verdict_on_all(const std::vector<ClaimVerdict>& verdicts);
+
+/// The verdict on all rows by a function that judges one.
+template <std::invocable<const Row&> Judge>
+[[nodiscard]] ClaimVerdict verdict_on_all(const Selection& rows, const Judge& judge) {
+  std::vector<ClaimVerdict> verdicts;
+  std::ranges::transform(rows, std::back_inserter(verdicts), judge);
+  return verdict_on_all(verdicts);
 }
 
 /// Throws `Error` in the words of fmt::format unless `is_there`: a claim lacks something.

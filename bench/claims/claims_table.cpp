@@ -40,10 +40,11 @@ struct Title {
 };
 
 Title title_of(Whose whose) {
-  constexpr std::array titles{Title{"the paper's statements", "The paper's statements"},
-                              Title{"its remarks", "Its remarks, expectations and motives"},
-                              Title{"ours", "Not stated by the paper: sharper forms, and what we ask besides"},
-                              Title{"misprints", "Misprints: what is printed, and what is meant"}};
+  constexpr std::array titles{
+      Title{"the paper's statements and remarks", "The paper's statements and remarks"},
+      Title{"findings of ours", "Findings of ours: sharper forms, and what the paper leaves open"},
+      Title{"misprints", "Misprints: what is printed, and what is meant"},
+      Title{"extensions", "Extensions of the suite"}};
   return titles[static_cast<std::size_t>(whose)];
 }
 
@@ -83,6 +84,30 @@ std::string told_together(std::ptrdiff_t count, ClaimVerdict verdict) {
   return fmt::format("{} {}", count, are_several ? "differ" : name_of(verdict));
 }
 
+/// "- **orbit/fast** (section 4): reproduced. It is claimed; measured: 2.01; why".
+std::string bullet(const JudgedClaim& claim) {
+  return fmt::format("- **{}** ({}), {}: {}. Measured: {}.{}{}\n", claim.id, claim.where, name_of(claim.verdict),
+                     claim.states, claim.measured, claim.reason.empty() ? "" : " Why: ", claim.reason);
+}
+
+/// What a reader has to know first: the counts, each statement of the paper that is not reproduced, our findings that
+/// matter most.
+std::string summary_markdown(const std::vector<JudgedClaim>& claims) {
+  std::string text = fmt::format("## Summary\n\n- {}\n", fmt::join(closing_lines(claims), "\n- "));
+  const auto append = [&](const char* heading, const auto& is_wanted) {
+    std::string bullets;
+    for (const JudgedClaim& claim : claims) {
+      if (is_wanted(claim)) bullets += bullet(claim);
+    }
+    if (!bullets.empty()) text += fmt::format("\n### {}\n\n{}", heading, bullets);
+  };
+  append("Statements and remarks of the paper that are not reproduced", [](const JudgedClaim& claim) {
+    return claim.whose == Whose::paper && claim.verdict != ClaimVerdict::reproduced;
+  });
+  append("Findings of ours to read first", [](const JudgedClaim& claim) { return claim.headline; });
+  return text;
+}
+
 }  // namespace
 
 Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
@@ -110,17 +135,18 @@ Table claims_table(const std::vector<JudgedClaim>& claims) { return table_of(cla
 
 std::string claims_markdown(const std::vector<JudgedClaim>& claims) {
   std::string text =
-      "# Claims, measured\n\n"
-      "What decides on a verdict is a predicate on the tables beside this file. *Reproduced*: it holds. *Differs*: it "
-      "does not. *Undecided*: the interval of what was measured reaches to both sides of what decides. *Floor*: only "
-      "rounding was measured. *Not yet*: a table, a row or a number is lacking. *Sure* is *exact* where no time and no "
-      "choice at random is judged.\n";
+      "# Claims, measured\n\nA predicate on the tables next to this file decides on every verdict. *Reproduced*: it "
+      "holds. *Differs*: it does not. *Undecided*: the interval of what was measured reaches to both sides of what "
+      "decides. *Floor*: only rounding was measured. *Measured*: a finding that draws no line, its numbers are the "
+      "answer. *Not judged*: a table, a number or usable rows are lacking; solves that fail decide nothing. *Sure* is "
+      "*exact* where no time and no choice at random is judged.\n\n" +
+      summary_markdown(claims);
   for (const Whose whose : all_sources) {
     const std::vector<JudgedClaim> of_source = stated_by(claims, whose);
     if (of_source.empty()) continue;
     text += fmt::format("\n## {}\n\n{}", title_of(whose).heading, markdown_table(of_source));
   }
-  return text + fmt::format("\n## In all\n\n- {}\n", fmt::join(closing_lines(claims), "\n- "));
+  return text;
 }
 
 std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims) {

@@ -26,11 +26,11 @@ double truncation_of(const Row& row) {
   return std::stod(quantity.substr(quantity.rfind('_') + 1));
 }
 
-bool has_order_of_its_truncation(const Row& row) { return has_order(row, truncation_of(row)); }
+ClaimVerdict has_order_of_its_truncation(const Row& row) { return verdict_on_order(row, truncation_of(row)); }
 
 std::string slope_in_words(const Row& row) { return fmt::format("{:.2f}", row.needed("slope")); }
 
-Finding gap_smaller_than_of_tangent(const ResultTables& tables, const std::string& problem) {
+Finding gap_beside_tangent(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("structure_energy_work", problem);
   const Selection dmoc = rows.where("method", "dmoc");
   double least = std::numeric_limits<double>::infinity();
@@ -42,8 +42,10 @@ Finding gap_smaller_than_of_tangent(const ResultTables& tables, const std::strin
     least = std::min(least, ratio);
     most = std::max(most, ratio);
   }
-  require(!dmoc.empty(), "structure_energy_work.csv has no row of dmoc for {}", problem);
-  return found(least > 1.0,
+  require(dmoc.size() > 1, "structure_energy_work.csv has {} rows of dmoc for {}; two are needed", dmoc.size(),
+          problem);
+  const bool is_as_stated = problem == two_link ? most < 1.0 : least > 1.0;
+  return found(is_as_stated,
                "largest |change of energy - work| of tangent over that of DMOC: {:.2f} to {:.2f} on {} grids", least,
                most, dmoc.size());
 }
@@ -57,12 +59,13 @@ Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*
       slopes.where("method", "tangent").where([](const Row& row) { return row.text("problem") != "pendulum"; });
   require(!structured.empty() && !tangent.empty(), "{}.csv needs rows of dmoc and of tangent with a moving mass",
           table);
-  const auto stays_at_2 = [](const Row& row) { return has_order(row, 2.0); };
-  return found(std::ranges::all_of(structured, has_order_of_its_truncation) && std::ranges::all_of(tangent, stays_at_2),
-               "slopes of the drift, DMOC and Hamiltonian on {} systems: {}; tangent-space collocation with a moving "
-               "mass: {}",
-               structured.group_by({"problem"}).size(), structured.in_words(", ", slope_in_words),
-               tangent.in_words(", ", slope_in_words));
+  const auto stays_at_2 = [](const Row& row) { return verdict_on_order(row, 2.0); };
+  return found(
+      verdict_on_all({verdict_on_all(structured, has_order_of_its_truncation), verdict_on_all(tangent, stays_at_2)}),
+      "slopes of the drift, DMOC and Hamiltonian on {} systems: {}; tangent-space collocation with a moving "
+      "mass: {}",
+      structured.group_by({"problem"}).size(), structured.in_words(", ", slope_in_words),
+      tangent.in_words(", ", slope_in_words));
 }
 
 Finding balances_modified_work(const ResultTables& tables, const std::string& problem) {
@@ -70,7 +73,7 @@ Finding balances_modified_work(const ResultTables& tables, const std::string& pr
   const Selection dmoc = tables.rows(table, problem).where("method", "dmoc");
   const Selection modified = of_truncations(dmoc, "gap_to_modified_work_", table);
   const Selection plain = of_truncations(dmoc, "gap_to_work_", table);
-  return found(std::ranges::all_of(modified, has_order_of_its_truncation),
+  return found(verdict_on_all(modified, has_order_of_its_truncation),
                "slopes of the gap to the modified work: {}; of the gap to the virtual work: {}",
                modified.in_words(", ", slope_in_words), plain.in_words(", ", slope_in_words));
 }
@@ -82,9 +85,12 @@ Claims energy_claims() {
   return {
       {.id = "energy_against_work",
        .where = in_paper,
-       .states = "along optimal motions the energy of DMOC misses the virtual work by less than that of tangent-space "
-                 "collocation",
-       .judge = gap_smaller_than_of_tangent,
+       .states =
+           Wording("along the optimal motion the energy of DMOC misses the virtual work by less than the energy of "
+                   "tangent-space collocation",
+                   "along the optimal motion the energy of DMOC misses the virtual work by more than the energy "
+                   "of tangent-space collocation"),
+       .judge = gap_beside_tangent,
        .condition = "both gaps are of order h^2 and their factors belong to the motion: on the slow transfer DMOC's is "
                     "the smaller one, on the fast manipulator the larger one",
        .evidence = {"structure_energy_work.csv", "figures/{}_energy_work.svg"}},
@@ -103,10 +109,13 @@ Claims modified_energy_claims() {
   return {{.id = "modified_energy_by_orders",
            .problems = simulated,
            .where = in_paper,
-           .states =
-               "without forces H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule drift with orders 2, 4 "
-               "and 6; tangent-space collocation with a moving mass has no such energy",
+           .whose = Whose::paper,
+           .states = "a certain modified energy is conserved: without forces H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 "
+                     "of the midpoint rule drift with orders 2, 4 "
+                     "and 6; tangent-space collocation with a moving mass has no such energy",
            .judge = drifts_by_orders_2_4_6,
+           .condition = "the paper refers to backward error analysis of symplectic methods and gives no formula; the "
+                        "midpoint rule's own is truncated here",
            .evidence = {"structure_modified_energy_slopes.csv", "figures/radial_thrust_modified_energy.svg"}}};
 }
 

@@ -4,6 +4,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/tables/profile_tables.hpp"
+#include "bench/tables/share_interval.hpp"
 #include "methods/runtime/counted.hpp"
 #include "methods/transcription/elements/families.hpp"
 
@@ -11,42 +12,56 @@ namespace dmocbench {
 
 namespace {
 
-/// Holds if there are at least two minima that are motions and more than one method ends in: a minimum of one
-/// discretisation alone may be spurious.
-Finding local_minima(const ResultTables& tables, const std::string& problem) {
-  const Selection rows = tables.rows("local_minima_minima", problem);
-  const Selection motions = rows.where("is_motion", "yes");
-  const Selection shared = motions.where([methods = paper_families()](const Row& row) {
+/// Minima of a problem that are motions and that more than one method ends in: a minimum of one discretisation alone
+/// may be spurious.
+Selection shared_minima(const Selection& minima) {
+  return minima.where("is_motion", "yes").where([methods = paper_families()](const Row& row) {
     return std::ranges::count_if(methods, [&](const auto& method) { return row.needed(method) > 0.0; }) > 1;
   });
-  const auto objective = [](const Row& row) { return fmt::format("{:.5g}", row.needed("objective")); };
-  return found(
-      shared.size() > 1,
-      "minima whose intervals join when they are replayed: {}, and more than one method ends in {} of them: J = {}; "
-      "not counted: {} that are no motions but artefacts of the grid",
-      motions.size(), shared.size(), shared.empty() ? "(none)" : shared.in_words(", ", objective),
-      rows.size() - motions.size());
 }
 
-/// A number between 0 and 1.
-double share(const Row& row, const char* column) {
-  const double value = row.needed(column);
-  require(value >= 0.0 && value <= 1.0, "{}, column {}: {} is no share", row.place(), column, value);
-  return value;
+/// In how many problems of the library cold starts end in several minima, as far as cold starts of it are there.
+std::string in_library(const ResultTables& tables) {
+  if (!tables.has("cold_start_shares")) return "";
+  std::size_t several = 0;
+  std::size_t all = 0;
+  for (const Selection& starts : tables.rows("cold_start_shares").where("start_kind", "cold").group_by({"problem"})) {
+    ++all;
+    several += std::ranges::any_of(starts, [](const Row& row) { return row.number("elsewhere", 0.0) > 0.0; }) ? 1 : 0;
+  }
+  if (all == 0) return "";
+  const ShareInterval share = wilson_interval({.hits = several, .trials = all});
+  return fmt::format("; of {} cold starts also end elsewhere than on the best branch on {} ({:.0f} to {:.0f} %)",
+                     counted(all, "problem"), several, 100.0 * share.lower, 100.0 * share.upper);
 }
 
-/// Holds if two intervals of confidence do not overlap.
-Finding best_minimum_share(const ResultTables& tables, const std::string& problem) {
-  const Selection rows = tables.rows("local_minima_shares", problem);
-  require(rows.size() > 1, "local_minima_shares.csv has one method of {} to compare", problem);
-  const auto lower = [](const Row& row) { return share(row, "share_lower"); };
-  const auto upper = [](const Row& row) { return share(row, "share_upper"); };
-  const auto words = [&](const Row& row) {
-    return fmt::format("{} {:g} of {:g} ({:.0f} to {:.0f} %)", row.text("method"), row.needed("best"),
-                       row.needed("starts"), 100.0 * lower(row), 100.0 * upper(row));
-  };
-  const double lowest_upper = -rows.max([&](const Row& row) { return -upper(row); });
-  return found(rows.max(lower) > lowest_upper, "{}; 95 % intervals", rows.in_words(", ", words));
+/// "Different initial guesses can lead to different solutions": reproduced by one of the paper's problems; differs if
+/// on none of them many starts show a second minimum, so that a share of more than 3 % of them is ruled out.
+Finding local_minima(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double enough_starts = 100.0;  // three over it is the limit (95 %) of a share that was never seen
+  const Selection rows = tables.rows("local_minima_minima");
+  bool are_several = false;
+  bool are_enough = true;
+  std::vector<std::string> words;
+  for (const std::string& problem : of_paper) {
+    const Selection minima = tables.rows("local_minima_minima", problem);
+    const Selection shared = shared_minima(minima);
+    const Selection shares = tables.rows("local_minima_shares", problem);
+    double starts = 0.0;
+    for (const Row& row : shares) starts += row.needed("solved");
+    are_several = are_several || shared.size() > 1;
+    are_enough = are_enough && starts >= enough_starts;
+    const auto objective = [](const Row& row) { return fmt::format("{:.5g}", row.needed("objective")); };
+    words.push_back(fmt::format(
+        "{}: {:g} solved starts end in {} minima that are motions, {} of them by more than one method, J = {}; not "
+        "counted: {} artefacts of the grid",
+        problem, starts, minima.where("is_motion", "yes").size(), shared.size(),
+        shared.empty() ? "(none)" : shared.in_words(", ", objective), minima.where("is_motion", "no").size()));
+  }
+  require(are_several || are_enough,
+          "local_minima_shares.csv: less than {:g} starts of a problem are solved and none shows a second minimum",
+          enough_starts);
+  return found(are_several, "{}{}", fmt::join(words, "; "), in_library(tables));
 }
 
 /// Throws `Error` if some of the rows tell a measure and others do not. Some solvers never tell one.
@@ -89,16 +104,17 @@ Predicate dmoc_best_by(const std::string& measure) {
 /// Local minima.
 Claims minima_claims() {
   return {{.id = "local_minima",
+           .problems = examples,
            .where = "section 4.1, SQP Method; section 5, Global Minima",
-           .whose = Whose::remark,
-           .states = "local minima depend on the initial guess",
+           .whose = Whose::paper,
+           .states =
+               "different initial guesses can lead to different solutions, which was observed in almost all example "
+               "computations",
            .judge = local_minima,
-           .evidence = {"local_minima_minima.csv", "figures/{}_local_minima.svg"}},
-          {.id = "best_minimum_share",
-           .where = "section 5, Global Minima",
-           .states = "one method finds the best minimum more often than another",
-           .judge = best_minimum_share,
-           .evidence = {"local_minima_shares.csv", "figures/{}_local_minima.svg"}}};
+           .condition = "\"can\" is judged, on the paper's two problems; \"almost all\" is about computations that are "
+                        "not published, so that the share of problems here only stands next to it",
+           .evidence = {"local_minima_minima.csv", "local_minima_shares.csv", "cold_start_shares.csv",
+                        "figures/two_link_manipulator_local_minima.svg"}}};
 }
 
 /// The whole library.

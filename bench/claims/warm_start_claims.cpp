@@ -10,8 +10,6 @@ namespace dmocbench {
 
 namespace {
 
-/// A method that needs this many times DMOC's iterations needs more of them.
-constexpr double more_iterations = 1.05;
 /// The share of a sequence's steps that both methods have to solve.
 constexpr double enough_steps = 0.9;
 
@@ -77,15 +75,13 @@ std::string left_out_of(const std::vector<StepRatios>& all) {
   return count == 0 ? "" : fmt::format("; {} left out, not solved by both", counted(count, "step"));
 }
 
-Finding fewer_iterations(const ResultTables& tables, const std::string& problem) {
+Finding ratios_of_iterations(const ResultTables& tables, const std::string& problem) {
   const std::vector<StepRatios> all = all_ratios(tables, problem);
   std::string words;
   for (const StepRatios& ratios : all) {
     words += fmt::format("{}{} {:.2f}", words.empty() ? "" : ", ", ratios.name, ratios.iterations);
   }
-  const bool holds =
-      std::ranges::all_of(all, [](const StepRatios& ratios) { return ratios.iterations >= more_iterations; });
-  return found(holds, "iterations over DMOC's: {}{}", words, left_out_of(all));
+  return found(ClaimVerdict::measured, "iterations over DMOC's: {}{}", words, left_out_of(all));
 }
 
 Finding less_time(const ResultTables& tables, const std::string& problem) {
@@ -99,12 +95,12 @@ Finding less_time(const ResultTables& tables, const std::string& problem) {
 
 /// Sequences that start from each other's answers.
 Claims warm_start_claims() {
-  return {{.id = "warm_starts_in_fewer_iterations",
+  return {{.id = "iterations_of_warm_starts",
            .where = "section 4.1, SQP Method",
-           .states = "started warm, from unknowns and multipliers of the problem before, DMOC takes fewer iterations "
-                     "than collocation",
-           .judge = fewer_iterations,
-           .condition = "fewer: collocation takes at least 1.05 times as many; by interior_point",
+           .states = "how many times as many iterations collocation takes as DMOC, started warm from unknowns and "
+                     "multipliers of the problem before",
+           .judge = ratios_of_iterations,
+           .condition = "by interior_point",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"}},
           {.id = "warm_starts_in_less_time",
            .where = "section 3.4, rem:savings",

@@ -107,8 +107,7 @@ class Curves {
   void add(const std::string& quantity, double h, double error) { points_[quantity].push_back({h, error}); }
   void fit_into(std::vector<FittedQuantity>& fits, const Scheme& scheme) const {
     for (const auto& [quantity, points] : points_) {
-      const auto order = fit_order(points);
-      if (order && order->points > 2) fits.push_back({scheme, quantity, *order});
+      if (const auto order = asymptotic_order(points, 0.0)) fits.push_back({scheme, quantity, *order});
     }
   }
 

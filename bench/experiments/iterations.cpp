@@ -28,7 +28,7 @@ class Iterations final : public ExperimentOf<Measured> {
       : ExperimentOf({.name = "iterations",
                       .description =
                           "Major and minor iterations of the SQP method with the law that predicts them, and the same "
-                          "solves in other currencies: Ipopt's iterations, SLSQP's evaluations (up to 200 free "
+                          "solves in other currencies: Ipopt's iterations, SLSQP's evaluations (up to 400 free "
                           "variables), seconds, entries of the KKT matrix and of its factor. NAME_ratios.csv sets "
                           "collocation against DMOC. Default start: the problem's guess.",
                       .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
@@ -88,7 +88,7 @@ class Iterations final : public ExperimentOf<Measured> {
 
  private:
   /// SLSQP is dense: a solve with more free variables takes seconds to minutes and says nothing new.
-  static constexpr std::size_t most_free_variables_for_slsqp = 200;
+  static constexpr std::size_t most_free_variables_for_slsqp = 400;
 
   /// One minor iteration per free variable from the slack basis, per degree of freedom from a basis chosen for free,
   /// and one per later major iteration (no inequality active); none for other solvers.

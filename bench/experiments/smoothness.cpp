@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "bench/experiments/optimum_error.hpp"
 #include "bench/experiments/situation.hpp"
@@ -63,9 +64,10 @@ const Columns<Measured> error_columns =
 
 const Columns<MeasuredOrder> order_columns =
     situation_columns<MeasuredOrder>() +
-    Columns<MeasuredOrder>{{"order", "", "the tableau's order", &MeasuredOrder::order},
-                           {"quantity", "", "whose error is fitted: the largest on a grid and all finer ones",
-                            &MeasuredOrder::quantity, in_key}} +
+    Columns<MeasuredOrder>{
+        {"order", "", "the tableau's order", &MeasuredOrder::order},
+        {"quantity", "", "whose error is fitted; where bounds are active the largest on a grid and all finer ones",
+         &MeasuredOrder::quantity, in_key}} +
     fitted_order_columns(&MeasuredOrder::fit);
 
 /// The largest error on each grid and all finer ones. Where a kink lies inside an interval, the error's factor changes
@@ -122,6 +124,7 @@ class Smoothness {
   void follow(const Situation& situation, const KnownOptimum& optimum, const Start& start, const std::string& method,
               int stages) {
     const Scheme scheme{situation.problem->name(), method, "gauss", stages};
+    const bool is_smooth = situation.active == "nothing";
     std::array<std::vector<GridError>, quantities.size()> points;
     for (const long long intervals : measured_intervals) {
       const SolvedCase solved = solve(case_of(situation, method, stages, intervals), start);
@@ -137,13 +140,20 @@ class Smoothness {
       if (!measured.error) continue;
       for (std::size_t i = 0; i < quantities.size(); ++i) {
         const double error = *measured.error.*quantities[i].second;
-        if (error > rounding && intervals >= coarsest_fitted) points[i].push_back({h, error});
+        if (is_smooth || intervals >= coarsest_fitted) points[i].push_back({h, error});
       }
     }
     for (std::size_t i = 0; i < quantities.size(); ++i) {
-      const auto fit = fit_order(envelope(points[i]));
-      if (fit && fit->points > 2) orders_.push_back({&situation, scheme, 2 * stages, quantities[i].first, *fit});
+      const auto fit = is_smooth ? asymptotic_order(points[i], rounding) : fit_envelope(points[i]);
+      if (fit) orders_.push_back({&situation, scheme, 2 * stages, quantities[i].first, *fit});
     }
+  }
+  /// Where kinks move within their intervals from grid to grid neighbouring orders scatter, and no range has one order:
+  /// all grids are used, four at least.
+  [[nodiscard]] static std::optional<FittedOrder> fit_envelope(std::vector<GridError> points) {
+    std::erase_if(points, [](const GridError& point) { return !(point.error > rounding); });
+    const auto fit = fit_order(envelope(std::move(points)));
+    return fit && std::cmp_greater_equal(fit->points, fewest_grids) ? fit : std::nullopt;
   }
 
   // A kink of the closed forms divides its interval in the proportion 1 : 2 on all of them, and all nodes are nodes of

@@ -90,4 +90,10 @@ std::optional<AsymptoticRange> asymptotic_range(const std::vector<GridError>& po
   return std::nullopt;
 }
 
+std::optional<FittedOrder> asymptotic_order(const std::vector<GridError>& points, double least) {
+  const auto range = asymptotic_range(points, least);
+  if (!range) return std::nullopt;
+  return fit_order({points.data() + range->first, points.data() + range->end});
+}
+
 }  // namespace dmocbench

@@ -64,4 +64,8 @@ inline constexpr double largest_spread = 0.2;
 [[nodiscard]] std::optional<AsymptoticRange> asymptotic_range(const std::vector<GridError>& points, double least,
                                                               double reference = 0.0);
 
+/// The order fitted on the asymptotic range of points, coarsest first, against an exact reference; none without such a
+/// range.
+[[nodiscard]] std::optional<FittedOrder> asymptotic_order(const std::vector<GridError>& points, double least);
+
 }  // namespace dmocbench

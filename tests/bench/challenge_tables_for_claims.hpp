@@ -62,12 +62,13 @@ inline Rows shooting_rows() {
 }
 
 inline Rows shooting_slope_rows(const char* stages) {
-  const ColumnNames columns{"problem", "method", "tableau", "stages", "quantity", "verdict", "slope"};
+  const ColumnNames columns{"problem", "method", "tableau", "stages", "quantity", "verdict", "slope", "standard_error"};
   if (stages == std::string("2")) {
-    return rows_of_texts(columns, {{orbit, "multiple_shooting_rk4_1", "gauss", "2", "state", "slope", "4.01"}});
+    return rows_of_texts(columns, {{orbit, "multiple_shooting_rk4_1", "gauss", "2", "state", "slope", "4.01", "0.01"}});
   }
-  return rows_of_texts(columns, {{orbit, "multiple_shooting_rk4_1", "gauss", "1", "state", "slope", "2.01"},
-                                 {orbit, "multiple_shooting_midpoint_1", "gauss", "1", "state", "slope", "1.99"}});
+  return rows_of_texts(columns,
+                       {{orbit, "multiple_shooting_rk4_1", "gauss", "1", "state", "slope", "2.01", "0.01"},
+                        {orbit, "multiple_shooting_midpoint_1", "gauss", "1", "state", "slope", "1.99", "0.01"}});
 }
 
 inline Rows shooting_cold_rows() {
@@ -93,6 +94,32 @@ inline Rows shooting_cost_rows() {
       row.set("round_seconds", rounds_around((is_dmoc ? 1e-4 : 2e-4) * count));
       rows.push_back(row);
     }
+  }
+  return rows;
+}
+
+/// Uniform and adapted grids of every method; collocation needs twice DMOC's variables.
+inline Rows adaptive_rows() {
+  Rows rows;
+  for (const std::string& method : methods) {
+    for (const char* grid : {"uniform", "adapted"}) {
+      rows.push_back(row_of_texts(
+          {"problem", "method", "tableau", "stages", "grid", "status", "intervals", "variables_at_accuracy", "grids",
+           "seconds", "round_seconds"},
+          {"hypersensitive", method, "gauss", "2", grid, "solved", grid == std::string("uniform") ? "900" : "150",
+           method == "dmoc" ? "100" : "200", "4", "0.01", rounds_around(0.01)}));
+    }
+  }
+  return rows;
+}
+
+inline Rows effectivity_rows() {
+  Rows rows;
+  for (const std::string& method : methods) {
+    rows.push_back(row_of_texts(
+        {"problem", "method", "tableau", "stages", "grid", "intervals", "quantity", "status", "effectivity",
+         "relative_error", "verdict"},
+        {"hypersensitive", method, "gauss", "2", "uniform", "32", "state", "solved", "1.1", "1e-4", "measured"}));
   }
   return rows;
 }

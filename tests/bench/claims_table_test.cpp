@@ -90,19 +90,31 @@ TEST(ClaimsTable, IsReadBackWithEveryField) {
 }
 
 TEST(ClaimsTable, CountsThePapersStatementsApartFromOursAndFromMisprints) {
-  EXPECT_EQ(closing_lines(some), (std::vector<std::string>{"the paper's statements: 1 reproduced, 2 differ",
-                                                           "ours: 1 differs", "misprints: 1 differs"}));
+  EXPECT_EQ(closing_lines(some), (std::vector<std::string>{"the paper's statements and remarks: 1 reproduced, 2 differ",
+                                                           "findings of ours: 1 differs", "misprints: 1 differs"}));
 }
 
 TEST(ClaimsTable, HasATableForEachSourceAndNoBarThatWouldBeginAColumn) {
   const std::string text = claims_markdown(some);
   const auto place = [&](const char* part) { return text.find(part); };
-  EXPECT_LT(place("## The paper's statements"), place("a/one"));
-  EXPECT_LT(place("e/five"), place("## Not stated by the paper"));
-  EXPECT_LT(place("b/two"), place("## Misprints"));
-  EXPECT_LT(place("## Misprints"), place("d/four"));
-  EXPECT_EQ(place("## Its remarks"), std::string::npos);
+  EXPECT_LT(place("## The paper's statements and remarks\n"), text.rfind("a/one"));
+  EXPECT_LT(text.rfind("e/five"), place("## Findings of ours"));
+  EXPECT_LT(text.rfind("b/two"), place("## Misprints"));
+  EXPECT_LT(place("## Misprints"), text.rfind("d/four"));
+  EXPECT_EQ(place("## Extensions"), std::string::npos);
   EXPECT_NE(place("\\|J\\| falls"), std::string::npos);
+}
+
+TEST(ClaimsTable, BeginsWithWhatThePaperStatesAndIsNotReproducedAndWithOurHeadlines) {
+  std::vector<JudgedClaim> claims = some;
+  claims[1].headline = true;
+  const std::string text = claims_markdown(claims);
+  const std::string summary = text.substr(0, text.find("## The paper's statements and remarks\n"));
+  EXPECT_NE(summary.find("- **c/three** (section 4), differs: |J| falls. Measured: it falls"), std::string::npos)
+      << summary;
+  EXPECT_NE(summary.find("- **b/two**"), std::string::npos) << summary;
+  EXPECT_EQ(summary.find("a/one"), std::string::npos) << summary;
+  EXPECT_EQ(summary.find("d/four"), std::string::npos) << summary;
 }
 
 TEST(ClaimsTable, TellsWhichRequiredClaimsAreNotReproduced) {

@@ -19,7 +19,7 @@ struct ColdOutcome {
   const char* start_kind = "cold";
 };
 
-JudgedClaim judged_cold(const ColdOutcome& outcome, const std::string& id = "cold_starts_confirmed_as_often") {
+JudgedClaim judged_cold(const ColdOutcome& outcome, const std::string& id = "cold_starts_confirmed") {
   tests::Rows shares;
   for (const auto& [method, hits] : {std::tuple("dmoc", outcome.dmoc), std::tuple("hamiltonian", outcome.hamiltonian),
                                      std::tuple("tangent", outcome.tangent)}) {
@@ -48,30 +48,26 @@ JudgedClaim judged_cold(const ColdOutcome& outcome, const std::string& id = "col
 
 ClaimVerdict verdict_cold(const ColdOutcome& outcome) { return judged_cold(outcome).verdict; }
 
-TEST(ColdStartClaims, HoldWhereTheIntervalOfTheDifferenceIsWithinTheMargin) {
-  EXPECT_EQ(verdict_cold({.dmoc = 950, .hamiltonian = 955, .tangent = 960}), ClaimVerdict::reproduced);
-}
-
-TEST(ColdStartClaims, DifferWhereItIsBeyondTheMarginInEitherDirection) {
-  EXPECT_EQ(verdict_cold({.dmoc = 800, .hamiltonian = 800, .tangent = 950}), ClaimVerdict::differs);
-  EXPECT_EQ(verdict_cold({.dmoc = 950, .hamiltonian = 800, .tangent = 950}), ClaimVerdict::differs);
-}
-
-TEST(ColdStartClaims, AreUndecidedWhereTheIntervalHoldsTheMargin) {
-  EXPECT_EQ(verdict_cold({.dmoc = 900, .hamiltonian = 950, .tangent = 900}), ClaimVerdict::undecided);
-  EXPECT_EQ(verdict_cold({.dmoc = 19, .hamiltonian = 19, .tangent = 19, .starts = 20}), ClaimVerdict::undecided);
+TEST(ColdStartClaims, StateTheDifferencesAndWhatTheirIntervalsSay) {
+  const auto says = [](const ColdOutcome& outcome, const char* words) {
+    const JudgedClaim claim = judged_cold(outcome);
+    return claim.verdict == ClaimVerdict::measured && claim.measured.find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(says({.dmoc = 950, .hamiltonian = 955, .tangent = 960}, "%: no difference shown; tangent"));
+  EXPECT_TRUE(says({.dmoc = 800, .hamiltonian = 800, .tangent = 950}, "DMOC less often; 95 %"));
+  EXPECT_TRUE(says({.dmoc = 950, .hamiltonian = 800, .tangent = 950}, "DMOC more often; tangent"));
 }
 
 TEST(ColdStartClaims, AreNotJudgedByOtherStartsOrImpossibleCounts) {
   EXPECT_EQ(verdict_cold({.dmoc = 950, .hamiltonian = 950, .tangent = 950, .start_kind = "warm"}),
-            ClaimVerdict::not_yet);
-  EXPECT_EQ(verdict_cold({.dmoc = 1001, .hamiltonian = 950, .tangent = 950}), ClaimVerdict::not_yet);
-  EXPECT_EQ(verdict_cold({.dmoc = 0.5, .hamiltonian = 1, .tangent = 1}), ClaimVerdict::not_yet);
-  EXPECT_EQ(verdict_cold({.starts = 0.0}), ClaimVerdict::not_yet);
+            ClaimVerdict::not_judged);
+  EXPECT_EQ(verdict_cold({.dmoc = 1001, .hamiltonian = 950, .tangent = 950}), ClaimVerdict::not_judged);
+  EXPECT_EQ(verdict_cold({.dmoc = 0.5, .hamiltonian = 1, .tangent = 1}), ClaimVerdict::not_judged);
+  EXPECT_EQ(verdict_cold({.starts = 0.0}), ClaimVerdict::not_judged);
 }
 
 TEST(ColdStartClaims, AreOursAndNameTheirStarts) {
-  for (const std::string id : {"cold_starts_confirmed_as_often", "cold_starts_best_as_often"}) {
+  for (const std::string id : {"cold_starts_confirmed", "cold_starts_best"}) {
     const JudgedClaim claim = judged_cold({.dmoc = 950, .hamiltonian = 950, .tangent = 950}, id);
     EXPECT_EQ(claim.whose, Whose::ours);
     EXPECT_NE(claim.states.find("cold"), std::string::npos);

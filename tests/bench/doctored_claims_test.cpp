@@ -122,7 +122,7 @@ TEST_F(DoctoredClaims, AreAllReproducedByWholeTables) {
     EXPECT_EQ(claim.measured.find("has no column"), std::string::npos) << id << ": " << claim.measured;
     if (claim.verdict == ClaimVerdict::reproduced) ++reproduced;
     const bool is_judged = (id.starts_with(orbit) || id.starts_with("simulations")) && id != told_otherwise;
-    if (is_judged) {
+    if (is_judged && claim.verdict != ClaimVerdict::measured) {
       EXPECT_EQ(claim.verdict, ClaimVerdict::reproduced) << id << ": " << claim.measured;
     }
   }
@@ -158,7 +158,7 @@ TEST_F(DoctoredClaims, AreNeverReproducedWhereANumberThatDecidesIsNone) {
         ++deciding;
         for (const auto& [id, claim] : doctored("5e-324")) {  // finite, but ratios to it are not
           if (claim.measured.find(" inf ") == std::string::npos) continue;
-          EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << name << ": " << column << ": " << claim.measured;
+          EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << name << ": " << column << ": " << claim.measured;
         }
         for (const std::string& text : no_numbers) {
           Judgements judged = doctored(text);
@@ -189,7 +189,7 @@ struct Deciding {
   std::vector<std::string> claims;
 };
 
-TEST_F(DoctoredClaims, SayNotYetAndNameTheColumn) {
+TEST_F(DoctoredClaims, SayNotJudgedAndNameTheColumn) {
   const std::vector<Deciding> all{
       {"objective", "objective", {"objective_evolution"}},
       {"structure_momentum", "defect", {"simulations/forced_noether_theorem", "simulations/momentum_preserved"}},
@@ -204,13 +204,12 @@ TEST_F(DoctoredClaims, SayNotYetAndNameTheColumn) {
       {"equivalence", "adjoint_residual", {"order_of_adjoint_scheme"}},
       {"equivalence", "adjoint_residual_by_plain_coefficients", {"order_of_adjoint_scheme"}},
       {"consistency", "momentum_defect_max", {"momentum_consistency"}},
-      {"iterations", "minor_iterations", {"minor_iteration_ratio", "minor_iteration_ratio_from_a_crash_basis"}},
+      {"iterations", "minor_iterations", {"minor_iteration_ratio", "minor_iterations_saved_in_phase_1"}},
       {"structure_advantage_ratios", "round_ratios", {"collocation_more_expensive"}},
-      {"structure_energy_behaviour", "change", {"simulations/modified_energy"}},
-      {"local_minima_minima", "objective", {"local_minima"}},
-      {"local_minima_minima", "hamiltonian", {"local_minima"}},
-      {"local_minima_shares", "share_lower", {"best_minimum_share"}},
-      {"local_minima_shares", "share_upper", {"best_minimum_share"}},
+      {"structure_energy_behaviour", "change", {"simulations/energy_does_not_drift"}},
+      {"local_minima_minima", "objective", {"examples/local_minima"}},
+      {"local_minima_minima", "hamiltonian", {"examples/local_minima"}},
+      {"local_minima_shares", "solved", {"examples/local_minima"}},
       {"convergence_indirect_reference", "cost", {"objective_evolution"}},
       {"convergence_equal_accuracy",
        "variables_ratio",
@@ -219,7 +218,7 @@ TEST_F(DoctoredClaims, SayNotYetAndNameTheColumn) {
   const auto expect = [](Judgements judged, const Deciding& deciding, const std::string& what) {
     for (const std::string& claim : deciding.claims) {
       const JudgedClaim& found = judged[id_of(claim)];
-      EXPECT_EQ(found.verdict, ClaimVerdict::not_yet) << claim << " with " << deciding.column << " " << what;
+      EXPECT_EQ(found.verdict, ClaimVerdict::not_judged) << claim << " with " << deciding.column << " " << what;
       EXPECT_NE(found.measured.find(deciding.table + ".csv"), std::string::npos) << found.measured;
       EXPECT_NE(found.measured.find(deciding.column), std::string::npos) << found.measured;
     }
@@ -236,8 +235,8 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
   const std::filesystem::path file = folder() / (name + ".csv");
   const auto expect = [&](const std::string& sentence) {
     Judgements judged = judge();
-    const JudgedClaim& claim = judged["orbital_transfer/local_minima"];
-    EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << sentence;
+    const JudgedClaim& claim = judged["examples/local_minima"];
+    EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << sentence;
     EXPECT_NE(claim.measured.find(sentence), std::string::npos) << claim.measured;
     EXPECT_EQ(judged["simulations/symplectic"].verdict, ClaimVerdict::reproduced);
     std::filesystem::remove(file);
@@ -262,9 +261,9 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
   std::filesystem::remove(metadata);
   expect("there is no .json beside it");
   std::filesystem::rename(metadata, folder() / "local_minima.json");
-  EXPECT_EQ(judge()["orbital_transfer/local_minima"].verdict, ClaimVerdict::reproduced) << "its run has a shorter name";
+  EXPECT_EQ(judge()["examples/local_minima"].verdict, ClaimVerdict::reproduced) << "its run has a shorter name";
   write_file(folder() / "own_notes.csv", "a,b\n1\n");
-  EXPECT_EQ(judge()["orbital_transfer/local_minima"].verdict, ClaimVerdict::reproduced);
+  EXPECT_EQ(judge()["examples/local_minima"].verdict, ClaimVerdict::reproduced);
 }
 
 TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
@@ -272,7 +271,7 @@ TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
   const Rows& rows = rows_.at("objective");
   const auto expect = [&](const std::string& sentence) {
     const JudgedClaim claim = judge()["orbital_transfer/objective_evolution"];
-    EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << sentence;
+    EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << sentence;
     EXPECT_NE(claim.measured.find(sentence), std::string::npos) << claim.measured;
     write("objective", columns, rows);
   };
@@ -294,7 +293,7 @@ TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
 }
 
 /// A table that was changed behind its run is told by its checksum, whatever was changed in whichever table.
-TEST_F(DoctoredClaims, AreNotYetWhereAnyTableIsNotAsItsRunWroteIt) {
+TEST_F(DoctoredClaims, AreNotJudgedWhereAnyTableIsNotAsItsRunWroteIt) {
   for (const auto& [name, columns] : columns_) {
     Rows doctored = rows_.at(name);
     Row& last = doctored.back();
@@ -307,7 +306,7 @@ TEST_F(DoctoredClaims, AreNotYetWhereAnyTableIsNotAsItsRunWroteIt) {
     for (const JudgedClaim& claim : std::views::values(judged)) {
       if (claim.measured.find(name + ".csv is not as its run wrote it") == std::string::npos) continue;
       is_told = true;
-      EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << claim.id;
+      EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << claim.id;
     }
     EXPECT_TRUE(is_told) << name;
     write(name, columns, rows_.at(name));
@@ -318,7 +317,7 @@ TEST_F(DoctoredClaims, NameTheOrdersThatOneRowLacks) {
   const std::string name = "convergence_indirect_slopes";
   write(name, columns_.at(name), {rows_.at(name).front()});
   const JudgedClaim claim = judge()["orbital_transfer/order_of_convergence"];
-  EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet);
+  EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged);
   EXPECT_NE(claim.measured.find("no order of momentum for orbital_transfer, dmoc, gauss 2"), std::string::npos)
       << claim.measured;
 }
@@ -328,9 +327,159 @@ TEST_F(DoctoredClaims, CountTheRowsThatTheyLeaveOutNameThemAndSayWhomThatFavours
     return row.text("derivatives") == "finite_differences" && row.text("method") == "dmoc";
   };
   const std::string measured =
-      with("derivatives", "status", "step failed", is_stray)["orbital_transfer/adolc_faster_than_differences"].measured;
+      with("derivatives", "status", "step failed", is_stray)["orbital_transfer/derivatives_beside_central_differences"]
+          .measured;
   EXPECT_NE(measured.find("4 of 6 rows left out"), std::string::npos) << measured;
   EXPECT_NE(measured.find("in favour of finite_differences by dmoc (2: N = 16, 1024)"), std::string::npos) << measured;
+}
+
+/// The predicate of a claim: the same on every problem.
+std::string predicate_of(const std::string& id) { return id.substr(id.find('/') + 1); }
+
+/// What tables may hold in the place of a text.
+std::vector<std::string> alternatives_to(const std::string& column, const std::string& text) {
+  if (column == "status") return {"step failed", "solved"};
+  if (column == "is_motion") return {"no"};
+  if (text.find(' ') != std::string::npos) {  // numbers, one of each round
+    return {joined_numbers(std::vector<double>(11, 1e-3)), joined_numbers(std::vector<double>(11, 1e3))};
+  }
+  return {"1e30", "-1e30", "1e-30", "0", "0.37", "1", "2"};
+}
+
+/// All rows, and the rows with one text in a column of few texts.
+std::vector<tests::Where> groups_of(const Rows& rows, const ColumnNames& columns) {
+  std::vector<tests::Where> groups{[](const Row&) { return true; }};
+  for (const std::string& column : columns) {
+    std::set<std::string> texts;
+    for (const Row& row : rows) texts.insert(row.text(column));
+    constexpr std::size_t few = 8;
+    if (texts.size() < 2 || texts.size() > few) continue;
+    for (const std::string& text : texts) groups.push_back(tests::has(column, text));
+  }
+  return groups;
+}
+
+/// Predicates with the verdicts that tables lead them to.
+class ReachedVerdicts {
+ public:
+  ReachedVerdicts() {
+    for (const auto& [name, rows] : rows_) tables_.add(name, tests::declared_table(name, rows));
+    note(judge_claims(tables_));
+  }
+  /// Doctors every column that a predicate without both verdicts reads, group by group.
+  void doctor() {
+    for (const auto& [name, rows] : rows_) {
+      const std::set<std::string> read = columns_read_of(name + ".csv");
+      const ColumnNames columns = tests::declared_columns(name);
+      if (read.empty()) continue;
+      for (const tests::Where& is_in_group : groups_of(rows, columns)) {
+        for (const std::string& column : read) doctor(name, column, is_in_group);
+      }
+      tables_.add(name, tests::declared_table(name, rows));
+    }
+  }
+  [[nodiscard]] std::vector<std::string> without_both() const {
+    std::vector<std::string> names;
+    for (const auto& [name, reached] : verdicts_) {
+      const bool is_decided = !by_counting_.contains(name) && !reached.contains(ClaimVerdict::measured);
+      if (is_decided && !(reached.contains(ClaimVerdict::reproduced) && reached.contains(ClaimVerdict::differs)))
+        names.push_back(name);
+    }
+    return names;
+  }
+  [[nodiscard]] std::size_t count() const { return verdicts_.size(); }
+
+ private:
+  void note(const std::vector<JudgedClaim>& claims) {
+    for (const JudgedClaim& claim : claims) {
+      const std::string name = predicate_of(claim.id);
+      verdicts_[name].insert(claim.verdict);
+      if (claim.by_counting) by_counting_.insert(name);
+      for (const ReadRows& read : claim.rows) read_[name][read.table].insert(read.columns.begin(), read.columns.end());
+    }
+  }
+  [[nodiscard]] std::set<std::string> columns_read_of(const std::string& table) {
+    std::set<std::string> columns;
+    for (const std::string& name : without_both()) columns.insert(read_[name][table].begin(), read_[name][table].end());
+    return columns;
+  }
+  void doctor(const std::string& name, const std::string& column, const tests::Where& is_in_group) {
+    const std::vector<std::string> open = without_both();
+    if (std::ranges::none_of(open,
+                             [&](const std::string& claim) { return read_[claim][name + ".csv"].contains(column); }))
+      return;
+    const Rows& rows = rows_.at(name);
+    const auto one =
+        std::ranges::find_if(rows, [&](const Row& row) { return is_in_group(row) && !row.text(column).empty(); });
+    if (one == rows.end() || (!one->number(column) && alternatives_to(column, one->text(column)).size() > 2)) return;
+    for (const std::string& text : alternatives_to(column, one->text(column))) {
+      Rows doctored = rows;
+      for (Row& row : doctored) {
+        if (is_in_group(row) && !row.text(column).empty()) row.set(column, text);
+      }
+      tables_.add(name, tests::declared_table(name, doctored));
+      note(
+          judge_claims(tables_, [&](const std::string& id) { return std::ranges::count(open, predicate_of(id)) > 0; }));
+    }
+  }
+
+  std::map<std::string, Rows> rows_ = tests::all_rows();
+  ResultTables tables_;
+  std::map<std::string, std::set<ClaimVerdict>> verdicts_;
+  std::map<std::string, std::map<std::string, std::set<std::string>>> read_;  ///< columns, by predicate and table
+  std::set<std::string> by_counting_;
+};
+
+TEST(EveryPredicate, IsReproducedByOneTableAndDiffersByAnother) {
+  ReachedVerdicts reached;
+  reached.doctor();
+  std::vector<std::string> open = reached.without_both();
+  // Slopes of forces and transforms are those of the theorem, or a power less.
+  std::erase(open, "order_theorem_with_one_power_less");
+  EXPECT_TRUE(open.empty()) << fmt::format("cannot reach both verdicts: {}", fmt::join(open, ", "));
+  EXPECT_GT(reached.count(), 60U);
+}
+
+/// Where solves fail, or end on another branch, a claim is judged by the others or not at all.
+TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
+  const std::map<std::string, Rows> all = tests::all_rows();
+  ResultTables tables;
+  for (const auto& [name, rows] : all) tables.add(name, tests::declared_table(name, rows));
+  std::set<std::string> before;
+  for (const JudgedClaim& claim : judge_claims(tables)) {
+    if (claim.verdict == ClaimVerdict::differs) before.insert(claim.id);
+  }
+  std::size_t failed = 0;
+  for (const auto& [name, rows] : all) {
+    for (const auto& [column, text] : {std::pair("status", "step failed"), std::pair("branch", "other")}) {
+      if (std::ranges::count(tests::declared_columns(name), column) == 0) continue;
+      for (const tests::Where& fails : groups_of(rows, {"method", "intervals", "derivatives", "tableau", "stages"})) {
+        Rows doctored = rows;
+        for (Row& row : doctored) {
+          if (fails(row)) row.set(column, text);
+        }
+        tables.add(name, tests::declared_table(name, doctored));
+        ++failed;
+        for (const JudgedClaim& claim : judge_claims(tables)) {
+          // It is about failures.
+          if (predicate_of(claim.id) == "automatic_differentiation_more_robust" || before.contains(claim.id)) continue;
+          EXPECT_NE(claim.verdict, ClaimVerdict::differs)
+              << name << ": " << text << ": " << claim.id << ": " << claim.measured;
+        }
+      }
+    }
+    tables.add(name, tests::declared_table(name, rows));
+  }
+  EXPECT_GT(failed, 50U);
+}
+
+TEST(EveryPredicate, OfThePaperDrawsALine) {
+  ResultTables tables;
+  for (const auto& [name, rows] : tests::all_rows()) tables.add(name, tests::declared_table(name, rows));
+  for (const JudgedClaim& claim : judge_claims(tables)) {
+    if (claim.whose != Whose::paper) continue;
+    EXPECT_NE(claim.verdict, ClaimVerdict::measured) << claim.id;
+  }
 }
 
 }  // namespace

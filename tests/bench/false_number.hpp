@@ -33,7 +33,7 @@ inline ClaimVerdict verdict_with(const FalseNumber& doctored) {
     if (judged.id == doctored.claim) return judged.verdict;
   }
   ADD_FAILURE() << "no claim " << doctored.claim;
-  return ClaimVerdict::not_yet;
+  return ClaimVerdict::not_judged;
 }
 
 /// Each claim is reproduced by the tables as they are, and differs with its false number.
