@@ -158,6 +158,22 @@ Finding order_of_stage_controls(const ResultTables& tables, const std::string& p
                orders.in_words(", ", words), not_in(all, tables, problem));
 }
 
+Finding order_eight(const ResultTables& tables, const std::string& problem) {
+  const Selection all =
+      orders_of(tables, problem, {"state", "costate", "control_from_costate"}).where([](const Row& row) {
+        return row.text("tableau") == "gauss" && row.text("stages") == "4";
+      });
+  const Selection orders = fitted_of(all);
+  require(!orders.empty(), "convergence_indirect_slopes.csv has no fitted order for {} by gauss 4", problem);
+  const auto is_eight = [](const Row& row) { return verdict_on_order(row, 8.0); };
+  const auto words = [](const Row& row) {
+    return fmt::format("{} {}: {:.2f} (N = {} to {})", row.text("method"), row.text("quantity"), *fitted_order(row),
+                       row.text("coarsest"), row.text("finest"));
+  };
+  return found(verdict_on_all(orders, is_eight), "slopes with four Gauss stages: {}{}", orders.in_words(", ", words),
+               not_in(all, tables, problem));
+}
+
 }  // namespace
 
 /// Orders of state and costate for every tableau.
@@ -169,6 +185,13 @@ Claims order_claims() {
            .judge = order_of_convergence,
            .condition = "the optimum is smooth, and its final state is fixed, which the theorem leaves out",
            .evidence = {"convergence_indirect_slopes.csv", "convergence_indirect.csv", "figures/{}_orders.svg"}},
+          {.id = "order_eight_of_four_stages",
+           .problems = only_orbit,
+           .where = "section 3.6, main_theorem",
+           .states = "four Gauss stages have order 8 in state, costate and u(x, psi)",
+           .judge = order_eight,
+           .condition = "rounding leaves few grids: the fit needs four above it",
+           .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}},
           {.id = "order_of_adjoint_scheme",
            .where = "section 3.5, th:orderapp, eq:stateco5-eq:stateco9",
            .whose = Whose::paper,

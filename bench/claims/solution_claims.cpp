@@ -163,32 +163,74 @@ Finding tangent_coincides(const ResultTables& tables, const std::string& problem
                rows.size(), largest.primal, largest.costates, left_out(all, rows));
 }
 
+/// The solutions of some methods by the midpoint rule in the two forms of the control Lagrangian: residuals in their
+/// own form have to be rounding, residuals in the other form far more on every grid.
+Finding form_of_control_lagrangian(const ResultTables& tables, const std::string& problem,
+                                   const std::vector<std::string>& methods, const char* own, const char* other) {
+  const Selection all = tables.rows("equivalence", problem).where([&](const Row& row) {
+    return is_midpoint(row) && std::ranges::count(methods, row.text("method")) > 0;
+  });
+  const Selection rows = all.usable();
+  require(rows.size() > 1, "equivalence.csv has {} solved rows of {} by {} with the midpoint rule; two are needed",
+          rows.size(), problem, fmt::join(methods, " and "));
+  const double rounding = rows.max(own);
+  const double least = rows.min(other);
+  return found(rounding < equal_costates_tolerance && least > clearly_larger * rounding,
+               "residuals on {} grids: in their own form at most {:.0e}, in the other form {:.0e} to {:.0e}{}",
+               rows.size(), rounding, least, rows.max(other), left_out(all, rows));
+}
+
+Finding dmoc_is_the_forced_form(const ResultTables& tables, const std::string& problem) {
+  return form_of_control_lagrangian(tables, problem, {"dmoc", "hamiltonian"}, "forced_form_residual",
+                                    "acceleration_form_residual");
+}
+
+Finding tangent_is_the_acceleration_form(const ResultTables& tables, const std::string& problem) {
+  return form_of_control_lagrangian(tables, problem, {"tangent"}, "acceleration_form_residual", "forced_form_residual");
+}
+
 }  // namespace
 
 /// Momentum-force consistency, methods with equal solutions.
 Claims solution_claims() {
   const Wording section{"section 4.2.1", "section 4.2.2"};
   const std::vector<std::string> equivalence{"equivalence.csv", "figures/{}_equivalence.svg"};
-  return {{.id = "momentum_consistency",
-           .where = section,
-           .figure = Wording("fig:kepler_J", "fig:twolink_obj b)"),
-           .whose = Whose::paper,
-           .states = "change in momentum equals the forces to numerical accuracy for DMOC and Hamiltonian collocation, "
-                     "not for tangent-space collocation",
-           .judge = momentum_consistency,
-           .evidence = {"consistency.csv", "figures/{}_momentum.svg"}},
-          {.id = "equal_solutions",
-           .where = "section 3.4, th:equi, equ_L_RK, ex:RK",
-           .whose = Whose::paper,
-           .states = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
-           .judge = equal_solutions,
-           .condition = "fixed ends, no inequality is active, answers are refined by Newton steps",
-           .evidence = equivalence},
-          {.id = "tangent_differs",
-           .where = section,
-           .states = "collocation on the tangent space is another discretisation: its solutions are not those of DMOC",
-           .judge = tangent_differs,
-           .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}}};
+  return {
+      {.id = "momentum_consistency",
+       .where = section,
+       .figure = Wording("fig:kepler_J", "fig:twolink_obj b)"),
+       .whose = Whose::paper,
+       .states = "change in momentum equals the forces to numerical accuracy for DMOC and Hamiltonian collocation, "
+                 "not for tangent-space collocation",
+       .judge = momentum_consistency,
+       .evidence = {"consistency.csv", "figures/{}_momentum.svg"}},
+      {.id = "equal_solutions",
+       .where = "section 3.4, th:equi, equ_L_RK, ex:RK",
+       .whose = Whose::paper,
+       .states = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
+       .judge = equal_solutions,
+       .condition = "fixed ends, no inequality is active, answers are refined by Newton steps",
+       .evidence = equivalence},
+      {.id = "tangent_differs",
+       .where = section,
+       .states = "collocation on the tangent space is another discretisation: its solutions are not those of DMOC",
+       .judge = tangent_differs,
+       .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}},
+      {.id = "dmoc_is_the_forced_form",
+       .where = "section 5",
+       .states = "by the midpoint rule the optimality conditions of DMOC and Hamiltonian collocation are the discrete "
+                 "Euler-Lagrange equations of the control Lagrangian C + xi (L_q + f) + xi' L_v",
+       .judge = dmoc_is_the_forced_form,
+       .condition = "the multiplier xi is the costate of the momentum; ends are fixed and no inequality is active",
+       .evidence = {"equivalence.csv"}},
+      {.id = "tangent_is_the_acceleration_form",
+       .where = "section 5",
+       .states = "the optimality conditions of tangent-space collocation are the discrete equations of another form "
+                 "of it, C + xi q'' + xi' q' with q'' a function of (q, q', u)",
+       .judge = tangent_is_the_acceleration_form,
+       .condition = "the multiplier xi is L_vv times the costate of the momentum; the forms are equal where L_vv and "
+                    "L_vq are constant",
+       .evidence = {"equivalence.csv"}}};
 }
 
 /// Where tangent-space collocation has the solutions of DMOC.
@@ -196,7 +238,8 @@ Claims coincidence_claims() {
   return {{.id = "tangent_coincides",
            .problems = Problems(1, oscillator),
            .where = "section 3.4, ex:RK",
-           .states = "where L_vv is constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
+           .states =
+               "where L_vv and L_vq are constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
            .judge = tangent_coincides,
            .evidence = {"equivalence.csv", "figures/{}_equivalence.svg"}}};
 }

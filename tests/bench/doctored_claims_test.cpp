@@ -202,6 +202,7 @@ TEST_F(DoctoredClaims, SayNotJudgedAndNameTheColumn) {
       {"equivalence", "costate_difference", {"equal_solutions"}},
       {"equivalence", "objective_difference", {"equal_solutions"}},
       {"equivalence", "adjoint_residual", {"order_of_adjoint_scheme"}},
+      {"equivalence", "forced_form_residual", {"dmoc_is_the_forced_form", "tangent_is_the_acceleration_form"}},
       {"equivalence", "adjoint_residual_by_plain_coefficients", {"order_of_adjoint_scheme"}},
       {"consistency", "momentum_defect_max", {"momentum_consistency"}},
       {"iterations", "minor_iterations", {"minor_iteration_ratio", "minor_iterations_saved_in_phase_1"}},

@@ -86,6 +86,8 @@ std::vector<Mistake> mistakes_about_solutions() {
        on_orbit("momentum_consistency")},
       {"costates that differ", "equivalence", set(has("method", "hamiltonian"), "costate_difference", 1e-6),
        on_orbit("equal_solutions")},
+      {"a solution of DMOC in the other form of the control Lagrangian", "equivalence",
+       set(has("method", "hamiltonian"), "forced_form_residual", 1e-5), on_orbit("dmoc_is_the_forced_form")},
       {"DMOC's motion replayed half as well", "convergence", scale(has("method", "dmoc"), "replay_error", 2.0),
        on_orbit("replay_beside_tangent")},
       {"an order at the nodes that is that of the stages", "convergence_indirect_slopes",

@@ -98,6 +98,8 @@ inline Rows equivalence_rows() {
   for (Row& row : rows_on_grids([&](Row& row, bool tangent, double h) {
          if (row.text("method") != "dmoc") set_differences(row, tangent ? h * h : 1e-13);
          if (row.text("method") == "hamiltonian") row.set("adjoint_residual", 1e-12);
+         row.set("forced_form_residual", tangent ? h * h : 1e-11);
+         row.set("acceleration_form_residual", tangent ? 1e-11 : h * h);
        })) {
     if (row.text("method") != "dmoc") rows.push_back(row);
   }
@@ -125,6 +127,12 @@ inline Rows indirect_slope_rows() {
            })) {
         rows.push_back(row);
       }
+      Row four_stages = rows.front();
+      four_stages.set("method", method);
+      four_stages.set("quantity", quantity);
+      four_stages.set("stages", 4LL);
+      four_stages.set("slope", quantity == std::string("control") ? 5.0 : 8.02);
+      rows.push_back(four_stages);
     }
   }
   return rows;
