@@ -19,24 +19,24 @@ do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
   unset logscale; set autoscale
   stats rows("adaptive_steps", problem_word.",method=dmoc", "step") using (column("t") + column("step")) name "T" nooutput
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_adaptive", 1000, 640)
-    set multiplot title title_text(problem_label(problem).": steps of adapted grids",\
-        "DMOC, Gauss with s stages, an error of 1e-8 of q, p and cost relative to their ranges.",\
-        "Above: length of every step; below: the motion at the nodes for s = 3.") offset 0, -0.4
-    set lmargin at screen 0.1; set rmargin at screen 0.97
-    set tmargin at screen 0.85; set bmargin at screen 0.42
+    eval begin_figure(kind, problem."_adaptive", 680)
+    figure_title = title_text(problem_label(problem).": steps of adapted grids",\
+        "Paper: “Adaptive Time Steps”, section 5. DMOC, Gauss with s stages, an error of 1e-8 of q, p and cost relative to their ranges.",\
+        "Above: length of every step; below: the motion at the nodes for s = 3.")
+    eval title_above
+    eval place(90, 750, 310, top_of_panels(figure_title) + 15)
     set xrange [0:T_max]
     set logscale y 10; set format y "%g"
     set format x ""
     unset xlabel
-    set ylabel "step {/:Italic h}"
-    set key at screen 0.5, screen 0.01 center bottom vertical maxrows 1 width 2 samplen 2
+    set ylabel "step {/:Italic h}" offset 1
+    set key at screen 0.5, screen 0.01 center bottom vertical maxrows 2 width 1 samplen 2
     plot for [where in stages] rows("adaptive_steps", where.",method=dmoc", "step") using "t":"step"\
            with steps linecolor rgb colour_of_stages(entry(where, "stages")) linewidth 2 dashtype 1 title label(where)
-    set tmargin at screen 0.39; set bmargin at screen 0.16
+    eval place(90, 750, 130, 290)
     unset logscale y; set format x "%g"
     set xlabel "{/:Italic t}"
-    set ylabel "q_1 / max |q_1|"
+    set ylabel "q_1 / max |q_1|" offset 1.5
     unset key
     plot "< ".rows_awk("-v where='".problem_word.",method=dmoc,stages=3'", "adaptive_steps") using "t":"motion"\
            with linespoints linecolor rgb grey pointtype 7 pointsize 0.5
@@ -51,20 +51,21 @@ do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
 eval require("adaptive_effectivity", "problem,method,stages,grid,quantity,effectivity,relative_error,verdict")
 quantities = "state momentum costate objective"
 do for [kind in kinds] {
-  eval begin_figure(kind, "adaptive_effectivity", 1200, 640)
-  set multiplot layout 1, 4 title title_text("Estimated error over true error",\
-      "Every problem, one and two stages, uniform grids with N = 64 and 128 and grids adapted to 1e-4 or 1e-6.",\
-      "True errors are those against the indirect solution, above rounding; broken lines: 0.3 and 3.")\
-      offset 0, -0.4 margins 0.07, 0.985, 0.24, 0.78 spacing 0.02
+  eval begin_figure(kind, "adaptive_effectivity", 800)
+  figure_title = title_text("Estimated error over true error",\
+      "Paper: “Adaptive Time Steps”, section 5. Every problem, one and two stages, uniform grids with N = 64 and 128 and grids adapted to 1e-4 or 1e-6.",\
+      "True errors: against the indirect solution, above rounding; broken lines: 0.3 and 3.")
+  eval panels(2, 2, 80, 25, 115, 20, 45)
   do for [quantity in quantities] {
     eval power_axis("xy")
     set xtics 1e-11, 1e3
-    set format y (quantity eq "state" ? "%g" : "")
+    set format y (quantity eq "state" || quantity eq "costate" ? "%g" : "")
+    set format x (quantity eq "state" || quantity eq "momentum" ? "" : "10^{%T}")
     set yrange [0.1:10]
-    set xlabel "largest relative error"
-    set ylabel quantity eq "state" ? "estimated / true error" : ""
+    set xlabel (quantity eq "state" || quantity eq "momentum" ? "" : "largest relative error")
+    set ylabel (quantity eq "state" || quantity eq "costate" ? "estimated / true error" : "") offset 1
     set title quantity
-    set key at screen 0.5, screen 0.02 center bottom vertical maxrows 1 width 2
+    eval key_below
     plot 0.3 with lines linetype 8, 3 with lines linetype 8,\
          for [method in paper_families]\
            rows("adaptive_effectivity", "method=".method.",verdict=measured,quantity=".quantity, "effectivity")\

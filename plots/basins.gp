@@ -39,23 +39,24 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
   cost_of(number) = system("printf %.4g ".entry(distinct(basins, "objective", group.",minimum=".number, ""), "objective"))
   has(where) = system(rows_awk("-v take=all -v distinct=problem -v where='".group.",".where."'", basins)) ne ""
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_basins", 460 * words(methods) + 60, 640)
-    set multiplot layout 1, words(methods) title title_text(problem_label(problem).": where the starts of a plane end",\
-        sprintf("Cold starts by %s: the guess with bulges sin({/Symbol p}t/T) in q_1 and q_2; N = %s, %d × %d starts per method.",\
+    eval begin_figure(kind, problem."_basins", 490)
+    figure_title = title_text(problem_label(problem).": where the starts of a plane end",\
+        sprintf("Paper: “Global Minima”, section 5. Cold starts by %s: the guess with bulges sin(πt/T) in both coordinates; N = %s,"\
+        ." %d × %d starts per method.",\
         solver_label(entry(word(distinct(basins, "solver", group, ""), 1), "solver")), entry(group, "intervals"), places, places),\
-        "Dark: not solved, or no motion. Grey: an answer whose intervals, replayed one by one, do not join.")\
-        offset 0, -0.4 margins 0.07, 0.985, 0.24, 0.76 spacing 0.045
+        "Dark: not solved, or no motion. Grey: an answer whose intervals, replayed one by one, do not join.")
+    eval panels(1, words(methods), 85, 15, 140, 20, 0)
     set xrange [B_min - half:B_max + half]
     set yrange [B_min - half:B_max + half]
     set size ratio 1
     unset grid
     set xlabel "bulge in q_1 [range of q_1]"
-    set ylabel "bulge in q_2 [range of q_2]"
+    set ylabel "bulge in q_2 [range of q_2]" offset 1
     set style fill solid 1.0 noborder
     do for [i = 1:words(methods)] {
       method = word(methods, i)
-      set title method_label(method)
-      if (i == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 1 width 1 } else { unset key }
+      set title method_label(method) font ",12"
+      if (i == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 2 width 0 font ",12" samplen 1.5 } else { unset key }
       colour_here(byte) = colour_of(stringcolumn("status"), column("minimum"), stringcolumn("is_motion"))
       part(byte) = int(colour_here(byte)) / 256**byte % 256
       # An image of pixels takes a tenth of the bytes of as many boxes.
@@ -68,8 +69,10 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
            NaN with boxes linecolor rgb no_motion_colour title has("is_motion=no") ? "no motion" : "",\
            NaN with boxes linecolor rgb unsolved_colour title has("is_motion=") ? "unsolved" : ""
       unset ylabel
+      set format y ""
     }
     unset multiplot
+    set format y "%g"
     set size noratio
     eval end_figure(kind, problem."_basins")
   }

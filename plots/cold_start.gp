@@ -10,7 +10,8 @@ eval require(shares, "problem,method,tableau,stages,solver,intervals,start_kind,
     "solved_upper,confirmed_share,confirmed_lower,confirmed_upper,best_share,best_lower,best_upper")
 eval require(profiles, "problem,method,tableau,stages,solver,intervals,start_kind,measure,budget,share")
 
-dash(method) = method_style(method) == 1 ? 1 : method_style(method) + 1
+# Steps too short for dashes: broad lines below, narrow ones above.
+width_of(method) = method_style(method) == 1 ? 4 : method_style(method) == 2 ? 2.4 : 1.2
 counted = "solved confirmed best"
 counted_points = "6 7 9"
 counted_labels = "'solved' 'solved and confirmed' 'on the best branch'"
@@ -35,11 +36,12 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
   solver_of_profiles = place_in(solvers, "interior_point") > 0 ? "interior_point" : word(solvers, 1)
   x_of(solver, method, c) = place_in(solvers, solver) + 0.27 * (place_in(methods, method) - 2) + 0.07 * (c - 2)
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_cold_start", 1400, 640)
-    set multiplot layout 1, 3 title title_text(problem_label(problem).": shares of cold starts, N = ".entry(scheme, "intervals"),\
-        what_is_counted,\
-        perturbed." Bars are 95 % intervals (Wilson). Tolerance ".told("cold_start", "tolerance").".") offset 0, -0.4
-    set lmargin at screen 0.055; set rmargin at screen 0.43; set tmargin at screen 0.8; set bmargin at screen 0.25
+    eval begin_figure(kind, problem."_cold_start", 940)
+    figure_title = title_text(problem_label(problem).": shares of cold starts, N = ".entry(scheme, "intervals"),\
+        "Paper: “Global Minima”, section 5. ".what_is_counted,\
+        perturbed." Bars are 95 % intervals (Wilson). Tolerance ".told("cold_start", "tolerance").".")
+    eval title_above
+    eval place(85, 755, 480, top_of_panels(figure_title))
     unset logscale
     set xtics nomirror scale 0 () font ",13"
     do for [solver in solvers] {
@@ -52,7 +54,7 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
     set yrange [0:1.03]
     set xlabel ""
     set ylabel "share of the cold starts"
-    set key at screen 0.24, screen 0.01 center bottom vertical maxrows 3 width 1 font ",12" samplen 2
+    set key at screen 0.5, screen upwards(365) center bottom vertical maxrows 3 width 1 font ",12" samplen 2
     plot for [method in methods] for [solver in solvers] for [c = 1:3]\
            rows(shares, where.",solver=".solver.",method=".method, "")\
            using (x_of(solver, method, c)):(column(word(counted, c)."_share")):(column(word(counted, c)."_lower")):\
@@ -66,16 +68,16 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
     unset key
     do for [measure in "evaluations seconds"] {
       is_left = measure eq "evaluations"
-      set lmargin at screen (is_left ? 0.5 : 0.755); set rmargin at screen (is_left ? 0.73 : 0.985)
+      eval place(is_left ? 85 : 445, is_left ? 400 : 750, 80, 340)
       eval power_axis("x")
-      set xtics nomirror scale 0.8 font ",13"
+      set xtics nomirror scale 0.8 font ",15"
       set autoscale x
       set format y (is_left ? "%.1f" : "")
-      set xlabel (is_left ? "evaluations" : "time of the solver [s]")
-      set ylabel (is_left ? "share solved and confirmed, ".solver_label(solver_of_profiles) : "")
+      set xlabel (is_left ? "evaluations, " : "time [s], ").solver_label(solver_of_profiles)
+      set ylabel (is_left ? "share solved and confirmed" : "")
       plot for [method in methods] steps_of(where.",solver=".solver_of_profiles, measure, method)\
            using (column("budget")):(column("share")) with steps linecolor rgb method_colour(method)\
-           linewidth (method_style(method) == 1 ? 3 : 1.8) dashtype dash(method) notitle
+           linewidth width_of(method) dashtype 1 notitle
     }
     unset multiplot
     eval end_figure(kind, problem."_cold_start")
@@ -89,27 +91,25 @@ if (words(problems) < 3) { exit }
 methods = values("method", where)
 count = words(problems)
 y_of(problem, method) = count + 1 - place_in(problems, problem) - 0.22 * (place_in(methods, method) - 2)
-height = 205 + 42 * count
 mean_where = "problem=every_problem,".where
 do for [kind in kinds] {
-  eval begin_figure(kind, "library_cold_start", 1400, height)
-  set multiplot layout 1, 3 title title_text("Every problem: shares of cold starts by interior point, N = "\
-      .word(values("intervals", where), 1), what_is_counted, "95 % intervals (Wilson), "\
+  eval begin_figure(kind, "library_cold_start", 290 + 30 * count)
+  figure_title = title_text("Every problem: shares of cold starts by interior point, N = "\
+      .word(values("intervals", where), 1), "Paper: “Global Minima”, section 5. ".what_is_counted, "95 % intervals (Wilson), "\
       .word(drawn_starts(where.",problem=".word(problems, count)), 1)." starts a problem and method, "\
-      .word(drawn_starts(where.",problem=".word(problems, 1)), 1)." on the paper’s problems. Right: mean of the problems’ shares.")\
-      offset 0, -0.3
-  set tmargin at screen 1 - 130.0 / height; set bmargin at screen 100.0 / height
+      .word(drawn_starts(where.",problem=".word(problems, 1)), 1)." on the paper’s problems.")
+  eval title_above
   do for [c = 2:3] {
-    set lmargin at screen (c == 2 ? 0.17 : 0.45); set rmargin at screen (c == 2 ? 0.43 : 0.71)
+    eval place(c == 2 ? 265 : 520, c == 2 ? 500 : 755, 105, top_of_panels(figure_title) + 20)
     unset logscale; unset mxtics
     set xtics nomirror 0, 0.2, 1; set format x "%.1f"
     set xrange [-0.02:1.02]
     set yrange [0.4:count + 0.6]
-    set ytics nomirror scale 0 ()
+    set ytics nomirror scale 0 () font ",12"
     do for [i = 1:count] { set ytics add ((c == 2 ? problem_label(word(problems, i)) : "") count + 1 - i) }
     set xlabel "share ".word(counted_labels, c)
     set ylabel ""
-    if (c == 2) { set key at screen 0.44, screen 0.004 center bottom vertical maxrows 1 width 3 } else { unset key }
+    if (c == 2) { eval key_below } else { unset key }
     plot for [method in methods] for [problem in problems] rows(shares, where.",problem=".problem.",method=".method, "")\
            using (column(word(counted, c)."_share")):(y_of(problem, method)):(column(word(counted, c)."_lower")):\
            (column(word(counted, c)."_upper")) with xerrorbars linecolor rgb method_colour(method) linewidth 1.4 dashtype 1\
@@ -117,16 +117,23 @@ do for [kind in kinds] {
          for [method in methods] keyentry with linespoints linecolor rgb method_colour(method) linewidth 1.4 dashtype 1\
            pointtype method_points(method) pointsize 0.7 title method_label(method)
   }
-  set lmargin at screen 0.775; set rmargin at screen 0.985
-  unset key
+  unset multiplot
+  eval end_figure(kind, "library_cold_start")
+
+  eval begin_figure(kind, "library_cold_start_budget", 520)
+  figure_title = title_text("Every problem: cold starts that are solved and confirmed within a budget",\
+      "Mean of the problems’ shares, by interior point; an evaluation is a call for values or derivatives.", "")
+  eval panels(1, 1, 85, 15, 115, 0, 0)
   eval power_axis("x")
   set autoscale x
   set yrange [0:1.03]
-  set ytics nomirror scale 0.8 0, 0.2, 1; set format y "%.1f"
+  set ytics nomirror scale 0.8 0, 0.2, 1 font ",15"; set format y "%.1f"
+  set xtics font ",15"
   set xlabel "evaluations"
   set ylabel "mean share solved and confirmed"
+  eval key_below
   plot for [method in methods] steps_of(mean_where, "evaluations", method) using (column("budget")):(column("share"))\
-       with steps linecolor rgb method_colour(method) linewidth (method_style(method) == 1 ? 3 : 1.8) dashtype dash(method) notitle
+       with steps linecolor rgb method_colour(method) linewidth width_of(method) dashtype 1 title method_label(method)
   unset multiplot
-  eval end_figure(kind, "library_cold_start")
+  eval end_figure(kind, "library_cold_start_budget")
 }

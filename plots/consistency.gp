@@ -15,8 +15,10 @@ do for [where in problems_of("consistency", "momentum_defect_max")] {
   eval set_range("x", x_low, x_high, 1.25)
   eval set_range("y", y_low, y_high, 10)
   set title title_text(problem_label(problem).": change of the momentum against the force, interval by interval",\
-      of_paper(problem, "kepler\\_J", "twolink\\_obj b)").conditions("consistency").".",\
-      "DMOC’s momenta are differences of positions over h: its curve holds their rounding and the solver’s residual.")
+      of_paper(problem, "fig:kepler\\_J", "fig:twolink\\_obj b)").conditions("consistency").".",\
+      "DMOC’s momenta are differences of positions over h: its curve shows their rounding and the residual of the solver."\
+      .for_paper(problem, " Paper: equal to numerical accuracy for DMOC and Hamiltonian collocation",\
+          " Paper: tangent-space collocation is less consistent than the other two"))
   set ylabel axis_label("largest momentum defect of an interval", problem, "momentum_unit")
   # A guide through the coarsest grid of tangent-space collocation.
   tangent = where.",method=tangent"
@@ -28,7 +30,7 @@ do for [where in problems_of("consistency", "momentum_defect_max")] {
     top = 3 * G_max
   }
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_momentum", 900, 600)
+    eval begin_figure(kind, problem."_momentum", 600)
     set ytics 10
     plot for [curve in curves] rows("consistency", curve, "momentum_defect_max")\
          using (column("intervals")):(column("momentum_defect_max"))\

@@ -8,7 +8,8 @@ eval require("consistency_order_slopes", "problem,tableau,stages,order,quantity,
 
 # Below this, errors are the rounding of the tableau's coefficients.
 smallest = 1e-16
-panels = "lagrangian left_force right_force map left_legendre right_legendre"
+# The figures, each with its panels.
+of_figure(name) = name eq "consistency_order" ? "lagrangian left_force right_force" : "map left_legendre right_legendre"
 panel_title(quantity) = quantity eq "lagrangian" ? "discrete Lagrangian L_d"\
     : quantity eq "map" ? "one-step map (q_0, p_0) ↦ (q_1, p_1)"\
     : quantity eq "left_force" ? "left discrete force f_d^{−}" : quantity eq "right_force" ? "right discrete force f_d^{+}"\
@@ -30,41 +31,45 @@ do for [problem_word in problems_of("consistency_order", "error")] {
   problem = entry(problem_word, "problem")
   curves = distinct("consistency_order", "problem,tableau,stages,order", problem_word, "error")
   orders = distinct("consistency_order", "order", problem_word, "error")
-  do for [kind in kinds] {
-    eval begin_figure(kind, problem."_consistency_order", 1700, 950)
-    set multiplot layout 2, 3 title title_text(problem_label(problem)\
-        .": DMOC’s discrete objects against the exact ones, r the order of the tableau",\
-        "Paper: th:ordercalculation, eq:DMOC\\_orderL, eq:DMOC\\_orderf and eq:DMOC\\_orderLeg state h^{r+1} for all of them.",\
-        "Legends hold fitted slopes. Grey guides: C h^r dashed, C h^{r+1} dotted. No solve: both end points are given.")\
-        offset 0, -0.4 margins 0.055, 0.89, 0.07, 0.86 spacing 0.155, 0.11
-    do for [quantity in panels] {
-      where = problem_word.",quantity=".quantity
-      eval measure("consistency_order", where, "h", "error")
-      # Guides start at the coarsest step's error of each order.
-      guides = ""
-      do for [order in orders] {
-        stats rows("consistency_order", where.",".order, "error")\
-              using (column("h") > 0.99 * x_high ? column("error") : NaN) name 'G' nooutput
-        guides = guides.sprintf(" %.6g,%d", G_min / 2, int(entry(order, "order")))
+  do for [figure in "consistency_order consistency_order_maps"] {
+    do for [kind in kinds] {
+      eval begin_figure(kind, problem."_".figure, 1000)
+      figure_title = title_text(problem_label(problem)\
+          .": DMOC’s discrete objects against the exact ones, r the order of the tableau",\
+          "Paper: section 2.3, definition and th:ordercalculation, state hʳ⁺¹ for all of them (eq:DMOC\\_orderL,"\
+          ." eq:DMOC\\_orderf, eq:DMOC\\_orderLeg).",\
+          "Legends show fitted slopes. Grey guides: C hʳ dashed, C hʳ⁺¹ dotted. No solve: both end points are given.")
+      eval panels(3, 1, 105, 205, 84, 0, 40)
+      do for [quantity in of_figure(figure)] {
+        where = problem_word.",quantity=".quantity
+        eval measure("consistency_order", where, "h", "error")
+        # Guides start at the coarsest step's error of each order.
+        guides = ""
+        do for [order in orders] {
+          stats rows("consistency_order", where.",".order, "error")\
+                using (column("h") > 0.99 * x_high ? column("error") : NaN) name 'G' nooutput
+          guides = guides.sprintf(" %.6g,%d", G_min / 2, int(entry(order, "order")))
+        }
+        eval power_axis("xy")
+        eval set_range("x", x_low, x_high, 1.2)
+        set yrange [smallest / 3:10 * y_high]
+        set title panel_title(quantity) offset 0, -0.5
+        last = word(of_figure(figure), 3)
+        set format x (quantity eq last ? "10^{%T}" : "")
+        set xlabel (quantity eq last ? "step {/:Italic h}, unit of time as solved" : "")
+        set ylabel formula(quantity) offset 1.5
+        set key at graph 1.03, graph 1 left top font ",12" samplen 2.5
+        plot for [guide in guides] number(up_to_comma(guide)) * (x / x_high)**number(guide[strstrt(guide, ",") + 1:*])\
+             with lines linetype 8,\
+             for [guide in guides] number(up_to_comma(guide)) * (x / x_high)**(1 + number(guide[strstrt(guide, ",") + 1:*]))\
+             with lines linetype 9,\
+             for [curve in curves] rows("consistency_order", curve.",quantity=".quantity, "error")\
+             using (column("h")):(column("error") > smallest ? column("error") : NaN)\
+             with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.8\
+             pointtype points_of(curve) dashtype dashes_of(curve) title curve_title(curve, quantity)
       }
-      eval power_axis("xy")
-      eval finer_tics("x")
-      eval set_range("x", x_low, x_high, 1.2)
-      set yrange [smallest / 3:10 * y_high]
-      set title panel_title(quantity) offset 0, -0.5
-      set xlabel "step {/:Italic h}, unit of time as solved"
-      set ylabel formula(quantity) offset 1.5
-      set key at graph 1.03, graph 1 left top font ",11" samplen 2.5
-      plot for [guide in guides] number(up_to_comma(guide)) * (x / x_high)**number(guide[strstrt(guide, ",") + 1:*])\
-           with lines linetype 8,\
-           for [guide in guides] number(up_to_comma(guide)) * (x / x_high)**(1 + number(guide[strstrt(guide, ",") + 1:*]))\
-           with lines linetype 9,\
-           for [curve in curves] rows("consistency_order", curve.",quantity=".quantity, "error")\
-           using (column("h")):(column("error") > smallest ? column("error") : NaN)\
-           with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.8\
-           pointtype points_of(curve) dashtype dashes_of(curve) title curve_title(curve, quantity)
+      unset multiplot
+      eval end_figure(kind, problem."_".figure)
     }
-    unset multiplot
-    eval end_figure(kind, problem."_consistency_order")
   }
 }

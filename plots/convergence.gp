@@ -21,7 +21,6 @@ guide_start(name, where, y) = sprintf(\
      stats rows('%s', '%s', '%s') using (abs(column('step') / x_guide - 1) < 0.01 ?\
          column('%s') : NaN) name 'G' nooutput;\
      y_guide = G_min / 3", name, where, y, name, where, y, y)
-reference_words(name) = strlen(told(name, "reference")) > 0 ? told(name, "reference") : "the finest grid of the same method"
 # Step of the reference among the rows without an error; 0 if the table holds no reference of its own.
 reference_step(name, where) = number(system(rows_awk("-v without=state_error -v where=".where, name).\
     " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"step\") c = i; next }\
@@ -55,17 +54,16 @@ do for [name in "convergence convergence_512"] {
         range = fit_range(name."_slopes", curve, quantity)
         if (strlen(range) > 0 && strstrt(fitted, range) == 0) { fitted = fitted.(strlen(fitted) > 0 ? " or " : "").range }
       }
-      guide_remark = one_stage && h_ref > 0\
-          ? " C (h² − h_{ref}²) is an error C h² measured against a reference of step h_{ref}." : ""
       set title title_text(problem_label(problem).": error of the ".quantity." over the step",\
-          (quantity eq "state" ? of_paper(problem, "kepler\\_error, left", "twolink\\_error a)")\
-              : of_paper(problem, "kepler\\_error, right", "twolink\\_error b)"))\
-              ."Against ".reference_words(name).". ".conditions(name).".",\
-          labelled("Slopes are fitted over ", sentence(fitted)).guide_remark)
+          (quantity eq "state" ? of_paper(problem, "fig:kepler\\_error, left", "fig:twolink\\_error a)")\
+              : of_paper(problem, "fig:kepler\\_error, right", "fig:twolink\\_error b)"))\
+              .for_paper(problem, "Paper: order 2 against N = 1024, h = 2.9e-3", "Paper: order 2 against N = 512, h = 1.9e-3")\
+              ."Here against ".reference_words(name, where).".",\
+          sentence(conditions(name)).labelled("Slopes are fitted over ", sentence(fitted)))
       set xlabel step_label(problem)
       set ylabel (quantity eq "state" ? state_label(problem) : control_label(problem))
       do for [kind in kinds] {
-        eval begin_figure(kind, figure, 900, 600)
+        eval begin_figure(kind, figure, 600)
         plot for [curve in curves] rows(name, curve, error) using (column("step")):(column(error))\
              with linespoints linetype method_style(entry(curve, "method"))\
              title with_slope(curve_label(name, curve), slope(name."_slopes", curve, quantity)),\
@@ -76,7 +74,7 @@ do for [name in "convergence convergence_512"] {
              for [k = 1:one_stage] y_guide * (x / x_guide)**2 with lines linetype 8 title "C h²",\
              for [k = 1:(one_stage && h_ref > 0)] x > h_ref\
              ? y_guide * (x**2 - h_ref**2) / (x_guide**2 - h_ref**2) : NaN with lines linetype 9\
-             title "C (h² − h_{ref}²)"
+             title "C (h² − H²), H the step of the reference"
         eval end_figure(kind, figure)
       }
     }
@@ -86,7 +84,7 @@ do for [name in "convergence convergence_512"] {
 name = "convergence_stages"
 if (!exists_table(name)) { exit }
 eval require(name, columns)
-set key at screen 0.7, graph 1 left top width -4 font ",12"
+set key at screen 0.5, screen 0.01 center bottom vertical maxrows 6 width -4 font ",12"
 without_collocation(label) = strstrt(label, " colloc") > 0 ? label[1:strstrt(label, " colloc") - 1] : label
 stage_label(curve) = without_collocation(method_label(entry(curve, "method"))).", s = ".entry(curve, "stages")
 do for [problem_word in problems_of(name, "state_error")] {
@@ -108,18 +106,18 @@ do for [problem_word in problems_of(name, "state_error")] {
   eval set_range("x", x_low, x_high, 1.3)
   eval set_range("y", y_low, y_high, 3)
   set title title_text(problem_label(problem).": error of the state over the step, Gauss tableaus with s stages",\
-      "Against ".reference_words(name).". ".conditions(name).".",\
+      "Against ".reference_words(name, where).". ".conditions(name).".",\
       "A curve without a slope has too few grids between the coarse ones and its floor of rounding.")
   set xlabel step_label(problem)
   set ylabel state_label(problem)
   do for [kind in kinds] {
-    eval begin_figure(kind, figure, 1100, 600)
-    set rmargin at screen 0.69
+    eval begin_figure(kind, figure, 760)
+    set bmargin at screen 0.31
     plot for [curve in curves] rows(name, curve, "state_error") using (column("step")):(column("state_error"))\
          with linespoints linetype method_style(entry(curve, "method"))\
          title with_slope(stage_label(curve), slope(name."_slopes", curve, "state")),\
          for [guide in guides] nth(guide, 2) * (x / nth(guide, 1))**nth(guide, 3)\
-         with lines linetype 8 dashtype (20 - 3 * nth(guide, 3), 5) title sprintf("C h^%d, guide", nth(guide, 3))
+         with lines linetype 8 dashtype (20 - 3 * nth(guide, 3), 5) title "C h".exponent(nth(guide, 3)).", guide"
     eval end_figure(kind, figure)
   }
 }

@@ -40,13 +40,13 @@ do for [problem_word in problems] {
   }
   columns_of_panels = words(methods)
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_derivatives", 220 + 380 * columns_of_panels, 900)
-    set multiplot layout 2, columns_of_panels title title_text(problem_label(problem)\
+    eval begin_figure(kind, problem."_derivatives", 900)
+    figure_title = title_text(problem_label(problem)\
         .": solves by exact derivatives and by differences, ".solver_label(entry(scheme, "solver")),\
-        timed_conditions("derivatives").".",\
+        "Paper: “Automatic Differentiation”, section 4.1. ".timed_conditions("derivatives").".",\
         "Bars: quartiles of the rounds".(strlen(further) > 0 ? " (quasi-Newton: one solve)" : "")\
-        .". Open markers: not solved to that tolerance; the time spent and the residual reached.")\
-        offset 0, -0.4 margins 0.075, 0.985, 0.17, 0.84 spacing 0.02, 0.03
+        .". Open markers: not solved to that tolerance; the time spent and the residual reached.")
+    eval panels(2, columns_of_panels, 95, 15, 155, 12, 25)
     do for [q = 1:2] {
       quantity = word(quantities, q)
       do for [m = 1:columns_of_panels] {
@@ -64,12 +64,12 @@ do for [problem_word in problems] {
         eval set_range("x", S_min_x, S_max_x, 1.25)
         eval set_range("y", S_min_y, S_max_y, q == 1 ? 1.6 : 4)
         if (m > 1) { set format y "" }
-        set title (q == 1 ? method_label(entry(word(methods, m), "method")) : "") font ",14" offset 0, -0.6
+        set title (q == 1 ? method_label(entry(word(methods, m), "method")) : "") font ",12" offset 0, -0.6
         set xlabel (q == 2 ? "number of intervals N" : "")
         if (q == 1) { set format x "" }
-        set ylabel (m > 1 ? "" : q == 1 ? "time of the solver [s]" : "KKT residual, exact derivatives")
+        set ylabel (m > 1 ? "" : q == 1 ? "time of the solver [s]" : "KKT residual, exact derivatives") offset 1
         if (q == 1 && m == 1) {
-          set key at screen 0.52, screen 0.008 center bottom vertical maxrows 3 width 2
+          set key at screen 0.5, screen 0.008 center bottom vertical maxrows 3 width -3 font ",12" samplen 2.5
         } else { unset key }
         plot for [i in shown] keyentry with linespoints linecolor rgb colour(number_in(i)) linewidth 1.5 dashtype dashes(number_in(i))\
                  pointtype filled(number_in(i)) pointsize 0.75 title label_of(number_in(i)),\

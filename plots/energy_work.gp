@@ -15,27 +15,28 @@ eval require("structure_energy_work_slopes", "problem,method,tableau,stages,quan
 
 truncations = "2 4 6"
 colour(truncation) = truncation == 2 ? blue : truncation == 4 ? vermilion : purple
-energy_label(truncation) = truncation == 2 ? "{/:Italic H}"\
-    : truncation == 4 ? "{/:Italic H} + {/:Italic h}^2{/:Italic H}_2"\
-    : "{/:Italic H} + {/:Italic h}^2{/:Italic H}_2 + {/:Italic h}^4{/:Italic H}_4"
+# Curves of tangent-space collocation nearly coincide, so that each has a point of its own.
+triangle(truncation) = truncation == 2 ? 8 : truncation == 4 ? 10 : 12
+energy_label(truncation) = truncation == 2 ? "H"\
+    : truncation == 4 ? "H + h²H₂" : "H + h²H₂ + h⁴H₄"
 scheme(problem, method) = "problem=".problem.",method=".method.",tableau=gauss,stages=1"
 of_truncation(problem, method, truncation) = scheme(problem, method).",truncation=".truncation
-step_tics = "set xtics autofreq; set format x '%g'; set xtics add (0.003, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.3, 0.5)"
+step_tics = "set xtics autofreq; set format x '%g'; set xtics add (0.003, 0.01, 0.03, 0.1, 0.3)"
 
 # One panel of truncated energies: filled discs of DMOC, open triangles of tangent-space collocation.
 do for [where in has_free_motions ? problems_of("structure_modified_energy", "drift") : ""] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_modified_energy", 900, 760)
+    eval begin_figure(kind, problem."_modified_energy", 740)
     set title title_text(problem_label(problem).", no force: range of the modified energy",\
-        "Modified energy of the midpoint rule, cut off after one, two and three terms.",\
+        "Paper: “Conservation of a Modified Energy”, section 3.3. Midpoint rule; the series after one, two and three terms.",\
         "One motion, simulated in long double; range over its nodes.")
     eval power_axis("xy")
     eval step_tics
     set xlabel "step {/:Italic h}, in the problem's unit of time"
-    set ylabel "max − min over the motion"
-    set bmargin at screen 0.35
-    set key at screen 0.2, 0.24 left top Left reverse
+    set ylabel axis_label("max − min over the motion", problem, "energy_unit")
+    set bmargin at screen 0.33
+    set key at screen 0.17, 0.22 left top Left reverse maxrows auto
     plot for [i in truncations] rows("structure_modified_energy", of_truncation(problem, "dmoc", i), "drift")\
            using "h":"drift" with linespoints linecolor rgb colour(int(i)) linewidth 2.5 dashtype 1 pointtype 7\
            pointsize 0.7 title with_slope("DMOC, ".energy_label(int(i)),\
@@ -53,30 +54,31 @@ unset bmargin
 do for [where in problems_of("structure_energy_work", "largest_gap")] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_energy_work", 1200, 740)
-    set multiplot layout 1, 2 title title_text(\
-        problem_label(problem).": energy against the work of the forces along the optimal motions, midpoint rule",\
-        "Each method on its own optimal motion; largest difference over the nodes.", "") offset 0, -0.4\
-        margins 0.075, 0.985, 0.36, 0.84 spacing 0.1
+    eval begin_figure(kind, problem."_energy_work", 760)
+    figure_title = title_text(problem_label(problem).": energy against the work of the forces along optimal motions",\
+        "Paper: “Conservation of a Modified Energy”, section 3.3: the relation between a modified energy and the virtual"\
+        ." work. Midpoint rule, each method on its own optimal motion; largest difference over the nodes.", "")
+    eval panels(1, 2, 85, 15, 260, 85, 0)
     eval power_axis("xy")
     eval step_tics
     set xlabel "step {/:Italic h}, in the problem's unit of time"
-    set ylabel "max_k |change of energy − work|"
-    set key at screen 0.05, 0.25 left top Left reverse
-    set title "the energy and the virtual work"
+    set ylabel axis_label("max_k |change of energy − work|", problem, "energy_unit") offset 1
+    set key at screen 0.02, screen 0.26 left top maxrows auto font ",12" samplen 2.5
+    set title "energy and virtual work"
     plot for [method in paper_families] rows("structure_energy_work", scheme(problem, method), "largest_gap")\
            using "h":"largest_gap" with linespoints linestyle method_style(method)\
            title with_slope(method_label(method),\
              slope("structure_energy_work_slopes", scheme(problem, method), "gap"))
-    set key at screen 0.53, 0.25 left top Left reverse
-    set title "the truncated modified energy and the modified work"
+    unset ylabel
+    set key at screen 0.53, screen 0.26 left top maxrows auto font ",12" samplen 2.5
+    set title "modified energy and modified work"
     plot for [i in truncations] rows("structure_modified_work", of_truncation(problem, "dmoc", i), "gap_to_modified_work")\
            using "h":"gap_to_modified_work" with linespoints linecolor rgb colour(int(i)) linewidth 2.5 dashtype 1\
            pointtype 7 pointsize 0.7 title with_slope("DMOC, ".energy_label(int(i)),\
              slope("structure_energy_work_slopes", scheme(problem, "dmoc"), "gap_to_modified_work_".i)),\
          for [i in truncations] rows("structure_modified_work", of_truncation(problem, "tangent", i),\
            "gap_to_modified_work") using "h":"gap_to_modified_work" with linespoints linecolor rgb colour(int(i))\
-           linewidth 1.2 dashtype (8, 5) pointtype 8 pointsize 1 title with_slope("Tangent, ".energy_label(int(i)),\
+           linewidth 1.2 dashtype (8, 5) pointtype triangle(int(i)) pointsize 1.2 title with_slope("Tangent, ".energy_label(int(i)),\
              slope("structure_energy_work_slopes", scheme(problem, "tangent"), "gap_to_modified_work_".i))
     unset multiplot
     eval end_figure(kind, problem."_energy_work")

@@ -1,5 +1,6 @@
-# Equal solutions of DMOC and Hamiltonian collocation, other ones of tangent-space collocation (th:equi), and the residual of solved
-# multipliers in the adjoint Runge-Kutta scheme (th:orderapp), over the number of intervals.
+# Equal solutions of DMOC and Hamiltonian collocation, other ones of tangent-space collocation (th:equi); what solved
+# multipliers leave in the adjoint Runge-Kutta scheme (th:orderapp); and the residuals of the two forms of the control
+# Lagrangian at the solutions of all methods; over the number of intervals.
 #   gnuplot -e "results='results'" plots/equivalence.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
@@ -29,12 +30,12 @@ pale = "#A0A0A0"
 do for [problem_word in problems_of(name, "")] {
   problem = entry(problem_word, "problem")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_equivalence", 1400, 620)
-    set multiplot layout 1, 2 title title_text(problem_label(problem)\
-        .": differences of collocation from DMOC by the same tableau",\
-        conditions(name).", then Newton steps to rounding.",\
-        "Largest difference over nodes and components, relative to the largest value of the quantity by DMOC.")\
-        offset 0, -0.4 margins 0.07, 0.845, 0.12, 0.79 spacing 0.27
+    eval begin_figure(kind, problem."_equivalence", 800)
+    figure_title = title_text(problem_label(problem).": differences of collocation from DMOC by the same tableau",\
+        "Paper: section 3.4, th:equi: equal solutions of DMOC and Hamiltonian collocation. ".conditions(name)\
+        .", then Newton steps to rounding.",\
+        "Largest difference over nodes and components, relative to the largest value of the quantity by DMOC.")
+    eval panels(2, 1, 95, 250, 80, 0, 45)
     do for [column in "configuration_difference costate_difference"] {
       eval measure(name, problem_word, "intervals", column)
       eval power_axis("y")
@@ -43,8 +44,9 @@ do for [problem_word in problems_of(name, "")] {
       set yrange [1e-17:(y_high > 1e-8 ? 10 * y_high : 1e-7)]
       set ytics 1e3
       set title (column eq "configuration_difference" ? "configurations" : "costates") offset 0, -0.5
-      set ylabel "largest difference from DMOC, relative"
-      set key at graph 1.02, graph 1 left top font ",12" samplen 2.5
+      if (column eq "configuration_difference") { set xlabel ""; set format x "" } else { set format x "%g" }
+      set ylabel "relative difference" offset 2
+      set key at graph 1.02, graph 1 left top maxrows auto font ",12" samplen 2.5 width 0
       plot for [curve in curves_with("tangent", column)] rows(name, curve, column)\
            using (column("intervals")):(column(column))\
            with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.7\
@@ -59,19 +61,20 @@ do for [problem_word in problems_of(name, "")] {
     unset multiplot
     eval end_figure(kind, problem."_equivalence")
 
-    eval begin_figure(kind, problem."_adjoint", 1100, 620)
-    set title title_text(problem_label(problem).": residual of solved multipliers in the adjoint Runge-Kutta scheme",\
-        conditions(name).", then Newton steps to rounding.",\
-        "Triangles: the same multipliers with the coefficients of ψ^q and ψ^p not exchanged; for Gauss they are equal.")
+    eval begin_figure(kind, problem."_adjoint", 620)
+    figure_title = title_text(problem_label(problem).": what solved multipliers leave in the adjoint Runge-Kutta scheme",\
+        "Paper: section 3.5, th:orderapp, eq:stateco5 to eq:stateco9. ".conditions(name).", then Newton steps to rounding.",\
+        "Triangles: the same multipliers with the coefficients of both costates not exchanged; for Gauss they are equal.")
+    eval panels(1, 1, 95, 265, 80, 0, 0)
+    unset title
     eval measure(name, problem_word.",method=dmoc,tableau=lobatto", "intervals", "adjoint_residual_by_plain_coefficients")
     eval power_axis("y")
     eval interval_axis
     set xrange [x_low / 1.1:x_high * 1.1]
     set yrange [1e-17:10 * y_high]
     set ytics 1e3
-    set ylabel "largest residual of a step or stage, relative to the costates"
-    set key at screen 0.7, graph 1 left top font ",12" samplen 2.5
-    set rmargin at screen 0.69
+    set ylabel "largest residual of a step or stage, relative"
+    set key at graph 1.02, graph 1 left top maxrows auto font ",12" samplen 2.5
     plot for [curve in curves_with("dmoc,tableau=lobatto", "adjoint_residual")]\
          rows(name, curve, "adjoint_residual_by_plain_coefficients")\
          using (column("intervals")):(column("adjoint_residual_by_plain_coefficients"))\
@@ -86,7 +89,45 @@ do for [problem_word in problems_of(name, "")] {
          with linespoints linewidth 1 linecolor rgb pale pointsize 0.7 pointtype 4 dashtype 3 notitle,\
          keyentry with linespoints linewidth 1 linecolor rgb pale pointsize 0.7 pointtype 4 dashtype 3\
          title "Hamiltonian, all tableaus"
+    unset multiplot
     eval end_figure(kind, problem."_adjoint")
-    unset rmargin
+
+    # Both forms of the control Lagrangian, where the table has their residuals.
+    forms = curves_with("dmoc", "forced_form_residual")
+    if (words(forms) == 0) { continue }
+    eval begin_figure(kind, problem."_control_lagrangian", 600)
+    figure_title = title_text(problem_label(problem).": residuals of both forms of the control Lagrangian",\
+        "Midpoint rule: Euler-Lagrange equations in q and the multiplier ξ, at the solution of each method.",\
+        conditions(name).", then Newton steps to rounding.")
+    eval panels(1, 2, 90, 15, 115, 20, 0)
+    unset title
+    eval measure(name, problem_word.",method=dmoc", "intervals", "forced_form_residual")
+    lowest = y_low; highest = y_high
+    do for [method in paper_families] {
+      do for [column in "forced_form_residual acceleration_form_residual"] {
+        eval measure(name, problem_word.",method=".method, "intervals", column)
+        if (y_low < lowest) { lowest = y_low }
+        if (y_high > highest) { highest = y_high }
+      }
+    }
+    eval key_below
+    do for [column in "forced_form_residual acceleration_form_residual"] {
+      eval measure(name, problem_word.",method=dmoc", "intervals", column)
+      eval power_axis("y")
+      eval interval_axis
+      set format x "%g"
+      set xrange [x_low / 1.1:x_high * 1.1]
+      eval set_range("y", lowest, highest, 5)
+      set ytics 1e2
+      forced = column eq "forced_form_residual"
+      set title (forced ? "form with forces, F = L_q + f" : "form with accelerations, F = q̈(q, q̇, u)") offset 0, -0.5
+      set ylabel (forced ? "largest residual" : "") offset 1.5
+      if (!forced) { set format y ""; unset key }
+      plot for [method in paper_families] rows(name, problem_word.",method=".method, column)\
+           using (column("intervals")):(column(column)) with linespoints linetype method_style(method)\
+           title method_label(method)
+    }
+    unset multiplot
+    eval end_figure(kind, problem."_control_lagrangian")
   }
 }

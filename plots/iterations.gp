@@ -1,5 +1,5 @@
 # Minor iterations of the SQP method over the number of intervals: fig:kepler_iterations and fig:twolink_iterations; and
-# the cost of collocation compared with DMOC in every currency.
+# what collocation costs in multiples of DMOC, in every count.
 #   gnuplot -e "results='results'" plots/iterations.gp
 # Reads iterations.csv with its ratios, iterations_limited_memory.csv with its ratios if they are there; the last figure
 # iterations_common_ratios.csv if it is there, else iterations_ratios.csv.
@@ -30,6 +30,10 @@ do for [name in "iterations iterations_limited_memory"] {
     slack = curves_of(name, where.",solver=sqp,crash=none", "minor_iterations")
     crash = curves_of(name, where.",solver=sqp,crash=basis", "minor_iterations")
     with_start(curve, crash) = curve.",crash=".crash
+    # Where few rows are left, the others are drawn too: so many iterations took answers that may not be compared.
+    others = count_of("''", name, where) < 9 ? system(rows_awk("-v take=drawn -v branches=any -v where='".where\
+        .",solver=sqp,crash=none' -v distinct=problem,method,tableau,stages,solver", name)) : ""
+    paper_ratio = problem eq "orbital_transfer" ? 1.7 : problem eq "two_link_manipulator" ? 1.5 : NaN
     size(curve, large) = (method_style(entry(curve, "method")) == 2 ? 1.6 : 1.0) * (large ? 1.0 : 0.55)
     eval measure(name, where, "intervals", "minor_iterations")
     unset logscale
@@ -41,17 +45,26 @@ do for [name in "iterations iterations_limited_memory"] {
     set key top left font ",12"
     set title title_text(problem_label(problem).": minor iterations of the SQP method, "\
         .(name eq "iterations" ? "exact" : "quasi-Newton")." Hessian",\
-        of_paper(problem, "kepler\\_iterations", "twolink\\_iterations").conditions(name)."."\
+        of_paper(problem, "fig:kepler\\_iterations: collocation takes 1.7 times as many",\
+            "fig:twolink\\_iterations: collocation takes 1.5 times as many").conditions(name)."."\
         .left_out_text(count_of("all", name, where), count_of("''", name, where)),\
-        "Lines: free variables (less the constraints, where the first basis is chosen for free) + later major iterations.")
+        "Lines: free variables (less the constraints, where the first basis is chosen for free) + later major iterations."\
+        .(words(others) > 0 ? " Crosses: answers on another branch, or too coarse." : ""))
     do for [kind in kinds] {
-      eval begin_figure(kind, figure_of(problem), 1000, 640)
+      eval begin_figure(kind, figure_of(problem), 680)
       plot for [curve in slack] rows(name, with_start(curve, "none"), "minor_iterations")\
              using (column("intervals")):(column("predicted_minors")) with lines\
              linetype method_style(entry(curve, "method")) linewidth 1.2 dashtype 1 notitle,\
            for [k = 1:words(crash)] rows(name, with_start(word(crash, k), "basis"), "minor_iterations")\
              using (column("intervals")):(column("predicted_minors")) with lines\
              linetype method_style(entry(word(crash, k), "method")) linewidth 1.2 dashtype (9, 7) notitle,\
+           for [k = 1:(paper_ratio > 1)] rows(name, where.",solver=sqp,crash=none,method=dmoc", "minor_iterations")\
+             using (column("intervals")):(paper_ratio * column("predicted_minors")) with lines linetype 8 dashtype (4, 4)\
+             title sprintf("paper: %.1f × DMOC", paper_ratio),\
+           for [k = 1:words(others)] "< ".rows_awk("-v take=drawn -v branches=any -v where='".word(others, k)\
+             .",crash=none'", name) using (column("intervals")):\
+             (stringcolumn("branch") eq "same" ? NaN : column("minor_iterations")) with points\
+             linetype method_style(entry(word(others, k), "method")) pointtype 2 pointsize 1.1 notitle,\
            keyentry with lines linecolor rgb "white" title "{/:Bold from the basis of slacks}",\
            for [curve in slack] rows(name, with_start(curve, "none"), "minor_iterations")\
              using (column("intervals")):(column("minor_iterations")) with points\
@@ -83,16 +96,20 @@ currency_sizes = "0.7 1.5 1.1 1.0 1.1"
 # Hamiltonian collocation has DMOC's solutions: at equal accuracy its grids are the same.
 panels = "hamiltonian tangent tangent"
 panel_columns = "ratio_at_equal_intervals ratio_at_equal_intervals ratio_at_equal_accuracy"
-panel_titles = "'Hamiltonian, same N' 'Tangent-space, same N' 'Tangent-space, same replay error'"
+panel_titles = "'Hamiltonian, same N' 'Tangent-space, same N' 'Tangent-space, same error'"
 
 do for [where in problems_of(name, "ratio_at_equal_intervals")] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_savings", 1300, 620)
-    set multiplot layout 1, 3 title title_text(problem_label(problem).": effort of collocation, in multiples of DMOC",\
+    eval begin_figure(kind, problem."_savings", 640)
+    figure_title = title_text(problem_label(problem).": what collocation takes, in multiples of DMOC",\
+        for_paper(problem, "Paper, section 4.2.1: 1.7 in minor iterations, 5/3 in variables (DMOC has 3/5 of them)",\
+            "Paper, section 4.2.2: 1.5 in minor iterations, 3/2 in variables (DMOC has 2/3 of them)")\
+        ."Dashed: the paper’s 1.".(problem eq "orbital_transfer" ? "7" : "5").". ".\
         conditions(solves).". Above the line DMOC takes less. Warm solves take few iterations: one more is a large ratio.",\
-        "Replay error: how far from the final state the continuous system ends under the computed control.")\
-        offset 0, -0.4 margins 0.065, 0.79, 0.12, 0.77 spacing 0.025
+        "Replay error: how far from the final state the continuous system ends under the computed control.")
+    eval panels(1, 3, 70, 12, 150, 12, 0)
+    paper_ratio = problem eq "orbital_transfer" ? 1.7 : problem eq "two_link_manipulator" ? 1.5 : NaN
     low = 1; high = 1
     do for [c = 1:words(currencies)] {
       do for [column_name in "ratio_at_equal_intervals ratio_at_equal_accuracy"] {
@@ -117,13 +134,13 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
       set title word(panel_titles, i) font ",14"
       set ylabel (i == 1 ? "collocation / DMOC" : "")
       if (i > 1) { set format y "" }
-      if (i < 3) { unset key } else { set key at screen 0.8, graph 1 left top font ",12" samplen 2.5 }
+      if (i < 3) { unset key } else { set key at screen 0.5, screen 0.01 center bottom vertical maxrows 3 width -1 font ",12" samplen 2.5 }
       drawn = ""
       do for [c = 1:words(currencies)] {
         currency = conditions_of_panel.",currency=".word(currencies, c)
         if (strlen(distinct(name, "currency", currency, ratio)) > 0) { drawn = drawn." ".c }
       }
-      plot 1 with lines linecolor rgb grey linewidth 1 notitle,\
+      plot 1 with lines linecolor rgb grey linewidth 1 notitle, paper_ratio with lines linetype 8 notitle,\
            for [c in drawn] rows(name, conditions_of_panel.",currency=".word(currencies, c + 0), ratio)\
              using (column("intervals")):(column(ratio)) with linespoints\
              linecolor rgb word(currency_colours, c + 0) linewidth 1.5 dashtype 1 pointtype int(word(currency_points, c + 0))\

@@ -52,15 +52,14 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
       ? place_in(numbers, sprintf("%d", minimum)) + (i - 0.5 * (count + 1)) * bar : NaN
   x_of_rest(rest, i) = drawn + (rest eq "unconfirmed" ? 1 : 2) + (i - 0.5 * (count + 1)) * bar
   do for [kind in kinds] {
-    eval begin_figure(kind, figure, 1300, 620)
-    set multiplot title title_text(problem_label(problem).": where the methods end from the guess and perturbed guesses",\
-        sprintf("Cold starts (the guess and perturbed guesses) by %s; tolerance %s; N = %s.%s",\
+    eval begin_figure(kind, figure, 860)
+    figure_title = title_text(problem_label(problem).": where the methods end from the guess and perturbed guesses",\
+        sprintf("Paper: “Global Minima”, section 4.1. Cold starts (the guess and perturbed guesses) by %s; tolerance %s; N = %s.%s",\
         solver_label(entry(word(distinct(shares, "solver", group, ""), 1), "solver")), told("local_minima", "tolerance"), entry(group, "intervals"), found > drawn\
             ? sprintf(" The %d lowest of %d confirmed minima.", drawn, found) : ""),\
-        "Unconfirmed: replayed one by one, the intervals do not join; the answer is not a motion.")\
-        offset 0, -0.4
-
-    set lmargin at screen 0.065; set rmargin at screen 0.64; set tmargin at screen 0.77; set bmargin at screen 0.19
+        "Unconfirmed: replayed one by one, the intervals do not join; the answer is no motion.")
+    eval title_above
+    eval place(90, 755, 425, top_of_panels(figure_title) - 15)
     set xtics nomirror scale 0 () font ",13"
     do for [i = 1:drawn] {
       set xtics add (minimum_tic(group.",minimum=".word(numbers, i), i == 1) i)
@@ -74,31 +73,31 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     set yrange [0:1.1 * highest]
     set xlabel axis_label("cost J of the confirmed minimum", problem, "cost_unit") offset 0, -0.7
     set ylabel "starts that ended there"
-    set key at graph 0.5, graph 1.02 center bottom vertical maxrows 2 width -2 font ",12"
+    set key at graph 0.5, graph 1.02 center bottom vertical maxrows 1 width -2 samplen 2 font ",12"
     set style fill solid 1.0 noborder
     plot for [i = 1:count] rows(minima, group, "")\
            using (x_of(column("minimum"), i)):(column(word(methods, i))):(0.9 * bar)\
            with boxes linecolor rgb method_colour(word(methods, i)) title method_label(word(methods, i)),\
          for [i = 1:count] rows(minima, group, "")\
            using (x_of(column("minimum"), i)):(column(word(methods, i))):\
-           (sprintf("%d", column(word(methods, i)))) with labels offset 0, 0.6 font ",11" notitle,\
+           (sprintf("%d", column(word(methods, i)))) with labels offset 0, 0.6 font ",12" notitle,\
          for [i = 1:count] for [rest in "unconfirmed unsolved"] rows(shares, group.",method=".word(methods, i), "")\
            using (x_of_rest(rest, i)):(column(rest)):(0.9 * bar)\
            with boxes fillcolor rgb method_colour(word(methods, i)) dashtype 1\
            fillstyle pattern 5 border rgb method_colour(word(methods, i)) notitle,\
          for [i = 1:count] for [rest in "unconfirmed unsolved"] rows(shares, group.",method=".word(methods, i), "")\
-           using (x_of_rest(rest, i)):(column(rest)):(sprintf("%d", column(rest))) with labels offset 0, 0.6 font ",11"\
+           using (x_of_rest(rest, i)):(column(rest)):(sprintf("%d", column(rest))) with labels offset 0, 0.6 font ",12"\
            notitle
     unset arrow 1
 
-    set lmargin at screen 0.725; set rmargin at screen 0.985
+    eval place(90, 755, 115, 300)
     set xtics nomirror scale 0 () font ",12"
     do for [i = 1:count] { set xtics add (method_tic(group, word(methods, i)) i) }
     set xrange [0.5:count + 0.5]
     set yrange [0:1]
     set ytics 0, 0.2, 1; set format y "%.1f"
-    set xlabel "starts solved" offset 0, -1.3
-    set ylabel "share of starts in the best (95 % interval)"
+    set xlabel "starts solved; bars: 95 % intervals" offset 0, -1.3
+    set ylabel "share in the best"
     unset key
     plot for [i = 1:count] rows(shares, group.",method=".word(methods, i), "")\
            using (i):(column("share")):(column("share_lower")):(column("share_upper")) with yerrorbars\

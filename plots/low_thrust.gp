@@ -15,15 +15,14 @@ reference_label(panel) = (entry(panel, "reference") eq "indirect" ? "indirect so
 do for [problem_word in problems_of("low_thrust", "cost_error")] {
   problem = entry(problem_word, "problem")
   panels = distinct("low_thrust", "revolutions,reference,reference_digits", problem_word, "cost_error")
-  columns_of_figure = words(panels) < 3 ? words(panels) : 3
+  columns_of_figure = words(panels) < 2 ? 1 : 2
   lines_of_figure = (words(panels) + columns_of_figure - 1) / columns_of_figure
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_low_thrust", 440 * columns_of_figure + 100, 400 * lines_of_figure + 210)
-    set multiplot layout lines_of_figure, columns_of_figure title title_text(\
-        problem_label(problem)." with many revolutions, one Gauss stage or one step of shooting per interval",\
-        "Error of the optimal cost over the steps per revolution.",\
-        "J* as in the panel’s title; all solves start from one motion.")\
-        offset 0, -0.4 margins 0.1, 0.985, 0.28 / lines_of_figure, 0.99 - 0.2 / lines_of_figure spacing 0.08, 0.14
+    eval begin_figure(kind, problem."_low_thrust", 400 * lines_of_figure + 210)
+    figure_title = title_text(problem_label(problem)." with many revolutions: error of the optimal cost",\
+        "Paper: section 4.2.1, there with one revolution. One Gauss stage or one step of shooting per interval.",\
+        "Titles say what J* is: the indirect solution, or where two methods agree. One start for all solves.")
+    eval panels(lines_of_figure, columns_of_figure, 90, 15, 165, 80, 110)
     do for [panel in panels] {
       where = problem_word.",revolutions=".entry(panel, "revolutions")
       unset logscale
@@ -34,9 +33,9 @@ do for [problem_word in problems_of("low_thrust", "cost_error")] {
       set format x '%g'
       set xrange [7:36]
       set xlabel "steps per revolution"
-      set ylabel "|J − J*| / J*"
-      set key at screen 0.5, screen 0.01 center bottom vertical maxrows 3 width 0
-      set title entry(panel, "revolutions")." revolutions; ".reference_label(panel)
+      set ylabel "|J − J*| / J*" offset 1.5
+      set key at screen 0.5, screen 0.01 center bottom vertical maxrows 3 width 0 font ",12"
+      set title entry(panel, "revolutions")." revolutions; ".reference_label(panel) font ",12"
       plot for [one in drawn_methods] rows("low_thrust", where.",".one, "cost_error")\
              using "steps_per_revolution":"cost_error"\
              with linespoints linetype style_here(entry(one, "method")) title method_label(entry(one, "method"))

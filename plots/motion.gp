@@ -23,9 +23,9 @@ even_spacing(intervals, count) = first_of(divisor(intervals, spacing(intervals, 
 plain_axes = "unset logscale; set autoscale; set xtics autofreq; set ytics autofreq; set format '%g'; unset colorbox;\
     unset key; set size noratio; unset title; unset lmargin; unset rmargin; unset tmargin; unset bmargin"
 begin_panels(title) = "set multiplot title '".title_text(title, "", "")."' offset 0, -0.4"
-left_square = "set lmargin at screen 0.105; set rmargin at screen 0.525; set bmargin at screen 0.13;\
+left_square = "set lmargin at screen 0.125; set rmargin at screen 0.525; set bmargin at screen 0.13;\
     set tmargin at screen 0.9; set size ratio -1"
-right_panel(low, high) = sprintf("set size noratio; set lmargin at screen 0.635; set rmargin at screen 0.98;\
+right_panel(low, high) = sprintf("set size noratio; set lmargin at screen 0.66; set rmargin at screen 0.98;\
     set bmargin at screen %g; set tmargin at screen %g; set xtics autofreq; set ytics autofreq", low, high)
 
 do for [motion in motions] {

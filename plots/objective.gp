@@ -11,9 +11,6 @@ if (errors) {
   incomplete = joined(of_costs, incomplete)
 }
 
-reference_words = strlen(told("convergence", "reference")) > 0 ? told("convergence", "reference")\
-    : "the finest grid of the same method"
-
 # The certified cost of a problem as text; empty if there is none.
 certified_cost(where) = exists_table("convergence_indirect_reference") ?\
     system(rows_awk("-v where='".where."'", "convergence_indirect_reference").\
@@ -29,13 +26,13 @@ do for [where in problems_of("objective", "")] {
   error_curves = is_certified ? curves : errors ? curves_of("convergence", where, "objective_error") : ""
   panels = strlen(error_curves) > 0 ? 2 : 1
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_objective", panels == 2 ? 1100 : 900, 600)
+    eval begin_figure(kind, problem."_objective", 600)
     figure_title = title_text(problem_label(problem).": cost over the number of intervals",\
-        of_paper(problem, "", "twolink\\_obj a)").conditions("objective").".",\
+        of_paper(problem, "no figure", "fig:twolink\\_obj a)").conditions("objective").".",\
         panels == 1 ? "" : is_certified\
         ? "Right: J* is the certified cost of the continuous problem; an error that changes its sign dips."\
-        : "Right: J_{ref} belongs to ".reference_words."; an error that changes its sign dips.")
-    if (panels == 2) { eval two_panels(0.135) } else { set title figure_title }
+        : "Right: against the cost of ".reference_words("convergence", where)."; an error that changes its sign dips.")
+    if (panels == 2) { eval panels(1, 2, 90, 12, 100, 100, 0) } else { set title figure_title }
     if (panels == 2) { eval key_below } else { set key top right }
     eval measure("objective", where, "intervals", "objective")
     eval intervals_axis

@@ -18,7 +18,7 @@ panel_title(quantity) = quantity eq "state" ? "configuration q_k at the nodes"\
 unit_of(quantity) = quantity eq "state" ? "state_unit" : quantity eq "momentum" || quantity eq "stage_momentum"\
     ? "momentum_unit" : "control_unit"
 has_unit(quantity) = strstrt(quantity, "costate") == 0 || quantity eq "control_from_costate"
-error_label(problem, quantity) = has_unit(quantity) ? axis_label("largest error", problem, unit_of(quantity))\
+unit_in_words(problem, quantity) = has_unit(quantity) ? axis_label("largest error", problem, unit_of(quantity))\
     : "largest error [cost per unit of ".(strstrt(quantity, "_p") > 0 ? "p]" : strstrt(quantity, "_q") > 0 ? "q]" : "q or p]")
 
 is_gauss(where) = entry(where, "tableau") eq "gauss"
@@ -27,10 +27,12 @@ points_of(where) = is_gauss(where) ? 7 : 6
 dashes_of(where) = is_gauss(where) ? 1 : 2
 colour(where) = int(entry(where, "stages")) == 1 ? blue : int(entry(where, "stages")) == 2 ? vermilion\
     : int(entry(where, "stages")) == 3 ? green : purple
-# "slope 3.99", or the verdict where it is none.
-measured(where, quantity) = system(rows_awk("-v where='".where.",quantity=".quantity."'", name."_slopes").\
-    " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if ($i == \"slope\") s = i; if ($i == \"verdict\") v = i }; next }\
-      { if ($v == \"slope\") printf \"%.2f\", $s; else printf \"%s\", $v }'")
+# "3.99, N = 16 to 96", or the verdict where there is no slope.
+measured(where, quantity) = measured_text(system(rows_awk("-v where='".where.",quantity=".quantity."'\
+    -v fields=verdict,points,slope,coarsest,finest", name."_slopes")))
+measured_text(fields) = words(fields) == 0 ? "" : word(fields, 1) ne "slope"\
+    ? sprintf("%s (%s grids)", word(fields, 1), word(fields, 2))\
+    : sprintf("%.2f, N = %s to %s", number(word(fields, 3)), word(fields, 4), word(fields, 5))
 curve_title(where, quantity) = sprintf("%s %s: %s", entry(where, "tableau"), entry(where, "stages"),\
     or_else(measured(where, quantity), "no slope"))
 
@@ -39,14 +41,15 @@ do for [problem_word in problems_of(name, "state_error")] {
   curves = distinct(name, "problem,method,tableau,stages", problem_word.",method=dmoc", "state_error")
   do for [kind in kinds] {
     do for [place in "nodes stages"] {
-      panels = place eq "nodes" ? at_nodes : at_stages
+      panels_here = place eq "nodes" ? at_nodes : at_stages
       figure = problem.(place eq "nodes" ? "_orders" : "_stage_orders")
-      eval begin_figure(kind, figure, 1200, 950)
-      set multiplot layout 2, 2 title title_text(problem_label(problem).": errors of DMOC at the ".place.", every tableau",\
-          "Against the indirect solution. ".conditions(name).", then Newton steps to rounding.",\
-          "Numbers are fitted slopes, “floor” where rounding leaves too few grids; grey guides are C N^{−k}.")\
-          offset 0, -0.4 margins 0.085, 0.86, 0.07, 0.86 spacing 0.25, 0.11
-      do for [quantity in panels] {
+      eval begin_figure(kind, figure, 1080)
+      figure_title = title_text(problem_label(problem).": errors of DMOC at the ".place.", every tableau",\
+          "Paper: sections 3.5 and 3.6, th:orderapp, main\\_theorem: order 2s for s Gauss stages, 2s − 2 for Lobatto.",\
+          "Against the indirect solution. ".conditions(name).", then Newton steps to rounding. No slope: too few"\
+          ." grids above rounding (“floor”), or too few that agree (“unsteady”). Grey: powers of N.")
+      eval panels(4, 1, 65, 285, 84, 0, 36)
+      do for [quantity in panels_here] {
         error = quantity."_error"
         eval measure(name, problem_word.",method=dmoc", "intervals", error)
         eval power_axis("y")
@@ -55,20 +58,20 @@ do for [problem_word in problems_of(name, "state_error")] {
         set xrange [x_low / 1.1:x_high * 1.1]
         eval set_range("y", y_low, y_high, 5)
         set ytics 100
-        set title panel_title(quantity) offset 0, -0.6
-        set xlabel "number of intervals N"
-        set ylabel error_label(problem, quantity) offset 1
-        set key at graph 1.03, graph 1 left top font ",12" samplen 2.5
-        # Each guide has its order at its end, or where it leaves the panel.
+        set title panel_title(quantity).": ".unit_in_words(problem, quantity) offset 0, -0.6
+        set format x (quantity eq word(panels_here, 4) ? "%g" : "")
+        set xlabel (quantity eq word(panels_here, 4) ? "number of intervals N" : "")
+        set key at graph 1.1, graph 1 left top font ",12" samplen 2 spacing 1.15
+        # Each guide has its order where it leaves the panel.
         top = 2 * y_high
-        low = y_low / 4
-        do for [order in "1 2 4 6"] {
+        low = y_low / 5
+        right = 1.1 * x_high
+        do for [order in "1 2 4 6 8"] {
           k = real(order)
-          x_end = top * (x_high / x_low)**(-k) > low ? x_high : x_low * (top / low)**(1 / k)
-          set label "N^{−".order."}" at x_end, top * (x_end / x_low)**(-k) right offset 0, 0.6 front font ",11"\
-              textcolor rgb grey
+          x_end = top * (right / x_low)**(-k) > low ? right : x_low * (top / low)**(1 / k)
+          set label "N^{−".order."}" at x_end, top * (x_end / x_low)**(-k) left offset 0.4, 0.3 front textcolor rgb grey
         }
-        plot for [order in "1 2 4 6"] top * (x / x_low)**(-real(order)) with lines linetype 8 linewidth 0.8,\
+        plot for [order in "1 2 4 6 8"] top * (x / x_low)**(-real(order)) with lines linetype 8 linewidth 0.8,\
              for [curve in curves] rows(name, curve, error) using (column("intervals")):(column(error))\
              with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.7\
              pointtype points_of(curve) dashtype dashes_of(curve) title curve_title(curve, quantity)

@@ -14,17 +14,22 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
   told_of = distinct("primitives", shown, problem_word, "cost_before")
   points(part) = rows("primitives_picture", problem_word.",part=".part, "")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_primitives", 1080, 620)
-    set multiplot layout 1, 2 title title_text(\
+    eval begin_figure(kind, problem."_primitives", 580)
+    figure_title = title_text(\
         problem_label(problem).": a roadmap of DMOC primitives",\
-        entry(told_of, "nodes")." nodes, ".entry(told_of, "edges")." edges; a plan takes "\
+        "Paper: “Global Minima”, section 5. ".entry(told_of, "nodes")." nodes, ".entry(told_of, "edges")." edges; a plan takes "\
         .sprintf("%.2g", number(entry(told_of, "plan_milliseconds")))." ms.",\
         "Best of ".entry(told_of, "starts")." starts in the same total time: "\
         .number_text(entry(told_of, "best_of_starts"), "no motion")."; best known cost: "\
-        .number_text(entry(told_of, "reference_cost"), "none").".")\
-        offset 0, -0.4 margins 0.105, 0.985, 0.24, 0.79 spacing 0.12, 0.1
+        .number_text(entry(told_of, "reference_cost"), "none").".")
+    eval panels(1, 2, 90, 15, 150, 115, 0)
     set autoscale
-    set key at screen 0.5, screen 0.01 center bottom horizontal maxrows 1 width 1
+    set key at screen 0.5, screen 0.01 center bottom vertical maxrows 2 width 0
+    # A plane has equal units in both directions; as much of it is seen as fits.
+    if (word(entry(told_of, "horizontal"), 2) eq word(entry(told_of, "vertical"), 2)\
+        && words(entry(told_of, "horizontal")) == 2) { set size ratio -1 }
+    stats points("node") using "x" name "X" nooutput
+    set xtics few_ticks(X_max - X_min)
     set xlabel entry(told_of, "horizontal") noenhanced
     set ylabel entry(told_of, "vertical") noenhanced
     unset title
@@ -34,8 +39,10 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
          points("after") using "x":"y" with lines linetype 1\
              title cost_text("after the full solve", entry(told_of, "cost_after"))
     unset key
+    set size noratio
+    set xtics autofreq
     set xlabel axis_label("time", problem, "time_unit")
-    set ylabel "first control"
+    set ylabel axis_label("first control", problem, "control_unit")
     plot points("before") using "t":"u" with lines linetype 3, points("after") using "t":"u" with lines linetype 1
     unset multiplot
     eval end_figure(kind, problem."_primitives")

@@ -34,8 +34,7 @@ label_of(i) = method_label(entry(where_of(i), "method")).variant_label(i)
 variant_label(i) = (differ("tableau") ? ", ".entry(where_of(i), "tableau") : "")\
     .(differ("stages") ? ", s = ".entry(where_of(i), "stages") : "")\
     .(differ("solver") ? ", ".solver_label(entry(where_of(i), "solver")) : "")
-plateau_label(i) = sprintf("%s\n%d of %d%s", method_label(entry(where_of(i), "method")), successes(i), instances,\
-    variant_label(i))
+plateau_label(i) = sprintf("%s: %d of %d", label_of(i), successes(i), instances)
 left_out = count < words(all_competitors)\
     ? sprintf(" Shown are the %d of %d that solve most.", count, words(all_competitors)) : ""
 # A line style from text cannot stand in a plot with iteration.
@@ -49,24 +48,14 @@ profile_rows(i, measure) = rows("profile_profiles", where_of(i).",measure=".meas
 fine_ratios = "set xtics (1, 1.5, 2, 3, 5, 10, 15, 20)"
 coarse_ratios = "set xtics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)"
 
-# Places of the labels, from the top: next to the plateau where there is room, below the one before.
-array label_at[most_competitors]
-label_gap = 0.1
-lower(a, b) = a < b ? a : b
-do for [i = 1:count] {
-  share = real(successes(i)) / instances
-  label_at[i] = i == 1 ? share : lower(share, label_at[i - 1] - label_gap)
-}
-do for [i = 1:count] { if (label_at[i] < label_gap * (count - i)) { label_at[i] = label_gap * (count - i) } }
-
 do for [kind in kinds] {
-  eval begin_figure(kind, "profile", 1400, 600)
-  set multiplot layout 1, 3 title title_text(\
+  eval begin_figure(kind, "profile", 470 + 22 * count)
+  figure_title = title_text(\
       "Share of the library that each method solves within a multiple of the best method’s effort",\
       timed_conditions("profile").".",\
       sprintf("%d instances, each a problem on a grid. A curve that stays below 1 failed on the rest: not solved,\
- or off the reference's cost.%s", instances, left_out))\
-      offset 0, -0.4 margins 0.062, 0.8, 0.13, 0.77 spacing 0.022
+ or off the reference's cost.%s", instances, left_out))
+  eval panels(1, 3, 75, 20, 95 + 22 * count, 20, 0)
   do for [m = 1:3] {
     measure = word(measures, m)
     unset logscale; set autoscale
@@ -77,27 +66,20 @@ do for [kind in kinds] {
     eval x_high < 20 ? fine_ratios : coarse_ratios
     if (x_high > 1000) { eval one_power_axis("x") }
     unset mxtics
+    set xtics font ",12"
     set xrange [1:x_high]
     set yrange [0:1]
     set ytics 0, 0.2, 1
     set format y (m == 1 ? "%.1f" : "")
-    set title word(measure_labels, m) font ",15"
+    set title word(measure_labels, m) font ",12"
     set xlabel "multiple of the best"
-    set ylabel (m == 1 ? "share of the instances" : "")
-    unset key
-    if (m == 3) {
-      set label 100 "instances solved" at graph 1.12, first label_at[1] + 1.1 * label_gap left\
-          font ",13" textcolor rgb grey
-      do for [i = 1:count] {
-        eval sprintf("set arrow %d from graph 1, first %g to graph 1.1, first %g nohead %s",\
-            i, real(successes(i)) / instances, label_at[i], line_of(i))
-        set label i plateau_label(i) at graph 1.12, first label_at[i] left font ",13" textcolor rgb "#202020"
-      }
-    }
+    set ylabel (m == 1 ? "share of the instances" : "") offset 1
+    if (m == 3) { set key at screen 0.5, screen 0.01 center bottom vertical maxrows count font ",12" } else { unset key }
     if (successes(1) == 0) { set label 101 "no instance was solved" at graph 0.5, 0.5 center font ",13" textcolor rgb grey }
-    plot for [i = 1:count] profile_rows(i, measure) using (column("ratio")):(column("share")) with steps linetype 20 + i
+    plot for [i = 1:count] profile_rows(i, measure) using (column("ratio")):(column("share")) with steps linetype 20 + i dashtype 1,\
+         for [i = 1:(m == 3 ? count : 0)] keyentry with lines linetype 20 + i dashtype 1 title plateau_label(i)
   }
-  unset arrow; unset label
+  unset label
   unset multiplot
   eval end_figure(kind, "profile")
 }
@@ -109,8 +91,11 @@ problems = system(rows_awk("-v branches=any -v take=all -v distinct=problem", "p
 with_points = system(rows_awk(met." -v distinct=problem", "profile"))
 without_reference = system(rows_awk("-v branches=any -v take=all -v without=reference_objective -v distinct=problem",\
     "profile"))
-columns = 5
-lines = words(problems) / columns + 1  # there is always a free place, which holds the legend
+# Panels of a figure: so many in a line, so many lines; the figures behind the first have a number.
+columns = 3
+lines = 4
+pages = (words(problems) + columns * lines - 1) / (columns * lines)
+page_name(page) = "library_work_precision".(page == 1 ? "" : sprintf("_%d", page))
 unit_of(problem) = described(problem, "cost_unit")
 panel_title(problem) = with_unit(problem_label(problem), unit_of(problem) eq "dimensionless" ? "" : unit_of(problem))
 # Times in ms, the fewer per decade the more decades there are.
@@ -134,24 +119,26 @@ numbers_of(present) = system("echo '".present."' | tr ' ' '\n' | awk -v all='".a
 all_drawn = ""
 do for [i = 1:count] { all_drawn = all_drawn.where_of(i)." " }
 
-head = 125.0  # for three lines of title above the titles of the panels
-height = 50 + head + 235 * lines
-do for [kind in kinds] {
-  eval begin_figure(kind, "library_work_precision", 1400, height)
-  set multiplot layout lines, columns title title_text(\
-      "Effort for an accurate cost on every problem of the library", timed_conditions("profile").".",\
-      "Each line goes over the grids, coarsest first; only solves that met the reference's cost are drawn.".left_out)\
-      offset 0, -0.2 margins 0.065, 0.985, 75.0 / height, 1 - head / height spacing 0.045, 74.0 / height
-  do for [p = 1:words(problems)] {
+do for [page = 1:pages] { do for [kind in kinds] {
+  first = columns * lines * (page - 1) + 1
+  last = columns * lines * page < words(problems) ? columns * lines * page : words(problems)
+  lines_here = (last - first) / columns + 1
+  bottom = 75 + 20 * ((count + 1) / 2)
+  eval begin_figure(kind, page_name(page), 160 + bottom + 210 * lines_here)
+  figure_title = title_text(\
+      "What an accurate cost takes on every problem of the library", timed_conditions("profile").".",\
+      "Each line goes over the grids, coarsest first; only solves that met the reference's cost are drawn.".left_out)
+  eval panels(lines_here, columns, 85, 20, bottom, 60, 75)
+  do for [p = first:last] {
     problem_word = word(problems, p)
     drawn = place_in(with_points, problem_word) > 0
     unset logscale; set autoscale; unset mxtics; set xlabel ""; set ylabel ""; unset key
-    set title panel_title(entry(problem_word, "problem")) font ",13" offset 0, -0.5
-    if (p == 1) {
+    set title panel_title(entry(problem_word, "problem")) font ",12" offset 0, -0.5
+    if (p == first) {
       set label 100 "error of the cost |J − J_{ref}| [unit next to the title]"\
           at screen 0.017, screen 0.5 center rotate by 90
-      set label 101 "time of the solver [ms]" at screen 0.5, screen 22.0 / height center
-      set key at screen 0.985, screen 90.0 / height right bottom vertical maxrows count
+      set label 101 "time of the solver [ms]" at screen 0.5, screen upwards(bottom - 50) center
+      set key at screen 0.5, screen 0.01 center bottom vertical maxrows (count + 1) / 2 font ",12"
     }
     if (drawn) {
       stats solved_rows(problem_word) using (column("seconds")):(column("objective_error")) name 'S' nooutput
@@ -161,14 +148,14 @@ do for [kind in kinds] {
       eval time_tics(log10(S_max_x / S_min_x))
       set format x '%g'
       set yrange [10**floor(log10(S_min_y / 1.2)):10**ceil(log10(S_max_y * 1.2))]
-      set xtics font ",12"; set ytics nomirror font ",12"
+      set xtics font ",12"; set ytics nomirror font ",15"
     } else {
       unset xtics; unset ytics; unset mytics
       set xrange [0:1]; set yrange [0:1]
       set label 1 (place_in(without_reference, problem_word) > 0 ? "no reference cost\nto compare with"\
           : "no solve met\nthe reference's cost") at graph 0.5, 0.55 center font ",13" textcolor rgb grey
     }
-    legend = p == 1 ? count : 0
+    legend = p == first ? count : 0
     if (drawn) {
       here = competitors_on(problem_word)
       plot for [i in here] solved_rows(problem_word.",".where_of(int(number(i))))\
@@ -181,5 +168,5 @@ do for [kind in kinds] {
     set xtics nomirror; set ytics nomirror
   }
   unset multiplot
-  eval end_figure(kind, "library_work_precision")
-}
+  eval end_figure(kind, page_name(page))
+} }

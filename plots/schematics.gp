@@ -6,7 +6,7 @@ load plots."/style.gp"
 
 # To be evaluated: a plane from (0, 0) to (width, height) without axes, a unit as long in both directions.
 plane(width, height) = sprintf("unset border; unset tics; unset key; unset grid; unset label; unset arrow; unset object;\
-    set lmargin 0; set rmargin 0; set bmargin 0.7; set tmargin 5; set xrange [0:%g]; set yrange [0:%g];\
+    set lmargin 0; set rmargin 0; set bmargin 0.7; set tmargin 4.5; set xrange [0:%g]; set yrange [0:%g];\
     set size ratio -1", width, height)
 ink = "#202020"
 set style arrow 1 head filled size screen 0.012, 18 linewidth 1.6 linecolor rgb ink
@@ -16,18 +16,18 @@ set style arrow 4 nohead linewidth 1.2 dashtype (4, 4) linecolor rgb grey
 set style arrow 5 head filled size screen 0.012, 18 linewidth 2.4 linecolor rgb blue
 # To be evaluated: a frame with words, and an arrow with words next to its middle.
 frame(x, y, width, height, words) = sprintf("set object rectangle center %g, %g size %g, %g fillstyle empty border\
-    linecolor rgb ink linewidth 1.3; set label \"%s\" at %g, %g center offset 0, %g", x, y, width, height, words, x, y,\
+    linecolor rgb ink linewidth 1.3; set label \"%s\" at %g, %g center offset 0, %g font ',12'", x, y, width, height, words, x, y,\
     0.5 * lines_of(words) - 0.5)
 lines_of(words) = strstrt(words, "\\n") > 0 ? 1 + lines_of(words[strstrt(words, "\\n") + 2:*]) : 1
 arrow(x, y, u, v) = sprintf("set arrow from %g, %g to %g, %g arrowstyle 1", x, y, u, v)
-words_at(x, y, side, words) = sprintf("set label \"%s\" at %g, %g %s", words, x, y, side)
+words_at(x, y, side, words) = sprintf("set label \"%s\" at %g, %g %s font ',12'", words, x, y, side)
 
 # --- fig:intro_comparison --------------------------------------------------------------------------------------------
 do for [kind in kinds] {
-  eval begin_figure(kind, "paper_intro_comparison", 1000, 900)
+  eval begin_figure(kind, "paper_intro_comparison", 760)
   eval plane(20, 17)
   set title title_text("Order of variation and discretisation for the necessary optimality conditions",\
-      "Paper: fig:intro\\_comparison", "")
+      "Paper: section 3.3, fig:intro\\_comparison", "")
   eval frame(10, 15.7, 9, 1.7, "objective functional +\\nLagrange-d’Alembert principle")
   eval frame(5, 11.9, 7, 1.7, "objective functional +\\nEuler-Lagrange equations")
   eval frame(15.5, 11.9, 7.5, 1.9, "discrete objective function +\\ndiscrete Lagrange-d’Alembert principle")
@@ -47,7 +47,7 @@ do for [kind in kinds] {
   eval arrow(15.5, 6.5, 15.5, 4.1)
   eval words_at(6.3, 14.0, "right", "{/:Bold variation} (mechanics)")
   eval words_at(13.6, 14.0, "left", "{/:Bold discretisation}")
-  eval words_at(3.1, 9.9, "right", "{/:Bold variation} (OCP)")
+  eval words_at(3.4, 9.9, "right", "{/:Bold variation} (OCP)")
   eval words_at(7.3, 9.9, "left", "{/:Bold discretisation}")
   eval words_at(15.8, 9.7, "left", "{/:Bold discrete variation}\\n(mechanics)")
   eval words_at(2.9, 5.4, "left", "{/:Bold discretisation}")
@@ -63,10 +63,10 @@ do for [kind in kinds] {
 # --- fig:discreteforces ----------------------------------------------------------------------------------------------
 path_y(x) = 2.4 + 1.1 * sin(0.42 * x - 0.4)
 do for [kind in kinds] {
-  eval begin_figure(kind, "paper_discreteforces", 1000, 460)
+  eval begin_figure(kind, "paper_discreteforces", 470)
   eval plane(18, 7)
-  set title title_text("Left and right discrete forces", "Paper: fig:discreteforces",\
-      "The force on q_k from the interval before is f_{k−1}^{+}, from the interval after f_k^{−}.")
+  set title title_text("Left and right discrete forces", "Paper: section 2.2, fig:discreteforces",\
+      "Orange: forces from the interval before; blue: forces from the interval after.")
   do for [k = 0:2] {
     x = 3 + 6 * k
     name = word("q_{k−1} q_k q_{k+1}", k + 1)
@@ -87,6 +87,7 @@ do for [kind in kinds] {
   eval end_figure(kind, "paper_discreteforces")
 }
 
+large(words) = "{/*1.28 ".words."}"
 # --- fig:discretemaps (diagram:LH) and diagram:LEH ---------------------------------------------------------------------
 do for [figure in "paper_discretemaps paper_exact_maps"] {
   exact = figure eq "paper_exact_maps"
@@ -94,28 +95,28 @@ do for [figure in "paper_discretemaps paper_exact_maps"] {
   lower = exact ? 5.0 : 0.9
   E = exact ? "E,u_" : "u_"
   do for [kind in kinds] {
-    eval begin_figure(kind, figure, 1000, exact ? 800 : 520)
+    eval begin_figure(kind, figure, exact ? 520 : 350)
     eval plane(20, exact ? 10.4 : 6.4)
     set title exact ? title_text("Exact discrete Lagrangian and forces, and the continuous forced Hamiltonian flow",\
-        "Paper: diagram:LEH", "") : title_text("Forced discrete Lagrangian map and forced discrete Hamiltonian map",\
-        "Paper: fig:discretemaps (diagram:LH)", "")
+        "Paper: section 2.3, diagram:LEH", "") : title_text("Forced discrete Lagrangian map and forced discrete Hamiltonian map",\
+        "Paper: section 2.2, fig:discretemaps (diagram:LH)", "")
     do for [k = 0:1] { set label sprintf("(q_%d, q_%d)", k, k + 1) at 6 + 8 * k, upper center }
     do for [k = 0:2] { set label sprintf("(q_%d, p_%d)", k, k) at 2 + 8 * k, lower center }
+    # So large that indices of indices are no smaller than other text.
+    set label large(exact ? "F_{L_d^E}^{u_0, u_1}" : "F@^{u_0, u_1}_{L_d}") at 10, upper + 0.75 center
     eval arrow(7.4, upper, 12.6, upper)
-    set label exact ? "F_{L_d^E}^{u_0, u_1}" : "F_{L_d}^{u_0, u_1}" at 10, upper + 0.7 center
     do for [k = 0:1] {
       x = 6 + 8 * k
       eval arrow(x - 0.7, upper - 0.5, x - 3.4, lower + 0.6)
       eval arrow(x + 0.7, upper - 0.5, x + 3.4, lower + 0.6)
-      middle = 0.5 * (upper + lower)
-      set label sprintf("𝔽^{f−}L_d^{%s%d}", E, k) at x - 2.2, middle + 0.3 right
-      set label sprintf("𝔽^{f+}L_d^{%s%d}", E, k) at x + 2.2, middle + 0.3 left
+      set label large(sprintf("𝔽^{f−}L@_d^{%s%d}", E, k)) at x - 2.4, upper - 2.1 right
+      set label large(sprintf("𝔽^{f+}L@_d^{%s%d}", E, k)) at x + 1.6, upper - 1.2 left
       eval arrow(3.4 + 8 * k, lower, 8.6 + 8 * k, lower)
-      set label exact ? sprintf("F̃_{L_d^E}^{u_%d} = (F_H^{u_%d})^h", k, k) : sprintf("F̃_{L_d}^{u_%d}", k)\
-          at 6 + 8 * k, lower - 0.7 center
+      set label large(exact ? sprintf("F̃_{L_d^E}^{u_%d} = (F@_H^{u_%d})^h", k, k) : sprintf("F̃@^{u_%d}_{L_d}", k))\
+          at 6 + 8 * k, lower - 0.8 center
       if (exact) {
         eval arrow(3.7 + 8 * k, 0.9, 8.3 + 8 * k, 0.9)
-        set label sprintf("(F_L^{u_%d})^h", k) at 6 + 8 * k, 0.2 center
+        set label large(sprintf("(F@_L^{u_%d})^h", k)) at 6 + 8 * k, 0.15 center
       }
     }
     if (exact) {
@@ -132,10 +133,10 @@ do for [figure in "paper_discretemaps paper_exact_maps"] {
 
 # --- fig:twolink -------------------------------------------------------------------------------------------------------
 do for [kind in kinds] {
-  eval begin_figure(kind, "paper_twolink", 820, 640)
+  eval begin_figure(kind, "paper_twolink", 660)
   eval plane(10, 7.2)
-  set title title_text("Model of the two-link manipulator", "Paper: fig:twolink",\
-      "Links of mass m_i, length l_i and moment of inertia J_i; θ_i counterclockwise from the horizontal.")
+  set title title_text("Model of the two-link manipulator", "Paper: section 4.2.2, fig:twolink",\
+      "Links with masses m, lengths l and moments of inertia J; angles counterclockwise from the horizontal.")
   angle_1 = 35.0 * pi / 180; angle_2 = 68.0 * pi / 180
   x0 = 1.6; y0 = 0.9
   x1 = x0 + 4.6 * cos(angle_1); y1 = y0 + 4.6 * sin(angle_1)

@@ -20,18 +20,20 @@ do for [problem_word in problems_of("sequence", "microseconds")] {
   sequences = distinct("sequence", "sequence", problem_word, "microseconds")
   grid = entry(distinct("sequence", "intervals", problem_word, ""), "intervals")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_sequence", 1200, 600)
-    set multiplot layout 1, 2 title title_text(problem_label(problem).": time of a step that starts warm",\
+    eval begin_figure(kind, problem."_sequence", 420 * words(sequences) + 90)
+    figure_title = title_text(problem_label(problem).": time of a step that starts warm",\
         "Each problem starts from unknowns and multipliers of the one before; interior point, N = ".grid.".",\
-        "Medians of iterations and of times; the time of a step is the solver's alone, the smallest of its repeats.")\
-        offset 0, -0.4 margins 0.075, 0.985, 0.31, 0.79 spacing 0.1
+        "Medians of iterations and of times; the time of a step is the solver’s alone, the smallest of its repeats.")
+    eval title_above
     do for [panel = 1:words(sequences)] {
       where = problem_word.",".word(sequences, panel)
       methods = distinct("sequence", "method", where, "microseconds")
       set logscale y 10; set format y "%g"; set ytics autofreq
       set xlabel "step"
-      set ylabel "microseconds"
-      set key at screen (panel == 1 ? 0.05 : 0.55), 0.2 left top Left reverse font ",11"
+      set ylabel "microseconds" offset 1
+      lowest = 420 * (words(sequences) - panel)
+      eval place(85, 755, lowest + 145, panel == 1 ? top_of_panels(figure_title) : lowest + 390)
+      set key at screen 0.05, screen upwards(lowest + 80) left top font ",12" samplen 1.5
       set title in_words(entry(word(sequences, panel), "sequence"))
       plot for [method in methods] rows("sequence", where.",".method, "microseconds") using "step":"microseconds"\
              with points linecolor rgb method_colour(entry(method, "method")) pointsize 0.5\

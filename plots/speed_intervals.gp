@@ -36,22 +36,22 @@ do for [problem in paper] { if (here("way=tape,problem=".problem, "nanoseconds")
 
 if (words(drawn) > 0) {
   do for [kind in kinds] {
-    eval begin_figure(kind, "speed_ways", 1180, 560)
-    set multiplot layout 1, words(drawn) title title_text("Cost of exact derivatives of an interval by every way", "",\
-        sprintf("DMOC with the midpoint rule, N = %s, %s, one core; smaller is better.", intervals, set_label))\
-        offset 0, -0.4 margins 0.085, 0.985, 0.15, 0.82 spacing 0.04
+    eval begin_figure(kind, "speed_ways", 90 + 350 * words(drawn))
+    figure_title = title_text("What exact derivatives of an interval cost by every way", "",\
+        sprintf("DMOC with the midpoint rule, N = %s, %s, one core; smaller is better.", intervals, set_label))
+    eval panels(words(drawn), 1, 90, 15, 100, 0, 45)
     do for [i = 1:words(drawn)] {
       problem = word(drawn, i)
       unset logscale; set autoscale
       eval power_axis("y")
-      set format y (i == 1 ? "%g" : "")
+      set format y "%g"
       set xrange [0.5:way_count + 0.5]
       set yrange [0.2:20000]
       unset mxtics
       set xtics () font ",13"
-      do for [w = 1:way_count] { set xtics add (way_label(w) w) }
-      set title problem_label(problem) font ",15"
-      set ylabel (i == 1 ? "time per interval [ns]" : "")
+      do for [w = 1:way_count] { set xtics add (i == words(drawn) ? way_label(w) : "" w) }
+      set title problem_label(problem) offset 0, -0.5
+      set ylabel "time per interval [ns]" offset 1.5
       if (i == 1) { set key top left } else { unset key }
       shown = ""
       do for [w = 1:way_count] { do for [q = 1:3] {
@@ -90,10 +90,10 @@ if (words(methods) > 0) {
         20 + 4 * i + s, colour(i), word(stage_dashes, (s - 1) % 3 + 1), marker(i))
   } }
   do for [kind in kinds] {
-    eval begin_figure(kind, "speed_size", 1300, 640)
-    set multiplot layout 1, 3 title title_text("Time per interval over the size of the problem, by method and stages", "",\
-        sprintf("Chain of n links, assembled program, N = %s, %s, one core.", intervals, set_label))\
-        offset 0, -0.4 margins 0.07, 0.985, 0.25, 0.82 spacing 0.055
+    eval begin_figure(kind, "speed_size", 640)
+    figure_title = title_text("Time per interval over the size of the problem, by method and stages", "",\
+        sprintf("Chain of n links, assembled program, N = %s, %s, one core.", intervals, set_label))
+    eval panels(1, 3, 85, 15, 95 + 20 * words(stages), 50, 0)
     do for [q = 1:3] {
       where = chain.",quantity=".word(quantities, q)
       unset logscale; set autoscale
@@ -104,11 +104,11 @@ if (words(methods) > 0) {
       unset mxtics
       set xtics (2, 3, 4, 5, 6, 7, 8) font ",15"
       set format x "%g"
-      set title quantity_label(q) font ",15"
+      set title quantity_label(q)
       set xlabel "number of links n"
-      set ylabel (q == 1 ? "time per interval [ns]" : "")
+      set ylabel (q == 1 ? "time per interval [ns]" : "") offset 1
       unset key
-      if (q == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows words(stages) width 2 }
+      if (q == 1) { set key at screen 0.01, screen 0.015 left bottom vertical maxrows words(stages) width -6 samplen 2 font ",12" }
       plot for [i = 1:words(methods)] for [s = 1:words(stages)]\
                rows("speed", where.",".word(methods, i).",".word(stages, s), "nanoseconds")\
                using (column("links")):(column("nanoseconds")) with linespoints linetype 20 + 4 * i + s\
@@ -136,7 +136,7 @@ roofed_marker(w, p) = int(word(p == 1 ? "7 5 9" : "6 4 8", w))  # filled: the fi
 roofed_where(w, p) = midpoint."way=".word(roofed, w).",".set_word.",problem=".word(drawn, p)
 
 do for [kind in kinds] {
-  eval begin_figure(kind, "speed_roofline", 900, 680)
+  eval begin_figure(kind, "speed_roofline", 680)
   unset logscale; set autoscale; unset title
   eval power_axis("xy")
   set format x "%g"

@@ -1,4 +1,4 @@
-# Published times compared with ours, problem by problem: hollow marks were measured elsewhere.
+# Times that others have published and ours, problem by problem: hollow marks were measured elsewhere.
 #   gnuplot -e "results='results'" plots/speed_published.gp
 # Reads speed_published.csv (tests/long/published results); draws nothing if it is not there.
 plots = system("dirname '".ARG0."'")
@@ -16,7 +16,7 @@ drawn = ""
 do for [p = 1:3] { if (here(p)) { drawn = drawn.sprintf(" %d", p) } }
 
 do for [kind in kinds] {
-  eval begin_figure(kind, "speed_published", 1000, 560)
+  eval begin_figure(kind, "speed_published", 560)
   set title title_text("Seconds of a solve, published and here", "The published quadrotor has nine states, ours twelve.",\
       "Hollow: on other machines, by other discretisations, to other tolerances. Unsolved cases are left out.")
   eval power_axis("y")

@@ -25,12 +25,7 @@ do for [m = 1:3] { do for [s = 1:2] {
 } }
 # From 64 to a million; there is no room for the number of every grid.
 grids_axis = "set logscale x 2; unset mxtics; set format x '%g'; set xrange [45:1.5e6]; set xlabel 'number of intervals N';\
-    set xtics ('64' 64, '1024' 1024, '16384' 16384, '' 65536, '' 262144, '2^{20}' 1048576) font ',13'"
-
-# One panel per problem. Titles and key need the width of two; margins follow the labels, for any width of the figure.
-panels_width(n) = 150 + 400 * (n < 2 ? 2 : n)
-panels_margins(n, bottom) = sprintf("margins %g, %g, %g, 0.82 spacing %g",\
-    108.0 / panels_width(n), 1 - 20.0 / panels_width(n), bottom, 54.0 / panels_width(n))
+    set xtics ('64' 64, '' 256, '1024' 1024, '' 4096, '16384' 16384, '' 65536, '' 262144, '2^{20}' 1048576)"
 
 # --- Time per interval and iteration ---------------------------------------------------------------------------------
 drawn = ""
@@ -39,12 +34,10 @@ do for [problem in on_grids] {
 }
 if (words(drawn) > 0) {
   do for [kind in kinds] {
-    eval begin_figure(kind, "speed_solves", panels_width(words(drawn)), 600)
-    key_rows = words(drawn) > 2 ? 2 : 3
-    title = title_text("Time of a solve per interval and iteration", "",\
-        "One thread, tolerance 10^{−10}, from the problem's own guess; unsolved cases are left out. Smaller is better.")
-    eval "set multiplot layout 1, words(drawn) title title offset 0, -0.4 ".\
-        panels_margins(words(drawn), key_rows == 2 ? 0.25 : 0.28)
+    eval begin_figure(kind, "speed_solves", 600)
+    figure_title = title_text("Time of a solve per interval and iteration", "",\
+        "One thread, tolerance 1e-10, from the problem's own guess; what was not solved is left out. Smaller is better.")
+    eval panels(1, words(drawn), 90, 25, 150, 30, 0)
     do for [p = 1:words(drawn)] {
       problem = word(drawn, p)
       unset logscale; set autoscale; unset label
@@ -52,10 +45,10 @@ if (words(drawn) > 0) {
       set format y (p == 1 ? "%g" : "")
       eval grids_axis
       set yrange [50:200000]
-      set title problem_label(problem) font ",15"
-      set ylabel (p == 1 ? "time per interval and iteration [ns]" : "")
+      set title problem_label(problem) font ",12"
+      set ylabel (p == 1 ? "time per interval and iteration [ns]" : "") offset 1
       unset key
-      if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows key_rows width 2 }
+      if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 3 width 0 font ",12" }
       shown = ""
       do for [c = 3:8] {
         if (here("speed_solves", times(problem, (c - 1) / 2, (c - 1) % 2 + 1), "solved")) {
@@ -80,10 +73,10 @@ do for [problem in on_grids] {
 }
 if (words(drawn) == 0) { exit }
 do for [kind in kinds] {
-  eval begin_figure(kind, "speed_solves_ratio", panels_width(words(drawn)), 560)
-  title = title_text("How many times longer Ipopt takes than interior\\_point", "",\
-      "Medians of whole solves, one thread; only where both solved and their costs agree to 10^{−9}.")
-  eval "set multiplot layout 1, words(drawn) title title offset 0, -0.4 ".panels_margins(words(drawn), 0.21)
+  eval begin_figure(kind, "speed_solves_ratio", 560)
+  figure_title = title_text("How many times longer Ipopt takes than interior\\_point", "",\
+      "Medians of whole solves, one thread; only where both solved and their costs agree to 1e-9.")
+  eval panels(1, words(drawn), 80, 25, 110, 30, 0)
   do for [p = 1:words(drawn)] {
     problem = word(drawn, p)
     unset logscale; set autoscale; unset label
@@ -93,10 +86,10 @@ do for [kind in kinds] {
     eval grids_axis
     set xrange [45:24000]
     set yrange [5:500]
-    set title problem_label(problem) font ",15"
+    set title problem_label(problem) font ",12"
     set ylabel (p == 1 ? "seconds of Ipopt / seconds of interior\\_point" : "")
     unset key
-    if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 1 width 2 }
+    if (p == 1) { eval key_below }
     shown = ""
     do for [m = 1:3] {
       if (here("speed_solves_ratios", ratios(problem, m), "ratio")) { shown = shown.sprintf(" %d", m) }

@@ -23,31 +23,33 @@ do for [where in problems_of("structure_energy", "energy_largest")] {
   dmoc = distinct("structure_energy_behaviour", "problem,method,stages,order", where.",method=dmoc", "")
   stats rows("structure_energy", where, "") using (column("period") + 1) name 'P' nooutput
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_energy", 1200, 600)
-    set multiplot layout 1, 2 title title_text(\
-        "Unforced Kepler orbit, eccentricity 0.3: error of the energy", "Simulated, nothing is optimised: neither warm nor cold.",\
-        "Energies in units of GM/a, a the semi-major axis; the Runge-Kutta methods next to DMOC are not symplectic.")\
-        offset 0, -0.4 margins 0.075, 0.985, 0.13, 0.78 spacing 0.1
+    eval begin_figure(kind, problem."_energy", 600)
+    figure_title = title_text(\
+        "Unforced Kepler orbit, eccentricity 0.3: error of the energy", "Paper: “Conservation of a Modified Energy”, section 3.3. Simulated, nothing is optimised.",\
+        "Energies in units of GM/a, a the semi-major axis; the Runge-Kutta methods are not symplectic.")
+    eval title_above
+    eval place(95, 460, 200, top_of_panels(figure_title))
     eval power_axis("xy")
     set xrange [1:P_max]
     set yrange [1e-9:*]
     set xlabel "period"
     set ylabel "largest |E − E_0| of a period [GM/a]"
-    set key bottom right
+    set key at screen 0.02, screen upwards(120) left top font ",12" samplen 2.5
     set title entry(distinct("structure_energy", "steps_per_period", where, ""), "steps_per_period")." steps per period"
     plot for [method in methods] rows("structure_energy", method, "")\
          using (column("period") + 1):(magnitude(column("energy_smallest"), column("energy_largest")))\
          with lines linecolor rgb colour(method) linewidth (is_dmoc(method) ? 2.5 : 1.5) dashtype dashes_of(method)\
          title integrator_label(method)
-    set title "DMOC, oscillation within the first ten periods"
+    eval place(600, 735, 200, top_of_panels(figure_title))
+    set title "DMOC, first ten periods"
     set xlabel "step {/:Italic h}"
     set ylabel "max E − min E [GM/a]"
     set autoscale
     eval power_axis("xy")
-    set xtics ("2π/512" 2 * pi / 512, "2π/256" 2 * pi / 256, "2π/128" 2 * pi / 128)
+    set xtics ("2π/512" 2 * pi / 512, "" 2 * pi / 256, "2π/128" 2 * pi / 128)
     set xrange [2 * pi / 580:2 * pi / 113]
     set yrange [*:*]
-    set key bottom right
+    set key at screen 0.98, screen upwards(120) right top font ",12" samplen 2.5
     plot for [method in dmoc] rows("structure_energy_behaviour", method, "")\
          using (column("periods") == few ? 2 * pi / column("steps_per_period") : NaN):(column("oscillation"))\
          with linespoints linecolor rgb colour(method) linewidth 2 dashtype 1 pointtype 7 pointsize 0.7\

@@ -1,17 +1,17 @@
-# The cost of collocation compared with DMOC, solver by solver: rem:savings, and how much of it belongs to the solver.
+# What collocation costs in multiples of DMOC, solver by solver: rem:savings, and how much of it belongs to the solver.
 #   gnuplot -e "results='results'" plots/structure_advantage.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 name = "structure_advantage_ratios"
 eval require(name, "problem,method,tableau,stages,solver,factorisation,intervals,quantity,ratio_at_equal_intervals")
 
-# Solvers in the order of the legend. Ipopt does not report the time of its linear systems: it is drawn by its time per
+# Solvers in the order of the legend. Ipopt reports no time of its linear systems: it is drawn by its time per
 # iteration without evaluations.
-orange = "#E69F00"
 ways = "ipopt sparse intervals"
 way_labels = "'Ipopt (MUMPS), per iteration' 'interior point, MUMPS' 'interior point, by intervals'"
-colour(w) = w == 1 ? vermilion : w == 2 ? orange : blue
-point(w) = word("9 11 7", w) + 0
+# No colour of a method: all curves are ratios of the same two.
+colour(w) = w == 1 ? black : w == 2 ? orange : purple
+point(w) = word("4 11 5", w) + 0
 way_of(w) = w == 1 ? "solver=ipopt" : "solver=interior_point,factorisation=".word(ways, w)
 
 panels = "'time of a linear system' 'time of a solve'"
@@ -22,12 +22,13 @@ do for [where in problems_of(name, ratio)] {
   problem = entry(where, "problem")
   conditions = where.",method=hamiltonian,tableau=gauss,stages=1"
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_structure_advantage", 1100, 640)
-    set multiplot layout 1, 2 title title_text(problem_label(problem)\
-        .": Hamiltonian collocation and DMOC, by solvers that use more or less of the structure",\
-        timed_conditions("structure_advantage").". Above the line DMOC takes less.",\
-        "Bars: 99 % intervals over the rounds. Ipopt does not report its linear systems: time per iteration without evaluations.")\
-        offset 0, -0.4 margins 0.08, 0.985, 0.26, 0.81 spacing 0.1
+    eval begin_figure(kind, problem."_structure_advantage", 660)
+    figure_title = title_text(problem_label(problem)\
+        .": time of Hamiltonian collocation in multiples of DMOC",\
+        "Paper: section 3.4, rem:savings. ".timed_conditions("structure_advantage").". Above the line DMOC takes less.",\
+        "Bars: 99 % intervals over the rounds. Ipopt reports no time of its linear systems: instead, the time of an"\
+        ." iteration without evaluations.")
+    eval panels(1, 2, 75, 15, 165, 95, 0)
     # Both panels have one range, which holds all that is drawn.
     low = 1; high = 1
     do for [panel = 1:2] {

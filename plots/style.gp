@@ -84,8 +84,21 @@ labelled(label, text) = strlen(text) == 0 ? "" : label.text
 joined(a, b) = a.(strlen(a) == 0 || strlen(b) == 0 ? "" : "; ").b
 sentence(text) = strlen(text) == 0 ? "" : text.". "
 # The label of the paper's figure that a figure repeats, as a sentence; its underscores are no subscripts.
-of_paper(problem, orbit, two_link) = problem eq "orbital_transfer" ? sentence(labelled("Paper: fig:", orbit))\
-    : problem eq "two_link_manipulator" ? sentence(labelled("Paper: fig:", two_link)) : ""
+of_paper(problem, orbit, two_link) = for_paper(problem, labelled("Paper: section 4.2.1, ", orbit),\
+    labelled("Paper: section 4.2.2, ", two_link))
+# A sentence about the paper's first problem or about its second; empty for any other.
+for_paper(problem, orbit, two_link) = problem eq "orbital_transfer" ? sentence(orbit)\
+    : problem eq "two_link_manipulator" ? sentence(two_link) : ""
+# What errors of a table are measured against.
+reference_words(name, where) = with_grid(or_else(told(name, "reference"), "the finest grid of the same method"),\
+    finest_grid(name, where))
+with_grid(reference, grid) =\
+    strstrt(reference, "finest grid") == 0 || strlen(grid) == 0 ? reference : reference." (".grid.")"
+# "N = 1024, h = 0.00286" of the finest grid of a table.
+finest_grid(name, where) = in_words_of_grid(system(rows_awk("-v take=all -v branches=any -v where='".where."'", name).\
+    " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if ($i == \"intervals\") n = i; if ($i == \"step\") h = i }; next }\
+                 $n + 0 > most { most = $n + 0; step = $h } END { if (most > 0) print most, step }'"))
+in_words_of_grid(fields) = words(fields) < 2 ? "" : sprintf("N = %s, h = %.3g", word(fields, 1), number(word(fields, 2)))
 
 # --- Names and units -------------------------------------------------------------------------------------------------
 described(problem, column) = system(sprintf("awk -F, '\
@@ -143,10 +156,21 @@ set tics nomirror out scale 0.8, 0.4 textcolor rgb "#202020"
 set grid xtics ytics linecolor rgb "#DADADA" linewidth 1 dashtype 1
 set key reverse Left samplen 3.5 spacing 1.25 width 1 noautotitle font ",13"
 set style fill solid 1.0 noborder
-# Title: the drawn quantities in bold, and remarks below, a line each; empty ones are left out. A title asserts nothing:
-# results stand in legends, as numbers of the tables.
-remark(line) = strlen(line) == 0 ? "" : "\n{/*0.8 ".line."}"
-title_text(title, first, second) = "{/:Bold ".title."}".remark(first).remark(second)
+# Title: what is drawn in bold, and remarks below; empty ones are left out, long ones go over several lines. A title
+# asserts nothing: what came out stands in legends, as numbers of the tables. Remarks hold no indices by _ or ^, which would
+# be smaller than the smallest text.
+remark(line) = strlen(line) == 0 ? "" : "\n{/*0.8 ".wrapped(line, 107, "}\n{/*0.8 ")."}"
+title_text(title, first, second) = "{/:Bold ".wrapped(title, 76, "}\n{/:Bold ")."}".remark(first).remark(second)
+wrapped(text, most, separator) = strlen(text) <= most ? text : wrapped_at(text, last_space(text, most + 1), most, separator)
+wrapped_at(text, end, most, separator) =\
+    end == 0 ? text : text[1:end - 1].separator.wrapped(text[end + 1:*], most, separator)
+last_space(text, end) = end == 0 || text[end:end] eq " " ? end : last_space(text, end - 1)
+# A distance between ticks of which an axis of this length has about three: 1, 2 or 5 times a power of ten.
+few_ticks(length) = nice(length / 3.0, 10.0**floor(log10(length / 3.0)))
+nice(step, power) = power * (step > 3.5 * power ? 5 : step > 1.5 * power ? 2 : 1)
+# A whole number from 0 to 9 as an exponent of the size of the text.
+exponent(n) = word("⁰ ¹ ² ³ ⁴ ⁵ ⁶ ⁷ ⁸ ⁹", int(n) + 1)
+lines_in(text) = strstrt(text, "\n") == 0 ? 1 : 1 + lines_in(text[strstrt(text, "\n") + 1:*])
 
 # Axis of interval numbers: ticks at powers of two, a little room at both ends.
 power_tics = "set xtics ("
@@ -167,26 +191,38 @@ set_range(axis, low, high, factor) = sprintf("set %srange [%.6g:%.6g]", axis, lo
 
 error_of(name) = "max_k |".name."_k − ".name."_{ref}(t_k)|"
 
-# To be evaluated: two panels side by side below `figure_title`, room for a key below them; `left` is the room for the first
-# panel's labels.
-key_below = "set key at screen 0.5, screen 0.01 center bottom vertical maxrows 1 width 2"
-two_panels(left) = sprintf("set multiplot layout 1, 2 title figure_title offset 0, -0.4 margins %g, 0.985, 0.2, 0.8\
-    spacing 0.1", left)
+# To be evaluated: lines and columns of panels below `figure_title`, with room in pixels: for the labels left of the first and
+# right of the last panel, for what stands below them, and between two panels next to and above each other.
+panels(lines, columns, left, right, bottom, between, above) = sprintf("set multiplot layout %d, %d title figure_title\
+    offset 0, 0.3 margins %g, %g, %g, %g spacing %g, %g", lines, columns, across(left), 1 - across(right), upwards(bottom),\
+    1 - upwards(22.5 * lines_in(figure_title) + 44), across(between), upwards(above))
+# Pixels as shares of the figure.
+across(pixels) = real(pixels) / page_width
+upwards(pixels) = real(pixels) / figure_height
+# To be evaluated, after `title_above`: one panel between these pixels from the left and from below.
+place(left, right, bottom, top) = sprintf("set lmargin at screen %g; set rmargin at screen %g; set bmargin at screen %g;\
+    set tmargin at screen %g", across(left), across(right), upwards(bottom), upwards(top))
+title_above = "set multiplot title figure_title offset 0, 0.3"
+top_of_panels(figure_title) = figure_height - 22.5 * lines_in(figure_title) - 44
+key_below = "set key at screen 0.5, screen 0.01 center bottom vertical maxrows 1 width -2 samplen 2.5 font ',12'"
 
 # --- Output ----------------------------------------------------------------------------------------------------------
-# do for [kind in kinds] { eval begin_figure(kind, name, width, height); plot ...; eval end_figure(kind, name) }
+# do for [kind in kinds] { eval begin_figure(kind, name, height); plot ...; eval end_figure(kind, name) }
+# Every figure is `page_width` pixels wide, which stand for the 16 cm of a printed page: 12 pixels, the smallest text, are 7 pt
+# there. Text is 15 pixels high, and its indices by _ and ^ are 12; smaller fonts are for text without indices.
+page_width = 770
 # A figure is written under a hidden name, in which `drawer` is the process that may remove it, and renamed when it is
 # complete.
 if (!exists("drawer")) drawer = "0"
 kinds = "svg png"
 figures = results."/figures"
 hidden(kind, name) = figures."/.".name.".".drawer.".".kind
-terminal(kind, width, height) = kind eq "svg"\
-    ? sprintf("set terminal svg size %d, %d enhanced font 'sans-serif,15' background 'white'", width, height)\
+terminal(kind, height) = kind eq "svg"\
+    ? sprintf("set terminal svg size %d, %d enhanced font 'sans-serif,15' background 'white'", page_width, height)\
     : sprintf("set terminal pngcairo size %d, %d enhanced font 'sans-serif,15' fontscale 1.5 linewidth 2 pointscale 3\
-        dashlength 1.4", 2 * width, 2 * height)
-begin_figure(kind, name, width, height) = sprintf("system \"mkdir -p '%s'\"; %s; set output \"%s\"; %s",\
-    figures, terminal(kind, width, height), hidden(kind, name), stamp)
+        dashlength 1.4", 2 * page_width, 2 * height)
+begin_figure(kind, name, height) = sprintf("figure_height = %g; system \"mkdir -p '%s'\"; %s; set output \"%s\"; %s",\
+    height, figures, terminal(kind, height), hidden(kind, name), stamp)
 # Across a figure of an incomplete table, whatever else is drawn there.
 stamp = "unset label 901; unset label 902; if (strlen(incomplete) > 0) {\
     set label 901 'INCOMPLETE' at screen 0.5, screen 0.52 center front font ',60' textcolor rgb '#60D55E00';\

@@ -15,19 +15,21 @@ is(wanted) = stringcolumn("status") eq wanted ? column(y) : NaN
 is_no_motion(word) = word eq "too coarse" || word eq "violates between stages"
 other(height) = (stringcolumn("status") eq "solved") || is_no_motion(stringcolumn("status")) ? NaN : height
 # Squares that touch where there are few values.
-size_of(where) = 16.0 / (1.5 + words(distinct("sweep", y, where, "")))
+size_of(where) = 11.0 / (1.5 + words(system(rows_awk("-v take=all -v branches=any -v distinct=".y." -v where='".where."'", "sweep"))))
 
 set palette defined (0 "#0b2a4a", 0.35 blue, 0.7 "#9ecae1", 1 "#f4d35e")
 do for [where in system(rows_awk("-v take=all -v branches=any -v distinct=problem,method,intervals", "sweep"))] {
   name = entry(where, "problem")."_sweep".(entry(where, "method") eq "dmoc" ? "" : "_".entry(where, "method"))
+  stats tried(where) using x name "X" nooutput
   do for [kind in kinds] {
-    eval begin_figure(kind, name, 1500, 560)
-    set multiplot layout 1, 3 title title_text(problem_label(entry(where, "problem")).": a sweep over "\
+    eval begin_figure(kind, name, 800)
+    figure_title = title_text(problem_label(entry(where, "problem")).": a sweep over "\
         .system("echo '".x." and ".y."' | tr '_' ' '"), method_label(entry(where, "method")).", N = "\
-        .entry(where, "intervals").". ".conditions("sweep"), "") offset 0, -0.4\
-        margins 0.055, 0.965, 0.2, 0.78 spacing 0.1
+        .entry(where, "intervals").". ".conditions("sweep"), "")
+    eval panels(2, 2, 85, 80, 80, 130, 125)
     set xlabel system("echo '".x."' | tr '_' ' '")
-    set ylabel system("echo '".y."' | tr '_' ' '")
+    set ylabel system("echo '".y."' | tr '_' ' '") offset 1
+    set xtics few_ticks(X_max - X_min > 0 ? X_max - X_min : 1)
     set offsets graph 0.08, graph 0.08, graph 0.1, graph 0.1
     unset key
     set title "cost J"
@@ -35,8 +37,9 @@ do for [where in system(rows_awk("-v take=all -v branches=any -v distinct=proble
     unset ylabel
     set title "iterations"
     plot answers(where) using x:y:"major_iterations" with points pointtype 5 pointsize size_of(where) linecolor palette
+    set ylabel system("echo '".y."' | tr '_' ' '") offset 1
     set title "status"
-    set key at screen 0.835, 0.02 center bottom maxrows 1
+    set key at graph 1.1, graph 1 left top
     plot tried(where) using x:(is("solved")) with points pointtype 5 pointsize 1 linecolor rgb blue title "solved",\
          tried(where) using x:(is_no_motion(stringcolumn("status")) ? column(y) : NaN) with points pointtype 4 pointsize 1 linecolor rgb green\
            title "no motion",\

@@ -11,11 +11,11 @@ do for [where in problems_of("convergence", "state_error")] {
   problem = entry(where, "problem")
   curves = curves_of("convergence", where, "state_error")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_work_precision", 1100, 600)
+    eval begin_figure(kind, problem."_work_precision", 600)
     figure_title = title_text(problem_label(problem).": state error over time and over free variables",\
-        timed_conditions("convergence").".",\
-        "Bars: quartiles of these solves, one after the other. Solves from a warm start take few iterations.")
-    eval two_panels(0.1)
+        "Paper: sizes in section 3.4, rem:savings. ".timed_conditions("convergence").".",\
+        "Bars: quartiles of these solves, one after the other. Times from a warm start cover few iterations.")
+    eval panels(1, 2, 80, 24, 100, 60, 0)
     set ylabel axis_label("state error ".error_of("q"), problem, "state_unit")
     do for [i = 1:2] {
       work = word(panels, i)

@@ -10,9 +10,9 @@ controls = header(stages, " ")
 readable(name) = system("echo '".name."' | sed 's/_/ /g'")
 stats table(nodes) using (column("t")) name "T" nooutput
 
-eval begin_figure(kind, problem."_motion", 1100, 560)
+eval begin_figure(kind, problem."_motion", 560)
 figure_title = title_text(problem_label(problem).": the optimal motion and its controls".by_whom, "", "")
-eval two_panels(0.1)
+eval panels(1, 2, 75, 12, 60, 75, 0)
 set key at graph 0.5, graph 1.05 center horizontal
 set xrange [T_min:T_max]
 set xlabel "time t"

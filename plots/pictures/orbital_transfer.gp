@@ -8,7 +8,7 @@ stats table(picture) using (column("t_in_h")) name "T" nooutput
 stats table(picture) using (sqrt(column("x_in_km")**2 + column("y_in_km")**2)) name "R" nooutput
 arrow_scale = 0.3 * R_max / largest_thrust
 
-eval begin_figure(kind, problem."_motion", 1100, 600)
+eval begin_figure(kind, problem."_motion", 600)
 eval begin_panels(problem_label(problem).": the optimal motion".by_whom)
 
 # The plane, to scale: the Earth's radius is the distance from its centre less the altitude.
@@ -16,10 +16,12 @@ eval left_square
 set xrange [-1.16 * R_max:1.16 * R_max]
 set yrange [-1.16 * R_max:1.16 * R_max]
 set cbrange [T_min:T_max]
+set xtics few_ticks(2 * R_max)
+set ytics few_ticks(2 * R_max)
 set xlabel "x [km]"
-set ylabel "y [km]"
+set ylabel "y [km]" offset 1.5
 set label 1 "Earth" at 0, 0.12 * R_max center front textcolor rgb "#52697A"
-set label 2 sprintf("arrows: thrust, across the radius\nthe longest %.3g m/s^2\ncolour: time, as on the right", largest_thrust) at 0, -0.3 * R_max center front\
+set label 2 sprintf("arrows: thrust, across the radius\nthe longest %.3g m/s²\ncolour: time, as on the right", largest_thrust) at 0, -0.3 * R_max center front\
     font ",12" textcolor rgb "#52697A"
 plot table(picture) every ::0::0\
      using (0):(0):(sqrt(column("x_in_km")**2 + column("y_in_km")**2) - column("altitude_in_km"))\
@@ -38,13 +40,13 @@ set xrange [T_min:T_max]
 set yrange [*:*]
 set format x ""
 unset xlabel
-set ylabel "altitude [km]"
+set ylabel "altitude [km]" offset -1
 plot table(picture) using (column("t_in_h")):(column("altitude_in_km")):(column("t_in_h"))\
      with lines linewidth 3 dashtype 1 linecolor palette
 eval right_panel(0.13, 0.475)
 set format x "%g"
 set xlabel "time t [hours]"
-set ylabel "acceleration by the thrust [m/s^2]"
+set ylabel "thrust per mass [m/s^2]"
 plot table(picture) using (column("t_in_h")):(column("thrust_in_m_per_s2")):(column("t_in_h"))\
      with lines linewidth 3 dashtype 1 linecolor palette
 unset multiplot

@@ -5,7 +5,7 @@ stats table(picture) using (column("t_in_s")) name "T" nooutput
 stats table(picture) using (sqrt(column("tip_x_in_m")**2 + column("tip_y_in_m")**2)) name "R" nooutput
 every_row = even_spacing(int(T_records) - 1, 20)
 
-eval begin_figure(kind, problem."_motion", 1100, 600)
+eval begin_figure(kind, problem."_motion", 600)
 eval begin_panels(problem_label(problem).": the optimal motion".by_whom)
 
 # The plane: base in the origin, elbow, tip.
@@ -14,7 +14,7 @@ set xrange [-1.12 * R_max:1.12 * R_max]
 set yrange [-1.12 * R_max:1.12 * R_max]
 set cbrange [T_min:T_max]
 set xlabel "x [m]"
-set ylabel "y [m]"
+set ylabel "y [m]" offset 1.5
 set label 1 "start" at 0, -R_max offset 2, -0.2 font ",13" textcolor rgb "#3A8FA8"
 set label 2 "end" at 0, R_max offset 2, 0.4 font ",13" textcolor rgb "#2B1B5E"
 plot table(picture) using (column("tip_x_in_m")):(column("tip_y_in_m")):(column("t_in_s"))\
@@ -40,11 +40,13 @@ set yrange [*:*]
 set xlabel "time t [s]"
 set ylabel "torque [N m]"
 set key inside vertical top right
+set offsets 0, 0, graph 0.25, 0
 set xzeroaxis linetype 8 dashtype 1 linewidth 0.8
 plot table(picture) using (column("t_in_s")):(column("tau_1_in_N_m"))\
-     with lines linecolor rgb blue dashtype 1 linewidth 2.5 title "τ_1 at the base",\
+     with lines linecolor rgb blue dashtype 1 linewidth 2.5 title "τ₁ at the base",\
      table(picture) using (column("t_in_s")):(column("tau_2_in_N_m"))\
-     with lines linecolor rgb vermilion dashtype (12, 4) linewidth 2.5 title "τ_2 at the elbow"
+     with lines linecolor rgb vermilion dashtype (12, 4) linewidth 2.5 title "τ₂ at the elbow"
 unset xzeroaxis
+unset offsets
 unset multiplot
 eval end_figure(kind, problem."_motion")
