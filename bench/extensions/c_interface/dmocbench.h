@@ -25,7 +25,7 @@ typedef struct dmocbench_problem dmocbench_problem;
 /* The result of a solve, whether or not it succeeded. */
 typedef struct dmocbench_solution dmocbench_solution;
 
-/* "0.1.0". */
+/* "0.2.0". */
 DMOCBENCH_API const char* dmocbench_version(void);
 /* Why the last call of this thread that failed did so; empty if none has. Valid until the thread's next failure. */
 DMOCBENCH_API const char* dmocbench_last_error(void);
