@@ -120,20 +120,26 @@ void print_problem(const Problem& problem) {
   print_field("library", library.empty() ? "dmocbench" : library);
   print_field("source", problem.card().source);
   print_field("q", fmt::format("({})   u  ({})", fmt::join(q_names, ", "), fmt::join(problem.control_names(), ", ")));
+  if (problem.first_order_size() > 0)
+    print_field("y", fmt::format("({}), first-order states", fmt::join(problem.first_order_names(), ", ")));
   print_field("start", end_in_words(problem, problem.initial_state(), problem.bounds().first));
   print_field("end", end_in_words(problem, problem.final_state(), problem.bounds().last));
   print_field("horizon", horizon_in_words(problem));
   print_field("bounds", fmt::format("on q: {}; on v: {}; on u: {}", bounds_in_words(problem.bounds().q, q_names),
                                     bounds_in_words(problem.bounds().v, velocity_names(problem)),
                                     bounds_in_words(problem.bounds().u, problem.control_names())));
-  print_field("rows", fmt::format("{} path constraints, {} boundary conditions", traced.path_constraint_count(),
-                                  traced.boundary_condition_count()));
+  print_field("rows", fmt::format("{} path constraints, {} boundary conditions{}", traced.path_constraint_count(),
+                                  traced.boundary_condition_count(),
+                                  traced.integral_count() > 0
+                                      ? fmt::format(", {} integral constraints", traced.integral_count())
+                                      : ""));
   print_reference(problem);
   print_field("guess", guess_in_words(problem));
   print_field("scale", fmt::format("the cost is multiplied by {:g} for the solver", problem.cost_scale()));
   for (const Parameter& parameter : problem.parameters()) {
-    fmt::print("    --set {}={:.6g}{}{}: {}, {}\n", parameter.name, parameter.value, parameter.unit.empty() ? "" : " ",
-               parameter.unit, parameter.meaning, parameter.range());
+    fmt::print("    --set {}={:.6g}{}{}: {}, {}{}\n", parameter.name, parameter.value,
+               parameter.unit.empty() ? "" : " ", parameter.unit, parameter.meaning, parameter.range(),
+               parameter.is_unknown ? "; an unknown, whose guess this is" : "");
   }
 }
 

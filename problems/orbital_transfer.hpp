@@ -47,15 +47,8 @@ class CircleToCircle : public Problem {
   [[nodiscard]] double cost_scale() const override { return 1e4; }
 
  protected:
-  CircleToCircle()
-      : Problem({
-            {"initial_altitude", 30.0, "km", "altitude of the first orbit", 0.0, 1e6},
-            {"target_altitude", 330.0, "km", "altitude of the last orbit", 0.0, 1e6},
-            {"revolutions", 2.0, "", "revolutions d during the transfer", 1.0, 1000.0, true},
-            {"earth_radius", 6371.0, "km", "radius of the Earth", 1.0, 1e6},
-            {"gravitational_parameter", 398600.0, "km^3/s^2", "gravitational constant times mass of the Earth", 1.0,
-             1e12},
-        }) {}
+  /// With parameters of a variant's own behind the others.
+  explicit CircleToCircle(const std::vector<Parameter>& more = {}) : Problem(with_own(more)) {}
 
   /// r⁰ in km.
   [[nodiscard]] double initial_radius() const { return parameter("earth_radius") + parameter("initial_altitude"); }
@@ -72,6 +65,18 @@ class CircleToCircle : public Problem {
     constexpr double metres_per_kilometre = 1e3;
     return metres_per_kilometre * initial_radius() / (time_scale() * time_scale());
   }
+
+ private:
+  static std::vector<Parameter> with_own(const std::vector<Parameter>& more) {
+    std::vector<Parameter> all{
+        {"initial_altitude", 30.0, "km", "altitude of the first orbit", 0.0, 1e6},
+        {"target_altitude", 330.0, "km", "altitude of the last orbit", 0.0, 1e6},
+        {"revolutions", 2.0, "", "revolutions d during the transfer", 1.0, 1000.0, true},
+        {"earth_radius", 6371.0, "km", "radius of the Earth", 1.0, 1e6},
+        {"gravitational_parameter", 398600.0, "km^3/s^2", "gravitational constant times mass of the Earth", 1.0, 1e12}};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
 };
 
 /// Low thrust transfer of a satellite between two circular orbits, section 4.2.1 of the paper (orb_trans).
@@ -80,6 +85,8 @@ class CircleToCircle : public Problem {
 /// φ(T) = 2πd after d revolutions.
 class OrbitalTransfer : public CircleToCircle {
  public:
+  OrbitalTransfer() = default;
+
   [[nodiscard]] std::string name() const override { return "orbital_transfer"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
@@ -124,6 +131,9 @@ class OrbitalTransfer : public CircleToCircle {
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{0.0, 1.0}};
   }
+
+ protected:
+  using CircleToCircle::CircleToCircle;
 };
 
 }  // namespace dmocbench

@@ -8,18 +8,23 @@
 #include "problems/acrobot.hpp"
 #include "problems/beam.hpp"
 #include "problems/brachistochrone.hpp"
+#include "problems/cannonball.hpp"
 #include "problems/cart_pole.hpp"
 #include "problems/container_crane.hpp"
+#include "problems/control_rate.hpp"
 #include "problems/double_integrator.hpp"
 #include "problems/double_oscillator.hpp"
 #include "problems/eccentric_transfer.hpp"
 #include "problems/forced_oscillator.hpp"
+#include "problems/goddard_rocket.hpp"
 #include "problems/hang_glider.hpp"
+#include "problems/hanging_chain.hpp"
 #include "problems/hovercraft.hpp"
 #include "problems/hypersensitive.hpp"
 #include "problems/kepler_cartesian.hpp"
 #include "problems/link_chain.hpp"
 #include "problems/orbital_transfer.hpp"
+#include "problems/orbital_transfer_with_mass.hpp"
 #include "problems/particle_steering.hpp"
 #include "problems/planar_quadrotor.hpp"
 #include "problems/planar_quadrotor_flip.hpp"
@@ -27,7 +32,9 @@
 #include "problems/rigid_quadrotor.hpp"
 #include "problems/robot_arm.hpp"
 #include "problems/spherical_pendulum.hpp"
+#include "problems/spring_arm.hpp"
 #include "problems/two_link_manipulator.hpp"
+#include "problems/two_link_with_motors.hpp"
 
 namespace dmocbench {
 
@@ -67,6 +74,13 @@ Registry problems_of_the_suite() {
   registry.add<Beam>();
   registry.add<EccentricTransfer>();
   registry.add<Hypersensitive>();
+  registry.add<ControlRate>();
+  registry.add<TwoLinkWithMotors>();
+  registry.add<OrbitalTransferWithMass>();
+  registry.add<GoddardRocket>();
+  registry.add<HangingChain>();
+  registry.add<Cannonball>();
+  registry.add<SpringArm>();
   return registry;
 }
 

@@ -136,10 +136,10 @@ SymplecticityDefect unforced_defect(const MappedStates& system, const Element& e
   LegendreTransform legendre(traced);
   const Eigen::MatrixXd no_control = Eigen::MatrixXd::Zero(tableau.stages(), problem.control_size());
   SymplecticityDefect result;
-  for (const auto& [q, v] : system.states) {
+  for (const BoundaryState& state : system.states) {
     throw_if_interrupted();
-    const Eigen::VectorXd p = legendre.momentum(q, v, 0.0);
-    const Eigen::MatrixXd d = map.jacobian(map.advance(q, p, v, no_control, system.step, 0.0));
+    const Eigen::VectorXd p = legendre.momentum(state.q, state.v, 0.0);
+    const Eigen::MatrixXd d = map.jacobian(map.advance(state.q, p, state.v, no_control, system.step, 0.0));
     result.largest = std::max(result.largest, symplecticity_defect(d));
     result.rounding = std::max(result.rounding, std::numeric_limits<double>::epsilon() * d.cwiseAbs2().maxCoeff());
   }
@@ -164,10 +164,10 @@ constexpr int mapped_states = 8;
 std::vector<BoundaryState> states_around(const BoundaryState& centre) {
   std::vector<BoundaryState> states(mapped_states, centre);
   for (int k = 0; k < mapped_states; ++k) {
-    auto& [q, v] = states[static_cast<std::size_t>(k)];
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] += 0.1 * std::cos(k * (1.0 + static_cast<double>(i)));
-      v[i] += 0.1 * std::sin(k * (2.0 + static_cast<double>(i)));
+    BoundaryState& state = states[static_cast<std::size_t>(k)];
+    for (Eigen::Index i = 0; i < state.q.size(); ++i) {
+      state.q[i] += 0.1 * std::cos(k * (1.0 + static_cast<double>(i)));
+      state.v[i] += 0.1 * std::sin(k * (2.0 + static_cast<double>(i)));
     }
   }
   return states;

@@ -36,8 +36,9 @@ bool meets(const Bounds& bounds, const Eigen::MatrixXd& values) {
 
 /// h at all stages, N s rows.
 Eigen::MatrixXd path_constraints_along(const Problem& problem, const Trajectory& motion) {
-  PointFunction constraints(problem.configuration_size(), problem.control_size(),
-                            [&](const ControlledState& x) { return problem.path_constraints(x); });
+  PointFunction constraints(
+      problem.configuration_size(), problem.control_size(),
+      [&](const ControlledState& x) { return problem.path_constraints(x); }, problem.first_order_size());
   Eigen::MatrixXd values(motion.stage_q.rows(), constraints.output_count());
   Eigen::VectorXd at_stage(constraints.output_count());
   for (Eigen::Index row = 0; row < values.rows(); ++row) {
@@ -58,14 +59,15 @@ ReadBy what_path_constraints_read(const Problem& problem) {
   const ExpressionVector q = counter.take(problem.configuration_size());
   const ExpressionVector v = counter.take(problem.configuration_size());
   const ExpressionVector u = counter.take(problem.control_size());
-  const ExpressionVector constraints = problem.path_constraints({q, v, u, counter.take()});
+  const ExpressionVector y = counter.take(problem.first_order_size());
+  const ExpressionVector constraints = problem.path_constraints({q, v, u, counter.take(), y});
   const auto depends = [](const Expression& constraint, const ExpressionVector& inputs) {
     return std::ranges::any_of(gradient(constraint, inputs), [](const Expression& entry) { return !entry.is_zero(); });
   };
   ReadBy read;
   for (const Expression& constraint : constraints) {
     read.control.push_back(depends(constraint, u));
-    read.state.push_back(depends(constraint, q) || depends(constraint, v));
+    read.state.push_back(depends(constraint, q) || depends(constraint, v) || depends(constraint, y));
   }
   return read;
 }

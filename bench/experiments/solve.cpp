@@ -93,7 +93,25 @@ class Solve final : public ExperimentOf<Measured> {
       print_line(fmt::format("solve: {}: {}_nodes.csv", solved.the_case.label(), file));
       print_line(fmt::format("solve: {}: intervals join to {:.1e} of the range, worst is interval {}",
                              solved.the_case.label(), solved.accuracy->relative_jump, solved.accuracy->interval));
+      print_found(solved);
       print_excess(solved);
+    }
+  }
+
+  /// What a solve chose besides the motion.
+  static void print_found(const SolvedCase& solved) {
+    const Problem& problem = *solved.the_case.problem;
+    const Trajectory& motion = *solved.trajectory;
+    const std::vector<std::size_t> unknowns = problem.unknowns();
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+      const Parameter& parameter = problem.parameters()[unknowns[i]];
+      print_line(fmt::format("solve: {}: {} = {:.10g}{}{}", solved.the_case.label(), parameter.name,
+                             motion.unknowns[static_cast<Eigen::Index>(i)], parameter.unit.empty() ? "" : " ",
+                             parameter.unit));
+    }
+    for (Eigen::Index i = 0; i < motion.integral_prices.size(); ++i) {
+      print_line(fmt::format("solve: {}: integrands[{}]: the integral is {:.10g}, the price of its bound {:.6g}",
+                             solved.the_case.label(), i, motion.integrals[i], motion.integral_prices[i]));
     }
   }
 

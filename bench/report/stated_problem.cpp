@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -64,6 +65,15 @@ std::vector<StatedProblem::Letter> letters_of(const Problem& problem, const std:
   return letters;
 }
 
+/// What bounds say behind a formula.
+std::string relation(double lower, double upper) {
+  const auto number = [](double value) { return fmt::format("<mn>{:g}</mn>", value); };
+  if (lower == upper) return "<mo>=</mo>" + number(lower);
+  if (std::isinf(upper)) return "<mo>≥</mo>" + number(lower);
+  if (std::isinf(lower)) return "<mo>≤</mo>" + number(upper);
+  return "<mo>∈</mo><mo>[</mo>" + number(lower) + "<mo>,</mo>" + number(upper) + "<mo>]</mo>";
+}
+
 void trace_along(const Problem& problem, StatedProblem& result) {
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index m = problem.control_size();
@@ -72,6 +82,7 @@ void trace_along(const Problem& problem, StatedProblem& result) {
   x.q = inputs.take(n);
   x.v = inputs.take(n);
   x.u = inputs.take(m);
+  x.y = inputs.take(problem.first_order_size());
   x.t = inputs.take();
   result.along.push_back({"<mi>C</mi>", problem.running_cost(x), ""});
   result.along.push_back({"<mi>L</mi>", problem.lagrangian(x.state()), ""});
@@ -80,8 +91,18 @@ void trace_along(const Problem& problem, StatedProblem& result) {
   for (Eigen::Index i = 0; i < force.size(); ++i)
     result.along.push_back({indexed("f", mathml_of_name(names.at(static_cast<std::size_t>(i)))), force[i], ""});
   const ExpressionVector constraints = problem.path_constraints(x);
-  for (Eigen::Index i = 0; i < constraints.size(); ++i)
-    result.along.push_back({indexed("h", fmt::format("<mn>{}</mn>", i + 1)), constraints[i], "<mo>≥</mo><mn>0</mn>"});
+  const Bounds path = problem.bounds().of_path(constraints.size());
+  for (Eigen::Index i = 0; i < constraints.size(); ++i) {
+    result.along.push_back(
+        {indexed("h", fmt::format("<mn>{}</mn>", i + 1)), constraints[i], relation(path.lower[i], path.upper[i])});
+  }
+  const ExpressionVector rates = problem.first_order_rates(x);
+  const std::vector<std::string> first_order = problem.first_order_names();
+  for (Eigen::Index i = 0; i < rates.size(); ++i)
+    result.along.push_back({mathml_of_rate(first_order.at(static_cast<std::size_t>(i))), rates[i], ""});
+  const ExpressionVector integrands = problem.integrands(x);
+  for (Eigen::Index i = 0; i < integrands.size(); ++i)
+    result.along.push_back({indexed("c", fmt::format("<mn>{}</mn>", i + 1)), integrands[i], ""});
 }
 
 void trace_ends(const Problem& problem, StatedProblem& result) {
@@ -90,9 +111,11 @@ void trace_ends(const Problem& problem, StatedProblem& result) {
   State first;
   first.q = inputs.take(n);
   first.v = inputs.take(n);
+  first.y = inputs.take(problem.first_order_size());
   State last;
   last.q = inputs.take(n);
   last.v = inputs.take(n);
+  last.y = inputs.take(problem.first_order_size());
   last.t = inputs.take();
   const Expression final_cost = problem.final_cost(last);
   result.has_final_cost = !final_cost.is_zero();
@@ -107,6 +130,8 @@ void trace_ends(const Problem& problem, StatedProblem& result) {
 StatedProblem stated(const Problem& problem) {
   StatedProblem result;
   const std::vector<std::string> varying = TracedProblem(problem).varying_parameters();
+  std::vector<std::string> lettered = varying;
+  for (const std::size_t unknown : problem.unknowns()) lettered.push_back(problem.parameters()[unknown].name);
   std::vector<std::string> q;
   std::vector<std::string> v;
   for (const std::string& name : problem.configuration_names()) {
@@ -116,7 +141,8 @@ StatedProblem stated(const Problem& problem) {
   std::vector<std::string> taken{"<mi>t</mi>", "<mi>C</mi>", "<mi>L</mi>"};
   taken.insert(taken.end(), q.begin(), q.end());
   for (const std::string& name : problem.control_names()) taken.push_back(mathml_of_name(name));
-  result.letters = letters_of(problem, varying, taken);
+  for (const std::string& name : problem.first_order_names()) taken.push_back(mathml_of_name(name));
+  result.letters = letters_of(problem, lettered, taken);
   for (const StatedProblem::Letter& letter : result.letters) {
     result.inputs.push_back(letter.mathml);
     taken.push_back(letter.mathml);
@@ -125,10 +151,13 @@ StatedProblem stated(const Problem& problem) {
   result.inputs.insert(result.inputs.end(), q.begin(), q.end());
   result.inputs.insert(result.inputs.end(), v.begin(), v.end());
   for (const std::string& name : problem.control_names()) result.inputs.push_back(mathml_of_name(name));
+  for (const std::string& name : problem.first_order_names()) result.inputs.push_back(mathml_of_name(name));
   result.inputs.emplace_back("<mi>t</mi>");
   for (const std::string time : {"<mn>0</mn>", "<mi>T</mi>"}) {
     for (const std::string& name : q) result.end_inputs.push_back(at(name, time));
     for (const std::string& name : v) result.end_inputs.push_back(at(name, time));
+    for (const std::string& name : problem.first_order_names())
+      result.end_inputs.push_back(at(mathml_of_name(name), time));
   }
   result.end_inputs.emplace_back("<mi>T</mi>");
   for (const std::string letter : {"w", "z", "s", "b", "a"}) {

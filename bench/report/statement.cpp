@@ -135,6 +135,7 @@ std::string statement_html(const Problem& problem) {
   const StatedProblem stated_problem = stated(problem);
   const auto n = static_cast<std::size_t>(problem.configuration_size());
   const auto m = static_cast<std::size_t>(problem.control_size());
+  const auto l = static_cast<std::size_t>(problem.first_order_size());
   const std::size_t letters = stated_problem.letters.size();
   const WrittenFormulas along = written(stated_problem.along, stated_problem.inputs, stated_problem);
   const WrittenFormulas at_ends = written(stated_problem.at_ends, stated_problem.end_inputs, stated_problem);
@@ -153,10 +154,13 @@ std::string statement_html(const Problem& problem) {
   Conditions begin;
   begin.add(part(stated_problem.end_inputs, letters, n), bounds.first.q);
   begin.add(part(stated_problem.end_inputs, letters + n, n), bounds.first.v);
+  begin.add(part(stated_problem.end_inputs, letters + 2 * n, l), bounds.first.y);
   add("Begin", begin);
   Conditions end;
-  end.add(part(stated_problem.end_inputs, letters + 2 * n, n), bounds.last.q);
-  end.add(part(stated_problem.end_inputs, letters + 3 * n, n), bounds.last.v);
+  const std::size_t of_last = letters + 2 * n + l;
+  end.add(part(stated_problem.end_inputs, of_last, n), bounds.last.q);
+  end.add(part(stated_problem.end_inputs, of_last + n, n), bounds.last.v);
+  end.add(part(stated_problem.end_inputs, of_last + 2 * n, l), bounds.last.y);
   add("End", end);
   Conditions horizon;
   horizon.add("<mi>T</mi>", bounds.horizon.lower, bounds.horizon.upper);
@@ -165,6 +169,20 @@ std::string statement_html(const Problem& problem) {
   on_motion.add(part(stated_problem.inputs, letters, n), bounds.q);
   on_motion.add(part(stated_problem.inputs, letters + n, n), bounds.v);
   on_motion.add(part(stated_problem.inputs, letters + 2 * n, m), bounds.u);
+  on_motion.add(part(stated_problem.inputs, letters + 2 * n + m, l), bounds.y);
+  for (Eigen::Index i = 0; i < bounds.integrals.lower.size(); ++i) {
+    on_motion.add(fmt::format("<msubsup><mo>∫</mo><mn>0</mn><mi>T</mi></msubsup><msub><mi>c</mi><mn>{}</mn></msub>"
+                              "<mspace width=\"0.2em\"/><mi>d</mi><mi>t</mi>",
+                              i + 1),
+                  bounds.integrals.lower[i], bounds.integrals.upper[i]);
+  }
+  for (const std::size_t unknown : problem.unknowns()) {
+    const Parameter& parameter = problem.parameters()[unknown];
+    const auto letter = std::ranges::find_if(stated_problem.letters, [&](const StatedProblem::Letter& one) {
+      return one.parameter->name == parameter.name;
+    });
+    on_motion.add(letter->mathml, parameter.lower, parameter.upper);
+  }
   add("Bounds", on_motion);
   return html + "</dl>\n" + letters_html(stated_problem);
 }

@@ -46,7 +46,8 @@ Json parameters(const Problem& problem) {
                     {"meaning", parameter.meaning},
                     {"lower", finite(parameter.lower)},
                     {"upper", finite(parameter.upper)},
-                    {"whole", parameter.whole}});
+                    {"whole", parameter.whole},
+                    {"unknown", parameter.is_unknown}});
   }
   return list;
 }
@@ -99,6 +100,7 @@ nlohmann::ordered_json problem_card_json(const Problem& problem) {
           {"library", library.empty() ? "dmocbench" : library},
           {"configurations", problem.configuration_names()},
           {"controls", problem.control_names()},
+          {"first_order_states", problem.first_order_names()},
           {"parameters", parameters(problem)},
           {"time_unit", {{"name", card.time_unit.name}, {"factor", card.time_unit.factor}}},
           {"horizon",
@@ -108,6 +110,7 @@ nlohmann::ordered_json problem_card_json(const Problem& problem) {
           {"bounds", {{"q", bounds_of(bounds.q)}, {"v", bounds_of(bounds.v)}, {"u", bounds_of(bounds.u)}}},
           {"path_constraints", traced.path_constraint_count()},
           {"boundary_conditions", traced.boundary_condition_count()},
+          {"integral_constraints", traced.integral_count()},
           {"guess", card.guess},
           {"cost_scale", problem.cost_scale()},
           {"optimum", optimum(card.reference)}};
@@ -126,7 +129,8 @@ nlohmann::ordered_json problem_cards_schema() {
                                     {"meaning", text()},
                                     {"lower", number_or_null()},
                                     {"upper", number_or_null()},
-                                    {"whole", {{"type", "boolean"}}}});
+                                    {"whole", {{"type", "boolean"}}},
+                                    {"unknown", described({{"type", "boolean"}}, "a solve chooses it")}});
   Json optimum = object_of({{"cost", described(number(), "the least cost")},
                             {"digits", described(count(), "significant digits of it that are certain")},
                             {"routes", described(text(), "closed form, or which independent routes agree to them")},
@@ -141,6 +145,7 @@ nlohmann::ordered_json problem_cards_schema() {
        {"library", described(text(), "where the problem comes from: dmocbench, or the path of a library")},
        {"configurations", described(list_of(text()), "q_1 .. q_n")},
        {"controls", described(list_of(text()), "u_1 .. u_m")},
+       {"first_order_states", described(list_of(text()), "y_1 .. y_l")},
        {"parameters", list_of(parameter)},
        {"time_unit", described(object_of({{"name", text()}, {"factor", number()}}),
                                "one unit of the problem's time is so many of these")},
@@ -152,6 +157,7 @@ nlohmann::ordered_json problem_cards_schema() {
                             "along the motion, an entry per quantity; empty where there are none")},
        {"path_constraints", described(count(), "how many")},
        {"boundary_conditions", described(count(), "how many")},
+       {"integral_constraints", described(count(), "how many")},
        {"guess", text()},
        {"cost_scale", described(number(), "the factor by which solvers see the cost")},
        {"optimum", optimum}},

@@ -58,6 +58,10 @@ class RestatedProblem final : public Problem {
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return base_->path_constraints(x);
   }
+  [[nodiscard]] std::vector<std::string> first_order_names() const override { return base_->first_order_names(); }
+  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
+    return base_->first_order_rates(x);
+  }
   [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override { return base_->integrands(x); }
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override {
     return base_->boundary_conditions(first, last);

@@ -247,8 +247,8 @@ ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::Vect
                                        const Eigen::VectorXd& multipliers, const Trajectory& motion) {
   const LayoutShape& shape = program.layout().shape();
   if (shape.mayer) throw Error("the error can only be estimated in Bolza form (--form bolza)");
-  if (shape.integrals > 0 || shape.unknown_parameters > 0) {
-    throw Error("the error cannot be estimated with integral constraints or unknown parameters");
+  if (shape.integrals > 0 || shape.unknown_parameters > 0 || shape.first_order_size > 0) {
+    throw Error("the error cannot be estimated with integral constraints, unknown parameters or first-order states");
   }
   const LinearisedConditions at(program, primal, multipliers);
   require_smooth_optimum(program, at);

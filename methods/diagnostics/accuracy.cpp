@@ -31,12 +31,13 @@ double range_of(const Eigen::MatrixXd& nodes) {
   return range > rounding_of(nodes) ? range : 0.0;
 }
 
-/// The end of (q, v) of node k under the controls of interval k; empty where that fails.
+/// The end of (q, v, y) of node k under the controls of interval k; empty where that fails.
 std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& trajectory, Eigen::Index k, double tolerance) {
   const Eigen::Index n = trajectory.q.cols();
-  std::vector<double> state(static_cast<std::size_t>(2 * n));
+  std::vector<double> state(static_cast<std::size_t>(2 * n + trajectory.y.cols()));
   Eigen::Map<Eigen::VectorXd>(state.data(), n) = trajectory.q.row(k);
   Eigen::Map<Eigen::VectorXd>(state.data() + n, n) = trajectory.v.row(k);
+  Eigen::Map<Eigen::VectorXd>(state.data() + 2 * n, trajectory.y.cols()) = Trajectory::row_of(trajectory.y, k);
   const auto equations = [&](const std::vector<double>& x, std::vector<double>& rate, double t) {
     motion.write_rate(x, control_on_interval(trajectory, k, t), t, rate);
   };
@@ -69,19 +70,26 @@ Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, dou
   };
   const double range_of_q = scale_of(trajectory.q);
   const double range_of_v = scale_of(trajectory.v);
+  const Eigen::Index l = trajectory.y.cols();
+  const double range_of_y = l > 0 ? scale_of(trajectory.y) : 1.0;
   const auto worst_of = [&](EquationsOfMotion& motion, Eigen::Index begin, Eigen::Index end) {
     Accuracy worst{.interval = begin};
     for (Eigen::Index k = begin; k < end; ++k) {
       const std::vector<double> state = carried(motion, trajectory, k, tolerance);
       double jump_of_q = std::numeric_limits<double>::infinity();
       double jump_of_v = jump_of_q;
+      double jump_of_y = l > 0 ? jump_of_q : 0.0;
       if (!state.empty() && std::ranges::all_of(state, [](double x) { return std::isfinite(x); })) {
         jump_of_q = (Eigen::Map<const Eigen::VectorXd>(state.data(), n) - trajectory.q.row(k + 1).transpose()).norm();
         jump_of_v =
             (Eigen::Map<const Eigen::VectorXd>(state.data() + n, n) - trajectory.v.row(k + 1).transpose()).norm();
+        if (l > 0) {
+          jump_of_y =
+              (Eigen::Map<const Eigen::VectorXd>(state.data() + 2 * n, l) - trajectory.y.row(k + 1).transpose()).norm();
+        }
       }
       worst.jump = std::max(worst.jump, std::hypot(jump_of_q, jump_of_v));
-      const double relative = std::max(jump_of_q / range_of_q, jump_of_v / range_of_v);
+      const double relative = std::max({jump_of_q / range_of_q, jump_of_v / range_of_v, jump_of_y / range_of_y});
       if (relative > worst.relative_jump) {
         worst.relative_jump = relative;
         worst.interval = k;

@@ -34,13 +34,19 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
     throw Error(problem.name() + " states no symmetry, so there is no momentum to watch");
   }
   const Eigen::Index n = traced.configuration_size();
-  PointFunction generator(n, traced.control_size(), [&](const ControlledState& x) { return traced.at(x).symmetry; });
-  PointFunction force_along(n, traced.control_size(), [&](const ControlledState& x) {
-    const TracedProblem::Values values = traced.at(x);
-    const ExpressionVector transport = values.symmetry_jacobian * x.v;
-    return ExpressionVector::Constant(1,
-                                      values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport));
-  });
+  const Eigen::Index m = traced.control_size();
+  const Eigen::Index l = traced.first_order_size();
+  PointFunction generator(
+      n, m, [&](const ControlledState& x) { return traced.at(x).symmetry; }, l);
+  PointFunction force_along(
+      n, m,
+      [&](const ControlledState& x) {
+        const TracedProblem::Values values = traced.at(x);
+        const ExpressionVector transport = values.symmetry_jacobian * x.v;
+        return ExpressionVector::Constant(
+            1, values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport));
+      },
+      l);
 
   Eigen::VectorXd momentum(trajectory.q.rows());
   Eigen::VectorXd direction(n);
@@ -118,22 +124,28 @@ Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& tr
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   const Eigen::Index n = traced.configuration_size();
-  PointFunction rates(n, traced.control_size(), [&](const ControlledState& x) {  // C, then ṗ
-    const TracedProblem::Values values = traced.at(x);
-    ExpressionVector outputs(1 + n);
-    outputs << values.running_cost + priced_integrals(values, trajectory), values.generalised_force;
-    return outputs;
-  });
+  const Eigen::Index l = traced.first_order_size();
+  PointFunction rates(
+      n, traced.control_size(),
+      [&](const ControlledState& x) {  // C, then ṗ, then ẏ
+        const TracedProblem::Values values = traced.at(x);
+        ExpressionVector outputs(1 + n + l);
+        outputs << values.running_cost + priced_integrals(values, trajectory), values.generalised_force,
+            values.first_order_rates;
+        return outputs;
+      },
+      l);
   Eigen::VectorXd hamiltonian(trajectory.node_times.size());
-  Eigen::VectorXd outputs(1 + n);
+  Eigen::VectorXd outputs(1 + n + l);
   for (Eigen::Index k = 0; k < hamiltonian.size(); ++k) {
     const double t = trajectory.node_times[k];
     const Eigen::Index interval = std::min(k, trajectory.intervals() - 1);
     MotionPoint point = trajectory.node(k);
     point.u = control_on_interval(trajectory, interval, t);
     rates.evaluate(point, t, outputs);
-    hamiltonian[k] =
-        outputs[0] + trajectory.psi_q.row(k).dot(trajectory.v.row(k)) + trajectory.psi_p.row(k).dot(outputs.tail(n));
+    hamiltonian[k] = outputs[0] + trajectory.psi_q.row(k).dot(trajectory.v.row(k)) +
+                     trajectory.psi_p.row(k).dot(outputs.segment(1, n));
+    if (l > 0) hamiltonian[k] += trajectory.psi_y.row(k).dot(outputs.tail(l));
   }
   return hamiltonian;
 }
@@ -143,11 +155,15 @@ double free_horizon_residual(const Problem& problem, const Trajectory& trajector
   const Eigen::VectorXd hamiltonian = control_hamiltonian(problem, trajectory);
   const TracedProblem traced(problem);
   const Eigen::Index n = traced.configuration_size();
-  PointFunction end_rates(n, traced.control_size(), [&](const ControlledState& x) {  // ∂Φ/∂T at given v, then L_vt
-    ExpressionVector rates(1 + n);
-    rates << gradient(problem.final_cost(x.state()), ExpressionVector::Constant(1, x.t)), traced.at(x).momentum_by_time;
-    return rates;
-  });
+  PointFunction end_rates(
+      n, traced.control_size(),
+      [&](const ControlledState& x) {  // ∂Φ/∂T at given v, then L_vt
+        ExpressionVector rates(1 + n);
+        rates << gradient(problem.final_cost(x.state()), ExpressionVector::Constant(1, x.t)),
+            traced.at(x).momentum_by_time;
+        return rates;
+      },
+      traced.first_order_size());
   const Eigen::Index last = trajectory.intervals();
   Eigen::VectorXd rates(1 + n);
   end_rates.evaluate(trajectory.node(last), trajectory.node_times[last], rates);

@@ -26,16 +26,20 @@ BoundaryState end_state(const BoundaryState& prescribed, const EndBounds& bounds
     if (!bounds.q.is_fixed(i)) state.q[i] = trajectory.q(node, i);
     if (!bounds.v.is_fixed(i)) state.v[i] = trajectory.v(node, i);
   }
+  for (Eigen::Index i = 0; i < state.y.size(); ++i) {
+    if (!bounds.y.is_fixed(i)) state.y[i] = trajectory.y(node, i);
+  }
   return state;
 }
 
 /// Φ at the end of a motion.
 double final_cost(const Problem& problem, const BoundaryState& last, double horizon) {
-  PointFunction function(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
-    return ExpressionVector::Constant(1, problem.final_cost(x.state()));
-  });
+  PointFunction function(
+      problem.configuration_size(), problem.control_size(),
+      [&](const ControlledState& x) { return ExpressionVector::Constant(1, problem.final_cost(x.state())); },
+      problem.first_order_size());
   Eigen::VectorXd value(1);
-  function.evaluate(last.q, last.v, Eigen::VectorXd(), horizon, value);
+  function.evaluate(last.q, last.v, Eigen::VectorXd(), horizon, value, last.y);
   return value[0];
 }
 
@@ -46,28 +50,31 @@ class Replay {
       : trajectory_(trajectory),
         tolerance_(tolerance),
         n_(problem.configuration_size()),
+        l_(problem.first_order_size()),
         traced_(problem),
         motion_(traced_),
-        running_cost_(traced_.configuration_size(), traced_.control_size(), [&](const ControlledState& x) {
-          return ExpressionVector::Constant(1, traced_.at(x).running_cost);
-        }) {}
+        running_cost_(
+            traced_.configuration_size(), traced_.control_size(),
+            [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced_.at(x).running_cost); }, l_) {}
 
-  /// q, v and a cost so far of 0.
-  [[nodiscard]] static std::vector<double> begin_at(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-    std::vector<double> state(q.begin(), q.end());
-    state.insert(state.end(), v.begin(), v.end());
+  /// q, v, y and a cost so far of 0.
+  [[nodiscard]] static std::vector<double> begin_at(const BoundaryState& start) {
+    std::vector<double> state(start.q.begin(), start.q.end());
+    state.insert(state.end(), start.v.begin(), start.v.end());
+    state.insert(state.end(), start.y.begin(), start.y.end());
     state.push_back(0.0);
     return state;
   }
 
-  /// Carries q, v and the cost so far through interval k.
+  /// Carries q, v, y and the cost so far through interval k.
   void carry(std::vector<double>& state, Eigen::Index k) {
     const auto equations = [&](const std::vector<double>& x, std::vector<double>& derivative, double t) {
       const Eigen::Map<const Eigen::VectorXd> q(x.data(), n_);
       const Eigen::Map<const Eigen::VectorXd> v(x.data() + n_, n_);
+      const Eigen::Map<const Eigen::VectorXd> y(x.data() + 2 * n_, l_);
       const Eigen::VectorXd u = control_on_interval(trajectory_, k, t);
       motion_.write_rate(x, u, t, derivative);
-      running_cost_.evaluate(q, v, u, t, cost_rate_);
+      running_cost_.evaluate(q, v, u, t, cost_rate_, y);
       derivative.back() = cost_rate_[0];
     };
     const double left = trajectory_.node_times[k];
@@ -75,7 +82,7 @@ class Replay {
     if (!integrate(equations, state, left, right, right - left, tolerance_)) {
       throw Error(fmt::format("the replay's step size vanished in interval {}", k));
     }
-    if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n_ + 1).allFinite()) {
+    if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n_ + l_ + 1).allFinite()) {
       throw Error(fmt::format("the replay left the set where the equations of motion make sense in interval {}", k));
     }
   }
@@ -84,6 +91,7 @@ class Replay {
   const Trajectory& trajectory_;
   double tolerance_;
   Eigen::Index n_;
+  Eigen::Index l_;
   TracedProblem traced_;
   EquationsOfMotion motion_;
   PointFunction running_cost_;
@@ -92,7 +100,7 @@ class Replay {
 
 }  // namespace
 
-double ReplayError::norm() const { return std::hypot(configuration, velocity); }
+double ReplayError::norm() const { return std::hypot(configuration, velocity, first_order); }
 
 ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance) {
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
@@ -102,28 +110,33 @@ ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, d
   const BoundaryState first = end_state(problem.initial_state(), bounds.first, trajectory, 0);
   const BoundaryState last = end_state(problem.final_state(), bounds.last, trajectory, intervals);
   Replay replay(problem, trajectory, tolerance);
-  std::vector<double> state = Replay::begin_at(first.q, first.v);
+  std::vector<double> state = Replay::begin_at(first);
   // Interval by interval: controls jump at the nodes, and a step across a jump has order 1.
   for (Eigen::Index k = 0; k < intervals; ++k) replay.carry(state, k);
   const Eigen::Map<const Eigen::VectorXd> q(state.data(), n);
   const Eigen::Map<const Eigen::VectorXd> v(state.data() + n, n);
+  const Eigen::Map<const Eigen::VectorXd> y(state.data() + 2 * n, last.y.size());
   return {.configuration = (q - last.q).norm(),
           .velocity = (v - last.v).norm(),
-          .cost = state.back() + final_cost(problem, {q, v}, trajectory.node_times[intervals])};
+          .first_order = (y - last.y).norm(),
+          .cost = state.back() + final_cost(problem, {q, v, y}, trajectory.node_times[intervals])};
 }
 
 double cost_by_intervals(const Problem& problem, const Trajectory& trajectory, double tolerance) {
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const Eigen::Index intervals = trajectory.intervals();
   Replay replay(problem, trajectory, tolerance);
+  const auto at_node = [&](Eigen::Index k) {
+    const MotionPoint node = trajectory.node(k);
+    return BoundaryState{node.q, node.v, node.y};
+  };
   double cost = 0.0;
   for (Eigen::Index k = 0; k < intervals; ++k) {
-    std::vector<double> state = Replay::begin_at(trajectory.q.row(k), trajectory.v.row(k));
+    std::vector<double> state = Replay::begin_at(at_node(k));
     replay.carry(state, k);
     cost += state.back();
   }
-  const BoundaryState last{trajectory.q.row(intervals), trajectory.v.row(intervals)};
-  return cost + final_cost(problem, last, trajectory.node_times[intervals]);
+  return cost + final_cost(problem, at_node(intervals), trajectory.node_times[intervals]);
 }
 
 }  // namespace dmocbench

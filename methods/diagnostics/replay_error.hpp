@@ -10,8 +10,9 @@ namespace dmocbench {
 struct ReplayError {
   double configuration = 0.0;  ///< |q(T) - q^T|
   double velocity = 0.0;       ///< |v(T) - v^T|
+  double first_order = 0.0;    ///< |y(T) - y^T|
   double cost = 0.0;           ///< the cost of the replayed motion, integrated along with it
-  /// Configuration and velocity together, Euclidean norm.
+  /// Configuration, velocity and first-order states together, Euclidean norm.
   [[nodiscard]] double norm() const;
 };
 

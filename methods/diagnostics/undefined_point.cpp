@@ -25,7 +25,8 @@ std::optional<UndefinedPoint> undefined_between(FormulaCheck& check, const Traje
     const double t = left + width * (i + 0.5) / points_per_interval;
     const MotionPoint point{.q = configuration_at(trajectory, t),
                             .v = velocity_on_interval(trajectory, k, t),
-                            .u = control_on_interval(trajectory, k, t)};
+                            .u = control_on_interval(trajectory, k, t),
+                            .y = first_order_on_interval(trajectory, k, t)};
     const std::string quantity = check.undefined_at(point, t);
     if (!quantity.empty()) return UndefinedPoint{quantity, k, t};
   }
@@ -52,7 +53,8 @@ std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Traj
     const double t = trajectory.node_times[node];
     MotionPoint point{.q = trajectory.q.row(node).transpose(),
                       .v = trajectory.v.row(node).transpose(),
-                      .u = control_on_interval(trajectory, interval, t)};
+                      .u = control_on_interval(trajectory, interval, t),
+                      .y = Trajectory::row_of(trajectory.y, node)};
     // Momenta give the velocity up to rounding; a prescribed one is exact, for example of a body at rest.
     if (node == 0 && bounds.first.v.all_fixed()) point.v = problem.initial_state().v;
     if (node == trajectory.intervals() && bounds.last.v.all_fixed()) point.v = problem.final_state().v;

@@ -53,13 +53,14 @@ struct Ranges {
   double all = 1.0;
 };
 
-/// The sides of bounds on q, v and u in one vector, `none` where there is no bound.
+/// The sides of bounds on q, v, u and y in one vector, `none` where there is no bound.
 Eigen::VectorXd joined(const ProblemBounds& bounds, Eigen::VectorXd Bounds::*side, Eigen::Index n, Eigen::Index m,
-                       double none) {
-  Eigen::VectorXd all = Eigen::VectorXd::Constant(2 * n + m, none);
+                       Eigen::Index l, double none) {
+  Eigen::VectorXd all = Eigen::VectorXd::Constant(2 * n + m + l, none);
   if ((bounds.q.*side).size() == n) all.head(n) = bounds.q.*side;
   if ((bounds.v.*side).size() == n) all.segment(n, n) = bounds.v.*side;
-  if ((bounds.u.*side).size() == m) all.tail(m) = bounds.u.*side;
+  if ((bounds.u.*side).size() == m) all.segment(2 * n, m) = bounds.u.*side;
+  if ((bounds.y.*side).size() == l) all.tail(l) = bounds.y.*side;
   return all;
 }
 
@@ -68,7 +69,7 @@ struct Worst {
   double amount = 0.0;
   Eigen::Index interval = 0;
   double time = 0.0;
-  Eigen::RowVectorXd point;  // (q, v, u, t)
+  Eigen::RowVectorXd point;  // (q, v, u, y, t)
 };
 
 /// Goes along a motion, some intervals at a time.
@@ -81,15 +82,16 @@ class Measurement {
         trajectory_(trajectory),
         n_(trajectory.q.cols()),
         m_(trajectory.stage_u.cols()),
+        l_(trajectory.y.cols()),
         basis_(trajectory.tableau.c),
-        rows_(Eigen::MatrixXd::Zero(points * intervals_at_once, 2 * n_ + m_ + 1)),
-        scales_(2 * n_ + m_),
+        rows_(Eigen::MatrixXd::Zero(points * intervals_at_once, 2 * n_ + m_ + l_ + 1)),
+        scales_(2 * n_ + m_ + l_),
         range_of_q_(trajectory.q),
         range_of_v_(trajectory.v),
-        outside_(static_cast<std::size_t>(2 * n_ + m_)) {
-    lower_ = joined(bounds, &Bounds::lower, n_, m_, -infinite);
-    upper_ = joined(bounds, &Bounds::upper, n_, m_, infinite);
-    scales_ << range_of_q_.each, range_of_v_.each, Ranges(trajectory.stage_u).each;
+        outside_(static_cast<std::size_t>(2 * n_ + m_ + l_)) {
+    lower_ = joined(bounds, &Bounds::lower, n_, m_, l_, -infinite);
+    upper_ = joined(bounds, &Bounds::upper, n_, m_, l_, infinite);
+    scales_ << range_of_q_.each, range_of_v_.each, Ranges(trajectory.stage_u).each, Ranges(trajectory.y).each;
     if (traced.path_constraint_count() == 0) return;
     path_bounds_ = bounds.of_path(traced.path_constraint_count());
     path_.emplace(traced, std::max(points * intervals_at_once, 2 * scales_.size() + 1));
@@ -121,17 +123,25 @@ class Measurement {
 
   void read(Eigen::Index j) {
     auto values = block(j);
-    if (j >= 2 * n_) values = basis_.value.lazyProduct(stages(trajectory_.stage_u, j - 2 * n_));
+    if (is_control(j)) values = basis_.value.lazyProduct(stages(trajectory_.stage_u, j - 2 * n_));
     if (j >= n_ && j < 2 * n_) values = basis_.value.lazyProduct(stages(trajectory_.stage_v, j - n_));
-    if (j >= n_) return;
-    values = basis_.integral.lazyProduct(stages(trajectory_.stage_v, j));
+    if (j < n_) integrate(trajectory_.q.col(j), stages(trajectory_.stage_v, j), values);
+    if (j < 2 * n_ + m_) return;
+    const Eigen::Index i = j - 2 * n_ - m_;
+    integrate(trajectory_.y.col(i), stages(trajectory_.stage_y_rates, i), values);
+  }
+  [[nodiscard]] bool is_control(Eigen::Index j) const { return j >= 2 * n_ && j < 2 * n_ + m_; }
+  /// From its nodes and the rates at the stages.
+  void integrate(const Eigen::Ref<const Eigen::VectorXd>& nodes, const Eigen::Map<const Eigen::MatrixXd>& rates,
+                 Eigen::Map<Eigen::MatrixXd>& values) const {
+    values = basis_.integral.lazyProduct(rates);
     for (Eigen::Index k = 0; k < count_; ++k) {
-      values.col(k) = trajectory_.q(first_ + k, j) + trajectory_.step(first_ + k) * values.col(k).array();
+      values.col(k) = nodes[first_ + k] + trajectory_.step(first_ + k) * values.col(k).array();
     }
-    values.bottomRows(1) = trajectory_.q.col(j).segment(first_ + 1, count_).transpose();
+    values.bottomRows(1) = nodes.segment(first_ + 1, count_).transpose();
   }
   void read_times() {
-    auto times = block(2 * n_ + m_);
+    auto times = block(2 * n_ + m_ + l_);
     for (Eigen::Index k = 0; k < count_; ++k) {
       for (Eigen::Index i = 0; i < points; ++i) {
         times(i, k) = trajectory_.node_times[first_ + k] + tau_of(i) * trajectory_.step(first_ + k);
@@ -141,11 +151,11 @@ class Measurement {
 
   void keep(Worst& worst, double amount, Eigen::Index row) const {
     if (!(amount > worst.amount)) return;
-    worst = {amount, first_ + row / points, rows_(row, 2 * n_ + m_), rows_.row(row)};
+    worst = {amount, first_ + row / points, rows_(row, 2 * n_ + m_ + l_), rows_.row(row)};
   }
 
   void compare_with_bounds() {
-    for (Eigen::Index j = 0; j < 2 * n_ + m_; ++j) {
+    for (Eigen::Index j = 0; j < scales_.size(); ++j) {
       if (!is_bounded(j)) continue;
       const auto x = rows_.col(j).head(points * count_);
       Eigen::Index lowest = 0;
@@ -154,7 +164,7 @@ class Measurement {
       const double above = x.maxCoeff(&highest) - upper_[j];
       keep(outside_[static_cast<std::size_t>(j)], below, lowest);
       keep(outside_[static_cast<std::size_t>(j)], above, highest);
-      if (j >= 2 * n_ && std::max(below, above) > tolerated(scales_[j])) has_excess_ = true;
+      if (is_control(j) && std::max(below, above) > tolerated(scales_[j])) has_excess_ = true;
     }
     if (has_excess_) replay_clipped();
     has_excess_ = false;
@@ -223,7 +233,7 @@ class Measurement {
       const bool is_end = point == 0 || point == points - 1;
       const double weight = (is_end ? 0.5 : 1.0) / static_cast<double>(points - 1);
       cut.col(k) += weight * ((pairs.row(i) - pairs.row(count + i)).segment(2 * n_, m_).transpose().array().abs() /
-                              scales_.tail(m_).array())
+                              scales_.segment(2 * n_, m_).array())
                                  .matrix();
       const Eigen::VectorXd impulse = h * weight * solve_square<double, 1>(mass, force);
       missed.col(k).tail(n_) += impulse;
@@ -234,6 +244,10 @@ class Measurement {
   }
 
   [[nodiscard]] std::string name_of_bound(Eigen::Index j) const {
+    if (j >= 2 * n_ + m_) {
+      const Eigen::Index i = j - 2 * n_ - m_;
+      return fmt::format("bounds().y: y[{}] ({})", i, problem_.first_order_names()[static_cast<std::size_t>(i)]);
+    }
     if (j >= 2 * n_) {
       const Eigen::Index i = j - 2 * n_;
       return fmt::format("bounds().u: u[{}] ({})", i, problem_.control_names()[static_cast<std::size_t>(i)]);
@@ -252,7 +266,7 @@ class Measurement {
   [[nodiscard]] double path_share(Eigen::Index i, const Worst& worst) {
     if (std::isinf(worst.amount)) return infinite;
     constexpr double delta = largest_violation_of_a_motion;
-    const Eigen::Index moved = 2 * n_ + m_;
+    const Eigen::Index moved = scales_.size();
     Eigen::MatrixXd rows = worst.point.replicate(2 * moved + 1, 1);  // the last one stays
     for (Eigen::Index j = 0; j < moved; ++j) {
       rows(2 * j, j) += delta * scales_[j];
@@ -270,11 +284,11 @@ class Measurement {
     const auto take = [&](MotionViolation& kept, double share, const Worst& worst, const std::string& name) {
       if (share > kept.share) kept = {share, worst.amount, name, worst.interval, worst.time};
     };
-    for (Eigen::Index j = 0; j < 2 * n_ + m_; ++j) {
+    for (Eigen::Index j = 0; j < scales_.size(); ++j) {
       const Worst& worst = outside_[static_cast<std::size_t>(j)];
       found.largest = std::max(found.largest, worst.amount);
       if (worst.amount <= tolerated(scales_[j])) continue;
-      take(j < 2 * n_ ? found.state : found.control, worst.amount / scales_[j], worst, name_of_bound(j));
+      take(is_control(j) ? found.control : found.state, worst.amount / scales_[j], worst, name_of_bound(j));
     }
     found.control.share = clipped_share_;
     found.missed = missed_;
@@ -291,11 +305,12 @@ class Measurement {
   const Trajectory& trajectory_;
   Eigen::Index n_;
   Eigen::Index m_;
+  Eigen::Index l_;
   PolynomialsAtPoints basis_;
-  Eigen::MatrixXd rows_;   // (q, v, u, t) at the points of the present intervals
-  Eigen::VectorXd lower_;  // of (q, v, u)
+  Eigen::MatrixXd rows_;   // (q, v, u, y, t) at the points of the present intervals
+  Eigen::VectorXd lower_;  // of (q, v, u, y)
   Eigen::VectorXd upper_;
-  Eigen::VectorXd scales_;  // of (q, v, u)
+  Eigen::VectorXd scales_;  // of (q, v, u, y)
   Ranges range_of_q_;
   Ranges range_of_v_;
   std::vector<Worst> outside_;
@@ -337,7 +352,7 @@ std::string ViolationBetweenStages::words(const Trajectory& trajectory, double t
 ViolationBetweenStages violation_between_stages(const Problem& problem, const TracedProblem& traced,
                                                 const Trajectory& trajectory) {
   const ProblemBounds bounds = problem.bounds();
-  const bool is_bounded = bounds.q.any() || bounds.v.any() || bounds.u.any();
+  const bool is_bounded = bounds.q.any() || bounds.v.any() || bounds.u.any() || bounds.y.any();
   // With one stage q̇ and u are constant in an interval, and q is linear.
   const bool may_leave_bounds = is_bounded && trajectory.stages() > 1;
   if (!may_leave_bounds && traced.path_constraint_count() == 0) return {};

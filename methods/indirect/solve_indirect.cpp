@@ -66,6 +66,7 @@ void require_smooth_class(const Problem& problem) {
   if (bounds.q.any() || bounds.v.any()) refuse("bounds on the state");
   if (traced.path_constraint_count() > 0) refuse("path constraints");
   if (traced.integral_count() > 0) refuse("integral constraints");
+  if (traced.first_order_size() > 0) refuse("first-order states");
   if (traced.unknown_count() > 0) refuse("unknown parameters");
   if (traced.boundary_condition_count() > 0) refuse("boundary conditions");
   const Eigen::Index n = traced.configuration_size();

@@ -20,7 +20,9 @@ bool Bounds::is_bounded(Eigen::Index i) const { return lower[i] > -infinity || u
 
 bool Bounds::any() const { return (lower.array() > -infinity).any() || (upper.array() < infinity).any(); }
 
-EndBounds EndBounds::fixed(const BoundaryState& state) { return {Bounds::fixed(state.q), Bounds::fixed(state.v)}; }
+EndBounds EndBounds::fixed(const BoundaryState& state) {
+  return {Bounds::fixed(state.q), Bounds::fixed(state.v), Bounds::fixed(state.y)};
+}
 
 EndBounds& EndBounds::free_configuration(Eigen::Index i) {
   q.lower[i] = -infinity;
@@ -31,6 +33,12 @@ EndBounds& EndBounds::free_configuration(Eigen::Index i) {
 EndBounds& EndBounds::free_velocity(Eigen::Index i) {
   v.lower[i] = -infinity;
   v.upper[i] = infinity;
+  return *this;
+}
+
+EndBounds& EndBounds::free_first_order(Eigen::Index i) {
+  y.lower[i] = -infinity;
+  y.upper[i] = infinity;
   return *this;
 }
 

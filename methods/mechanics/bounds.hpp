@@ -35,17 +35,20 @@ struct Bounds {
 
 /// Bounds on the state at an end of the horizon.
 struct EndBounds {
-  Bounds q;  ///< n entries
-  Bounds v;  ///< n entries
+  Bounds q;       ///< n entries
+  Bounds v;       ///< n entries
+  Bounds y = {};  ///< first-order states, l entries
 
-  /// (q, v) = state, (eq:LOCP3).
+  /// (q, v, y) = state, (eq:LOCP3).
   [[nodiscard]] static EndBounds fixed(const BoundaryState& state);
   /// Removes the bounds of q_i (v_i).
   EndBounds& free_configuration(Eigen::Index i);
   /// Leaves the velocity of component i free.
   EndBounds& free_velocity(Eigen::Index i);
+  /// Leaves the first-order state y_i free.
+  EndBounds& free_first_order(Eigen::Index i);
 
-  /// True if the state of this end is given completely.
+  /// True if q and v of this end are given completely.
   [[nodiscard]] bool all_fixed() const { return q.all_fixed() && v.all_fixed(); }
 };
 
@@ -59,12 +62,13 @@ struct HorizonBounds {
 
 /// All bounds of a problem.
 struct ProblemBounds {
-  EndBounds first;        ///< on (q, q̇)(0)
-  EndBounds last;         ///< on (q, q̇)(T)
+  EndBounds first;        ///< on (q, q̇, y)(0)
+  EndBounds last;         ///< on (q, q̇, y)(T)
   HorizonBounds horizon;  ///< on T
   Bounds q;               ///< at every node, n entries or none
   Bounds v;               ///< at every stage, n entries or none
   Bounds u;               ///< at every stage, m entries or none
+  Bounds y;               ///< on first-order states at every node, l entries or none
   Bounds path;            ///< on the path constraints h at every stage, one entry each; h >= 0 where there are none
   Bounds integrals;       ///< on the integrals of `Problem::integrands` over [0, T], one entry each
 

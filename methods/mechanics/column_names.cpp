@@ -84,9 +84,20 @@ void require_names(const Problem& problem) {
   const auto configurations = names_of("configuration_names", [&] { return problem.configuration_names(); });
   const auto controls = names_of("control_names", [&] { return problem.control_names(); });
   if (configurations.empty()) {
-    throw Error(problem.name() + ": configuration_names is empty; a problem needs a configuration");
+    throw Error(problem.name() +
+                ": configuration_names is empty; a problem needs a configuration, since for "
+                "first-order states alone all methods are the same");
   }
+  const auto first_order = names_of("first_order_names", [&] { return problem.first_order_names(); });
   for (const std::string& name : configurations) columns.take(name, name);
+  for (const std::string& name : first_order) {
+    columns.take(name, name);
+    columns.take("psi_" + name, name);
+  }
+  for (const std::size_t unknown : problem.unknowns()) {
+    const std::string& name = problem.parameters()[unknown].name;
+    columns.take(name, name);
+  }
   for (const std::string& name : controls) columns.take(name, name);
   for (const std::string& name : configurations) {
     for (const char* const prefix : {"v_", "p_", "psi_q_", "psi_p_"}) columns.take(prefix + name, name);

@@ -7,21 +7,26 @@ namespace dmocbench {
 
 EquationsOfMotion::EquationsOfMotion(const TracedProblem& problem)
     : n_(problem.configuration_size()),
-      function_(n_, problem.control_size(),
-                [&](const ControlledState& x) {
-                  const TracedProblem::Values values = problem.at(x);
-                  ExpressionVector right_hand_side = values.generalised_force - values.momentum_by_time;
-                  right_hand_side -= values.momentum_by_configuration * x.v;
-                  ExpressionVector outputs(n_ + n_ * n_);
-                  outputs << right_hand_side, values.mass.reshaped();
-                  return outputs;
-                }),
+      l_(problem.first_order_size()),
+      function_(
+          n_, problem.control_size(),
+          [&](const ControlledState& x) {
+            const TracedProblem::Values values = problem.at(x);
+            ExpressionVector right_hand_side = values.generalised_force - values.momentum_by_time;
+            right_hand_side -= values.momentum_by_configuration * x.v;
+            if (l_ > 0) right_hand_side -= values.momentum_by_first_order * values.first_order_rates;
+            ExpressionVector outputs(n_ + l_ + n_ * n_);
+            outputs << right_hand_side, values.first_order_rates, values.mass.reshaped();
+            return outputs;
+          },
+          l_),
       values_(function_.output_count()) {}
 
 Eigen::VectorXd EquationsOfMotion::acceleration(const Eigen::Ref<const Eigen::VectorXd>& q,
                                                 const Eigen::Ref<const Eigen::VectorXd>& v,
-                                                const Eigen::Ref<const Eigen::VectorXd>& u, double t) {
-  function_.evaluate(q, v, u, t, values_);
+                                                const Eigen::Ref<const Eigen::VectorXd>& u, double t,
+                                                const Eigen::Ref<const Eigen::VectorXd>& y) {
+  function_.evaluate(q, v, u, t, values_, y);
   const std::optional<Eigen::VectorXd> acceleration =
       solve_if_invertible(values_.tail(n_ * n_).reshaped(n_, n_), values_.head(n_));
   if (!acceleration) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
@@ -33,7 +38,9 @@ void EquationsOfMotion::write_rate(const std::vector<double>& state, const Eigen
   const Eigen::Map<const Eigen::VectorXd> q(state.data(), n_);
   const Eigen::Map<const Eigen::VectorXd> v(state.data() + n_, n_);
   Eigen::Map<Eigen::VectorXd>(rate.data(), n_) = v;
-  Eigen::Map<Eigen::VectorXd>(rate.data() + n_, n_) = acceleration(q, v, u, t);
+  const Eigen::Map<const Eigen::VectorXd> y(state.data() + 2 * n_, l_);
+  Eigen::Map<Eigen::VectorXd>(rate.data() + n_, n_) = acceleration(q, v, u, t, y);
+  Eigen::Map<Eigen::VectorXd>(rate.data() + 2 * n_, l_) = values_.segment(n_, l_);
 }
 
 }  // namespace dmocbench

@@ -10,7 +10,7 @@
 namespace dmocbench {
 
 /// The forced Euler-Lagrange equations (eq:varmech_FEL), solved for the acceleration:
-/// L_vv q̈ = L_q + f - L_vq q̇ - L_vt.
+/// L_vv q̈ = L_q + f - L_vq q̇ - L_vy ẏ - L_vt.
 class EquationsOfMotion {
  public:
   /// Traces them for the problem.
@@ -19,17 +19,19 @@ class EquationsOfMotion {
   /// q̈ at (q, v) under the control u at time t, n entries. Throws `Error` if L_vv is singular there.
   [[nodiscard]] Eigen::VectorXd acceleration(const Eigen::Ref<const Eigen::VectorXd>& q,
                                              const Eigen::Ref<const Eigen::VectorXd>& v,
-                                             const Eigen::Ref<const Eigen::VectorXd>& u, double t);
+                                             const Eigen::Ref<const Eigen::VectorXd>& u, double t,
+                                             const Eigen::Ref<const Eigen::VectorXd>& y = Eigen::VectorXd());
 
-  /// The same as a system of first order: the first n entries of `rate` become v, the next n become q̈, at the state
-  /// whose first entries are (q, v). Entries behind these are left alone, so that an integrator may carry more along.
-  /// Throws as `acceleration`.
+  /// The same as a system of first order: the first n entries of `rate` become v, the next n become q̈, then l become ẏ,
+  /// at the state whose first entries are (q, v, y). Entries behind these are left alone, so that an integrator may
+  /// carry more along. Throws as `acceleration`.
   void write_rate(const std::vector<double>& state, const Eigen::Ref<const Eigen::VectorXd>& u, double t,
                   std::vector<double>& rate);
 
  private:
   Eigen::Index n_;
-  PointFunction function_;  // outputs: the right-hand side, then L_vv column by column
+  Eigen::Index l_;
+  PointFunction function_;  // outputs: the right-hand side, ẏ, then L_vv column by column
   Eigen::VectorXd values_;
 };
 

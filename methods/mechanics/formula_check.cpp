@@ -9,13 +9,14 @@
 namespace dmocbench {
 
 FormulaCheck::FormulaCheck(const Problem& problem, Derivatives up_to)
-    : formulas_(problem.configuration_size(), problem.control_size(),
-                [&](const ControlledState& x) { return trace(problem, x, up_to); }),
+    : formulas_(
+          problem.configuration_size(), problem.control_size(),
+          [&](const ControlledState& x) { return trace(problem, x, up_to); }, problem.first_order_size()),
       values_(formulas_.output_count()) {}
 
 ExpressionVector FormulaCheck::trace(const Problem& problem, const ControlledState& x, Derivatives up_to) {
-  ExpressionVector inputs(x.q.size() + x.v.size() + x.u.size());
-  inputs << x.q, x.v, x.u;
+  ExpressionVector inputs(x.q.size() + x.v.size() + x.u.size() + x.y.size());
+  inputs << x.q, x.v, x.u, x.y;
   std::vector<Expression> outputs;
   const auto add = [&](const ExpressionVector& entries, const std::string& name) {
     append(outputs, entries);
@@ -34,6 +35,8 @@ ExpressionVector FormulaCheck::trace(const Problem& problem, const ControlledSta
   add_formula("force", problem.force(x));
   add_formula("running_cost", ExpressionVector::Constant(1, problem.running_cost(x)));
   add_formula("path_constraints", problem.path_constraints(x));
+  add_formula("first_order_rates", problem.first_order_rates(x));
+  add_formula("integrands", problem.integrands(x));
   return Eigen::Map<const ExpressionVector>(outputs.data(), static_cast<Eigen::Index>(outputs.size()));
 }
 

@@ -9,43 +9,55 @@ namespace dmocbench {
 
 LegendreTransform::LegendreTransform(const TracedProblem& problem)
     : n_(problem.configuration_size()),
-      function_(n_, problem.control_size(),
-                [&](const ControlledState& x) {
-                  const TracedProblem::Values values = problem.at(x);
-                  ExpressionVector outputs(n_ + 2 * n_ * n_);
-                  outputs << values.momentum, values.mass.reshaped(), values.momentum_by_configuration.reshaped();
-                  return outputs;
-                }),
+      function_(
+          n_, problem.control_size(),
+          [&](const ControlledState& x) {
+            const TracedProblem::Values values = problem.at(x);
+            ExpressionVector outputs(n_ + 2 * n_ * n_ + values.momentum_by_first_order.size());
+            outputs << values.momentum, values.mass.reshaped(), values.momentum_by_configuration.reshaped(),
+                values.momentum_by_first_order.reshaped();
+            return outputs;
+          },
+          problem.first_order_size()),
       values_(function_.output_count()) {}
 
-void LegendreTransform::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
-  function_.evaluate(q, v, Eigen::VectorXd(), t, values_);
+void LegendreTransform::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                 const Eigen::VectorXd& y) {
+  function_.evaluate(q, v, Eigen::VectorXd(), t, values_, y);
 }
 
-Eigen::VectorXd LegendreTransform::momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
-  evaluate(q, v, t);
+Eigen::VectorXd LegendreTransform::momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                            const Eigen::VectorXd& y) {
+  evaluate(q, v, t, y);
   return values_.head(n_);
 }
 
-Eigen::MatrixXd LegendreTransform::mass(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
-  evaluate(q, v, t);
+Eigen::MatrixXd LegendreTransform::mass(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                        const Eigen::VectorXd& y) {
+  evaluate(q, v, t, y);
   return values_.segment(n_, n_ * n_).reshaped(n_, n_);
 }
 
 Eigen::MatrixXd LegendreTransform::momentum_by_configuration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                                             double t) {
-  evaluate(q, v, t);
-  return values_.tail(n_ * n_).reshaped(n_, n_);
+                                                             double t, const Eigen::VectorXd& y) {
+  evaluate(q, v, t, y);
+  return values_.segment(n_ + n_ * n_, n_ * n_).reshaped(n_, n_);
+}
+
+Eigen::MatrixXd LegendreTransform::momentum_by_first_order(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                                           const Eigen::VectorXd& y) {
+  evaluate(q, v, t, y);
+  return values_.tail(n_ * y.size()).reshaped(n_, y.size());
 }
 
 Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& p, double t,
-                                            const Eigen::VectorXd& start) {
+                                            const Eigen::VectorXd& start, const Eigen::VectorXd& y) {
   constexpr int most_steps = 50;
   constexpr double tolerance = 1e-14;
   constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
   Eigen::VectorXd v = start;
   for (int step = 0; step < most_steps; ++step) {
-    evaluate(q, v, t);
+    evaluate(q, v, t, y);
     const Eigen::VectorXd residual = p - values_.head(n_);
     const Eigen::MatrixXd mass = values_.segment(n_, n_ * n_).reshaped(n_, n_);
     const std::optional<Eigen::VectorXd> correction = solve_if_invertible(mass, residual);

@@ -13,25 +13,34 @@ class LegendreTransform {
   /// Traces it for the problem.
   explicit LegendreTransform(const TracedProblem& problem);
 
+  // First-order states y are the last argument of all functions; without an entry where the problem has none.
+
   /// p = L_v(q, v, t), n entries.
-  [[nodiscard]] Eigen::VectorXd momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
+  [[nodiscard]] Eigen::VectorXd momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                         const Eigen::VectorXd& y = {});
 
   /// The v with L_v(q, v, t) = p, by Newton's method from v = `start` (one step if L is quadratic in v).
   /// Throws `Error` if L_vv is singular there or the iteration does not converge.
   [[nodiscard]] Eigen::VectorXd velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& p, double t,
-                                         const Eigen::VectorXd& start);
+                                         const Eigen::VectorXd& start, const Eigen::VectorXd& y = {});
 
   /// L_vv(q, v, t), n × n.
-  [[nodiscard]] Eigen::MatrixXd mass(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
+  [[nodiscard]] Eigen::MatrixXd mass(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                     const Eigen::VectorXd& y = {});
 
   /// ∂p/∂q = L_vq(q, v, t), n × n, at fixed v.
-  [[nodiscard]] Eigen::MatrixXd momentum_by_configuration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
+  [[nodiscard]] Eigen::MatrixXd momentum_by_configuration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                                          const Eigen::VectorXd& y = {});
+
+  /// ∂p/∂y = L_vy(q, v, t), n × l, at fixed v.
+  [[nodiscard]] Eigen::MatrixXd momentum_by_first_order(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                                        const Eigen::VectorXd& y);
 
  private:
-  void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
+  void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, const Eigen::VectorXd& y);
 
   Eigen::Index n_;
-  PointFunction function_;  // outputs: L_v, then L_vv, then L_vq, column by column
+  PointFunction function_;  // outputs: L_v, then L_vv, L_vq and L_vy, column by column
   Eigen::VectorXd values_;
 };
 

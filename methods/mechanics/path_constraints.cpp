@@ -13,13 +13,15 @@ Schedule schedule_of(const TracedProblem& traced) {
   const ExpressionVector q = inputs.take(n);
   const ExpressionVector v = inputs.take(n);
   const ExpressionVector u = inputs.take(traced.control_size());
-  return Schedule(traced.at(ControlledState{q, v, u, inputs.take()}).path_constraints);
+  const ExpressionVector y = inputs.take(traced.first_order_size());
+  return Schedule(traced.at(ControlledState{q, v, u, inputs.take(), y}).path_constraints);
 }
 
 }  // namespace
 
 PathConstraints::PathConstraints(const TracedProblem& traced, Eigen::Index most_rows)
-    : PathConstraints(schedule_of(traced), 2 * traced.configuration_size() + traced.control_size(), most_rows) {}
+    : PathConstraints(schedule_of(traced),
+                      2 * traced.configuration_size() + traced.control_size() + traced.first_order_size(), most_rows) {}
 
 PathConstraints::PathConstraints(const Schedule& schedule, Eigen::Index time_input, Eigen::Index most_rows)
     : tape_(schedule),

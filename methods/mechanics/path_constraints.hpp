@@ -17,7 +17,8 @@ class PathConstraints {
   [[nodiscard]] Eigen::Index count() const noexcept { return values_.cols(); }
   /// Whether an entry of h depends on t.
   [[nodiscard]] bool reads_time() const noexcept { return reads_time_; }
-  /// h in a column per entry, at the first `count` rows of (q, v, u, t), 2n + m + 1 columns; valid until the next call.
+  /// h in a column per entry, at the first `count` rows of (q, v, u, y, t), 2n + m + l + 1 columns; valid until the
+  /// next call.
   [[nodiscard]] Eigen::Ref<const Eigen::MatrixXd> at(const Eigen::MatrixXd& rows, Eigen::Index count);
 
  private:

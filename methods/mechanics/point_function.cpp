@@ -6,30 +6,38 @@ namespace dmocbench {
 
 namespace {
 
-Tape trace(Eigen::Index n, Eigen::Index m, const std::function<ExpressionVector(const ControlledState&)>& formulas) {
+Tape trace(Eigen::Index n, Eigen::Index m, Eigen::Index l,
+           const std::function<ExpressionVector(const ControlledState&)>& formulas) {
   InputCounter inputs;
-  return Tape(Schedule(formulas({inputs.take(n), inputs.take(n), inputs.take(m), inputs.take()})));
+  ControlledState x{inputs.take(n), inputs.take(n), inputs.take(m), {}};
+  x.y = inputs.take(l);
+  x.t = inputs.take();
+  return Tape(Schedule(formulas(x)));
 }
 
 }  // namespace
 
 PointFunction::PointFunction(Eigen::Index configuration_size, Eigen::Index control_size,
-                             const std::function<ExpressionVector(const ControlledState&)>& formulas)
+                             const std::function<ExpressionVector(const ControlledState&)>& formulas,
+                             Eigen::Index first_order_size)
     : n_(configuration_size),
       m_(control_size),
-      tape_(trace(n_, m_, formulas)),
+      l_(first_order_size),
+      tape_(trace(n_, m_, l_, formulas)),
       workspace_(tape_),
-      point_(2 * n_ + m_ + 1),
+      point_(2 * n_ + m_ + l_ + 1),
       outputs_(tape_.output_count()) {
   for (const double& entry : point_) inputs_.push_back({&entry, false});
 }
 
 void PointFunction::evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
-                             const Eigen::Ref<const Eigen::VectorXd>& u, double t, Eigen::Ref<Eigen::VectorXd> result) {
-  if (q.size() != n_ || v.size() != n_ || (u.size() != m_ && u.size() != 0) || result.size() != output_count()) {
+                             const Eigen::Ref<const Eigen::VectorXd>& u, double t, Eigen::Ref<Eigen::VectorXd> result,
+                             const Eigen::Ref<const Eigen::VectorXd>& y) {
+  if (q.size() != n_ || v.size() != n_ || (u.size() != m_ && u.size() != 0) || y.size() != l_ ||
+      result.size() != output_count()) {
     throw Error("a point function got vectors of the wrong size");
   }
-  point_ << q, v, Eigen::VectorXd::Zero(m_), t;
+  point_ << q, v, Eigen::VectorXd::Zero(m_), y, t;
   if (u.size() > 0) point_.segment(2 * n_, m_) = u;
   for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = result.data() + i;
   tape_.evaluate(1, inputs_, outputs_, workspace_);

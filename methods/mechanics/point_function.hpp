@@ -13,12 +13,13 @@
 
 namespace dmocbench {
 
-/// Formulas of a point (q, v, u, t) of the motion, evaluated on numbers, one point at a time.
+/// Formulas of a point (q, v, u, y, t) of the motion, evaluated on numbers, one point at a time.
 class PointFunction {
  public:
   /// `formulas` is called once with the traced point and returns the outputs.
   PointFunction(Eigen::Index configuration_size, Eigen::Index control_size,
-                const std::function<ExpressionVector(const ControlledState&)>& formulas);
+                const std::function<ExpressionVector(const ControlledState&)>& formulas,
+                Eigen::Index first_order_size = 0);
   // The tape's inputs point into this object.
   PointFunction(const PointFunction&) = delete;
   PointFunction& operator=(const PointFunction&) = delete;
@@ -26,13 +27,15 @@ class PointFunction {
   PointFunction& operator=(PointFunction&&) = delete;
   ~PointFunction() = default;
 
-  /// The outputs at a point; `result` has `output_count()` entries. An empty `u` means u = 0.
+  /// The outputs at a point; `result` has `output_count()` entries. An empty `u` means u = 0; `y` has an entry per
+  /// first-order state.
   void evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
-                const Eigen::Ref<const Eigen::VectorXd>& u, double t, Eigen::Ref<Eigen::VectorXd> result);
+                const Eigen::Ref<const Eigen::VectorXd>& u, double t, Eigen::Ref<Eigen::VectorXd> result,
+                const Eigen::Ref<const Eigen::VectorXd>& y = Eigen::VectorXd());
 
   /// The values at a point and a time, into output_count() entries of `result`.
   void evaluate(const MotionPoint& point, double t, const Eigen::Ref<Eigen::VectorXd>& result) {
-    evaluate(point.q, point.v, point.u, t, result);
+    evaluate(point.q, point.v, point.u, t, result, point.y);
   }
 
   /// How many numbers it has at a point.
@@ -41,6 +44,7 @@ class PointFunction {
  private:
   Eigen::Index n_;
   Eigen::Index m_;
+  Eigen::Index l_;
   Tape tape_;
   Tape::Workspace workspace_;
   Eigen::VectorXd point_;

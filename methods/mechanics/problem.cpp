@@ -47,21 +47,27 @@ std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
   const double horizon = problem.horizon();
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index m = problem.control_size();
-  const auto fits = [n](const BoundaryState& end) { return end.q.size() == n && end.v.size() == n; };
+  const Eigen::Index l = problem.first_order_size();
+  const auto fits = [n, l](const BoundaryState& end) {
+    return end.q.size() == n && end.v.size() == n && end.y.size() == l;
+  };
   const bool has_ends = fits(problem.initial_state()) && fits(problem.final_state());  // the default guess reads them
   if (n == 0 || !has_ends || !(horizon > 0.0)) return std::nullopt;
-  PointFunction cost(n, m, [&](const ControlledState& x) {
-    ExpressionVector both(2);
-    both << asked(problem, "running_cost", [&] { return problem.running_cost(x); }),
-        asked(problem, "final_cost", [&] { return problem.final_cost(x.state()); });
-    return both;
-  });
+  PointFunction cost(
+      n, m,
+      [&](const ControlledState& x) {
+        ExpressionVector both(2);
+        both << asked(problem, "running_cost", [&] { return problem.running_cost(x); }),
+            asked(problem, "final_cost", [&] { return problem.final_cost(x.state()); });
+        return both;
+      },
+      l);
   Eigen::Vector2d values;
   double sum = 0.0;
   for (int i = 0; i <= points; ++i) {  // the last point is the end
     const double t = i < points ? horizon * (i + 0.5) / points : horizon;
     const MotionPoint point = problem.guess(t);
-    if (point.q.size() != n || point.v.size() != n || point.u.size() != m) return std::nullopt;
+    if (point.q.size() != n || point.v.size() != n || point.u.size() != m || point.y.size() != l) return std::nullopt;
     cost.evaluate(point, t, values);
     sum += i < points ? std::abs(values[0]) * horizon / points : std::abs(values[1]);
   }
@@ -110,6 +116,12 @@ Eigen::Index Problem::configuration_size() const { return static_cast<Eigen::Ind
 
 Eigen::Index Problem::control_size() const { return static_cast<Eigen::Index>(control_names().size()); }
 
+Eigen::Index Problem::first_order_size() const { return static_cast<Eigen::Index>(first_order_names().size()); }
+
+std::vector<std::string> Problem::first_order_names() const { return {}; }
+
+ExpressionVector Problem::first_order_rates(const ControlledState& /*x*/) const { return {}; }
+
 ProblemBounds Problem::bounds() const {
   ProblemBounds bounds;
   bounds.first = EndBounds::fixed(initial_state());
@@ -134,7 +146,8 @@ MotionPoint Problem::guess(double t) const {
   const double relative = t / horizon();
   return {.q = first.q + relative * (last.q - first.q),
           .v = (last.q - first.q) / horizon(),
-          .u = Eigen::VectorXd::Zero(control_size())};
+          .u = Eigen::VectorXd::Zero(control_size()),
+          .y = first.y + relative * (last.y - first.y)};
 }
 
 double Problem::parameter(std::string_view name) const {
@@ -193,6 +206,7 @@ Picture pictured_quantities(const Problem& problem, const ControlledState& x) {
     }
   };
   add(problem.configuration_names(), x.q);
+  add(problem.first_order_names(), x.y);
   add(problem.control_names(), x.u);
   return quantities;
 }

@@ -42,6 +42,7 @@ struct Parameter {
 ///   minimise  ∫₀ᵀ C(q, q̇, u) dt + Φ(q(T), q̇(T), T)
 ///   such that  δ∫₀ᵀ L(q, q̇) dt + ∫₀ᵀ f(q, q̇, u)·δq dt = 0,   h(q, q̇, u) >= 0,   r(q(0), q̇(0), q(T), q̇(T)) = 0,
 ///
+/// where further states y may enter every formula, with rates ẏ = g(q, q̇, u, y) and held fixed in the variation, and
 /// with bounds on both ends, on q, q̇ and u along the motion, on T and on further integrals ∫₀ᵀ c dt. Every formula may
 /// depend on time, and on parameters of which some may be unknowns too. The simplest problem states L, f, C, two ends
 /// and T, all of them fixed; all that it does not override is absent.
@@ -50,8 +51,8 @@ struct Parameter {
 /// of it. L must be regular: L_vv invertible along the motion. Formulas are plain C++ on `Expression`: they may loop
 /// and call functions, but not branch on a traced value.
 ///
-/// n is the number of configuration names, m that of control names. All numbers are in the units in which the problem
-/// is solved.
+/// n is the number of configuration names, m that of control names, l that of first-order states. All numbers are in
+/// the units in which the problem is solved.
 class Problem {
  public:
   virtual ~Problem() = default;
@@ -69,6 +70,12 @@ class Problem {
   [[nodiscard]] virtual std::vector<std::string> configuration_names() const = 0;
   /// Names of u_1 to u_m.
   [[nodiscard]] virtual std::vector<std::string> control_names() const = 0;
+
+  /// Names of the first-order states y_1 to y_l: quantities that have rates, but no inertia, such as a mass, a current
+  /// or a force that grows no faster than its actuator lets it. Default: none.
+  [[nodiscard]] virtual std::vector<std::string> first_order_names() const;
+  /// ẏ = g(q, v, u, y, t), l entries. Forces may contain ẏ by calling this function.
+  [[nodiscard]] virtual ExpressionVector first_order_rates(const ControlledState& x) const;
 
   /// The Lagrangian L(q, v, t).
   [[nodiscard]] virtual Expression lagrangian(const State& x) const = 0;
@@ -114,12 +121,13 @@ class Problem {
   [[nodiscard]] virtual std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const;
 
   /// The motion from which solves start at time t: straight lines, constants, or an elementary formula of a few
-  /// numbers. Default: q on the straight line between the ends, v constant, u = 0. `ProblemCard::guess` says it in
+  /// numbers. Default: q and y on straight lines between the ends, v constant, u = 0. `ProblemCard::guess` says it in
   /// words.
   [[nodiscard]] virtual MotionPoint guess(double t) const;
 
   [[nodiscard]] Eigen::Index configuration_size() const;  ///< n.
   [[nodiscard]] Eigen::Index control_size() const;        ///< m.
+  [[nodiscard]] Eigen::Index first_order_size() const;    ///< l.
 
   /// All parameters with their values, in the order of the constructor.
   [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }

@@ -32,6 +32,10 @@ void require_state(const BoundaryState& state, const Problem& problem, const cha
     }
     if (!part->allFinite()) throw Error(subject + " is not finite");
   }
+  if (state.y.size() != problem.first_order_size() || !state.y.allFinite()) {
+    throw Error(
+        fmt::format("{} needs {} finite numbers y, one per first-order state", subject, problem.first_order_size()));
+  }
 }
 
 void require_state_inside(const BoundaryState& state, const EndBounds& bounds, const Problem& problem,
@@ -40,6 +44,9 @@ void require_state_inside(const BoundaryState& state, const EndBounds& bounds, c
   for (Eigen::Index i = 0; i < state.q.size(); ++i) {
     require_inside(state.q[i], bounds.q.lower[i], bounds.q.upper[i], fmt::format("{}: q[{}]", subject, i));
     require_inside(state.v[i], bounds.v.lower[i], bounds.v.upper[i], fmt::format("{}: v[{}]", subject, i));
+  }
+  for (Eigen::Index i = 0; i < state.y.size(); ++i) {
+    require_inside(state.y[i], bounds.y.lower[i], bounds.y.upper[i], fmt::format("{}: y[{}]", subject, i));
   }
 }
 
@@ -64,16 +71,24 @@ Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string
   return bounds;
 }
 
-EndBounds checked_end(const EndBounds& end, const Bounds& everywhere, Eigen::Index n, const std::string& subject) {
-  if (end.q.empty() || end.v.empty()) throw Error(fmt::format("{} needs {} entries each for q and v", subject, n));
-  EndBounds checked{checked_bounds(end.q, n, subject + ".q"), checked_bounds(end.v, n, subject + ".v")};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double lower = std::max(checked.q.lower[i], everywhere.lower[i]);
-    const double upper = std::min(checked.q.upper[i], everywhere.upper[i]);
-    if (lower > upper) throw Error(fmt::format("{} and bounds().q leave no value for q[{}]", subject, i));
-    checked.q.lower[i] = lower;
-    checked.q.upper[i] = upper;
+/// The bounds of an end's nodes within those of all nodes.
+void narrow(Bounds& end, const Bounds& everywhere, const std::string& subject, char part) {
+  for (Eigen::Index i = 0; i < end.lower.size(); ++i) {
+    const double lower = std::max(end.lower[i], everywhere.lower[i]);
+    const double upper = std::min(end.upper[i], everywhere.upper[i]);
+    if (lower > upper) throw Error(fmt::format("{} and bounds().{} leave no value for {}[{}]", subject, part, part, i));
+    end.lower[i] = lower;
+    end.upper[i] = upper;
   }
+}
+
+EndBounds checked_end(const EndBounds& end, const ProblemBounds& everywhere, const std::string& subject) {
+  const Eigen::Index n = everywhere.q.lower.size();
+  if (end.q.empty() || end.v.empty()) throw Error(fmt::format("{} needs {} entries each for q and v", subject, n));
+  EndBounds checked{checked_bounds(end.q, n, subject + ".q"), checked_bounds(end.v, n, subject + ".v"),
+                    checked_bounds(end.y, everywhere.y.lower.size(), subject + ".y")};
+  narrow(checked.q, everywhere.q, subject, 'q');
+  narrow(checked.y, everywhere.y, subject, 'y');
   return checked;
 }
 
@@ -126,8 +141,9 @@ ProblemBounds complete_bounds(const Problem& problem, ProblemBounds bounds) {
   bounds.u = checked_bounds(bounds.u, problem.control_size(), name + ".u");
   bounds.path = checked_bounds(bounds.path, bounds.path.lower.size(), name + ".path");
   bounds.integrals = checked_bounds(bounds.integrals, bounds.integrals.lower.size(), name + ".integrals");
-  bounds.first = checked_end(bounds.first, bounds.q, n, name + ".first");
-  bounds.last = checked_end(bounds.last, bounds.q, n, name + ".last");
+  bounds.y = checked_bounds(bounds.y, problem.first_order_size(), name + ".y");
+  bounds.first = checked_end(bounds.first, bounds, name + ".first");
+  bounds.last = checked_end(bounds.last, bounds, name + ".last");
   require_velocity_left(bounds.first, bounds.v, name + ".first");
   require_velocity_left(bounds.last, bounds.v, name + ".last");
   return bounds;

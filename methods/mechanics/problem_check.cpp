@@ -46,7 +46,8 @@ void check_guess_sizes(const Problem& problem) {
   for (int i = 0; i <= points; ++i) {
     const double t = problem.horizon() * i / points;
     const MotionPoint point = asked(problem, "guess", [&] { return problem.guess(t); });
-    const std::string flaw = flaw_of_sizes(point, problem.configuration_size(), problem.control_size());
+    const std::string flaw =
+        flaw_of_sizes(point, problem.configuration_size(), problem.control_size(), problem.first_order_size());
     if (!flaw.empty()) throw Error(fmt::format("{}: guess({:g}): {}", problem.name(), t, flaw));
   }
 }
@@ -90,6 +91,7 @@ void check_picture(const Problem& problem) {
   x.q = inputs.take(problem.configuration_size());
   x.v = inputs.take(problem.configuration_size());
   x.u = inputs.take(problem.control_size());
+  x.y = inputs.take(problem.first_order_size());
   x.t = inputs.take();
   const Picture picture = asked(problem, "card().picture", [&] { return pictured_quantities(problem, x); });
   for (const PictureQuantity& quantity : picture) require_one_line(problem, "a unit of the picture", quantity.unit);
@@ -118,13 +120,14 @@ double positive_cost_scale(const Problem& problem) {
   throw Error(fmt::format("{}: cost_scale must be a positive number, got {:g}", problem.name(), scale));
 }
 
-std::string flaw_of_sizes(const MotionPoint& point, Eigen::Index n, Eigen::Index m) {
+std::string flaw_of_sizes(const MotionPoint& point, Eigen::Index n, Eigen::Index m, Eigen::Index l) {
   const auto flaw_of = [](const char* name, const Eigen::VectorXd& part, Eigen::Index size) {
     return part.size() == size ? "" : fmt::format("{} has {} entries, expected {}", name, part.size(), size);
   };
   std::string flaw = flaw_of("q", point.q, n);
   if (flaw.empty()) flaw = flaw_of("v", point.v, n);
   if (flaw.empty()) flaw = flaw_of("u", point.u, m);
+  if (flaw.empty()) flaw = flaw_of("y", point.y, l);
   return flaw;
 }
 

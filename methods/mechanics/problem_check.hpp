@@ -19,6 +19,6 @@ void check_problem(const Problem& problem);
 [[nodiscard]] double positive_cost_scale(const Problem& problem);
 
 /// What is wrong with the sizes of a point of the guess for n configurations and m controls; empty if nothing is.
-[[nodiscard]] std::string flaw_of_sizes(const MotionPoint& point, Eigen::Index n, Eigen::Index m);
+[[nodiscard]] std::string flaw_of_sizes(const MotionPoint& point, Eigen::Index n, Eigen::Index m, Eigen::Index l);
 
 }  // namespace dmocbench

@@ -12,39 +12,43 @@ namespace dmocbench {
 
 /// A point of the tangent space at a time, as traced numbers: the argument of a Lagrangian.
 struct State {
-  NamedVector<'q'> q;  ///< configuration, n entries
-  NamedVector<'v'> v;  ///< velocity q̇, n entries
-  Expression t;        ///< time
+  NamedVector<'q'> q;       ///< configuration, n entries
+  NamedVector<'v'> v;       ///< velocity q̇, n entries
+  Expression t;             ///< time
+  NamedVector<'y'> y = {};  ///< first-order states, l entries
 };
 
 /// A state and the control that acts there: the argument of forces and running costs.
 struct ControlledState {
-  NamedVector<'q'> q;  ///< configuration, n entries
-  NamedVector<'v'> v;  ///< velocity q̇, n entries
-  NamedVector<'u'> u;  ///< control, m entries
-  Expression t;        ///< time
+  NamedVector<'q'> q;       ///< configuration, n entries
+  NamedVector<'v'> v;       ///< velocity q̇, n entries
+  NamedVector<'u'> u;       ///< control, m entries
+  Expression t;             ///< time
+  NamedVector<'y'> y = {};  ///< first-order states, l entries
 
   /// The same point without its control.
-  [[nodiscard]] State state() const { return {q, v, t}; }
+  [[nodiscard]] State state() const { return {q, v, t, y}; }
 };
 
 /// Configuration and velocity at an end of the horizon, as numbers.
 struct BoundaryState {
-  Eigen::VectorXd q;  ///< n entries
-  Eigen::VectorXd v;  ///< n entries
+  Eigen::VectorXd q;       ///< n entries
+  Eigen::VectorXd v;       ///< n entries
+  Eigen::VectorXd y = {};  ///< first-order states, l entries
 
   /// (q, 0).
   [[nodiscard]] static BoundaryState at_rest(Eigen::VectorXd q) {
     const Eigen::Index n = q.size();
-    return {.q = std::move(q), .v = Eigen::VectorXd::Zero(n)};
+    return {.q = std::move(q), .v = Eigen::VectorXd::Zero(n), .y = {}};
   }
 };
 
 /// A point of a motion, as numbers.
 struct MotionPoint {
-  Eigen::VectorXd q;  ///< configuration, n entries
-  Eigen::VectorXd v;  ///< velocity, n entries
-  Eigen::VectorXd u;  ///< control, m entries
+  Eigen::VectorXd q;       ///< configuration, n entries
+  Eigen::VectorXd v;       ///< velocity, n entries
+  Eigen::VectorXd u;       ///< control, m entries
+  Eigen::VectorXd y = {};  ///< first-order states, l entries
 };
 
 }  // namespace dmocbench

@@ -76,7 +76,8 @@ class FormulaReader {
 
 TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::string>& open_parameters)
     : n_(asked(problem, "configuration_names", [&] { return problem.configuration_size(); })),
-      m_(asked(problem, "control_names", [&] { return problem.control_size(); })) {
+      m_(asked(problem, "control_names", [&] { return problem.control_size(); })),
+      l_(asked(problem, "first_order_names", [&] { return problem.first_order_size(); })) {
   require_names(problem);
   const Eigen::VectorXd values = parameter_values(problem);
   const ProblemCard card = asked(problem, "card", [&] {
@@ -103,10 +104,14 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
 
 void TracedProblem::trace_formulas(const Problem& problem) {
   InputCounter inputs(parameter_inputs());
-  const ControlledState point{inputs.take(n_), inputs.take(n_), inputs.take(m_), inputs.take()};
+  ControlledState point{inputs.take(n_), inputs.take(n_), inputs.take(m_), {}};
+  point.y = inputs.take(l_);
+  point.t = inputs.take();
   const Expression lagrangian = asked(problem, "lagrangian", [&] { return problem.lagrangian(point.state()); });
   const ExpressionVector force = asked(problem, "force", [&] { return problem.force(point); });
   require_size(force.size(), n_, problem, "force");
+  const ExpressionVector rates = asked(problem, "first_order_rates", [&] { return problem.first_order_rates(point); });
+  require_size(rates.size(), l_, problem, "first_order_rates");
 
   const ExpressionVector momentum = gradient(lagrangian, point.v);
   const ExpressionMatrix mass = jacobian(momentum, point.v);
@@ -140,6 +145,10 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   momentum_depends_on_time_ = !std::all_of(momentum_by_time.begin(), momentum_by_time.end(), is_zero);
   momentum_depends_on_unknowns_ = reads(Schedule(momentum), open_.size(), unknowns_.size());
   append(formulas, momentum_by_time);
+  append(formulas, rates);
+  const ExpressionMatrix momentum_by_first_order = jacobian(momentum, point.y);
+  momentum_depends_on_first_order_ = !std::ranges::all_of(momentum_by_first_order.reshaped(), is_zero);
+  append(formulas, momentum_by_first_order);
   const ExpressionVector integrands = asked(problem, "integrands", [&] { return problem.integrands(point); });
   integrals_ = integrands.size();
   append(formulas, integrands);
@@ -156,8 +165,9 @@ void TracedProblem::trace_formulas(const Problem& problem) {
 
 void TracedProblem::trace_ends(const Problem& problem) {
   InputCounter inputs(parameter_inputs());
-  const State first{inputs.take(n_), inputs.take(n_), Expression(0.0)};
-  const State last{inputs.take(n_), inputs.take(n_), inputs.take()};
+  const State first{inputs.take(n_), inputs.take(n_), Expression(0.0), inputs.take(l_)};
+  State last{inputs.take(n_), inputs.take(n_), {}, inputs.take(l_)};
+  last.t = inputs.take();
   const ExpressionVector conditions =
       asked(problem, "boundary_conditions", [&] { return problem.boundary_conditions(first, last); });
   boundary_conditions_ = conditions.size();
@@ -197,11 +207,17 @@ ExpressionVector TracedProblem::parameters() const {
   return all;
 }
 
+void TracedProblem::require_first_order(Eigen::Index given) const {
+  if (given == l_) return;
+  throw Error(
+      "this method does not know first-order states (Problem::first_order_names); dmoc, hamiltonian and tangent do");
+}
+
 Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const {
-  Eigen::MatrixXd rows(times.size(), 2 * n_ + m_ + 1);
+  Eigen::MatrixXd rows(times.size(), 2 * n_ + m_ + l_ + 1);
   for (Eigen::Index i = 0; i < times.size(); ++i) {
     const MotionPoint& point = points[static_cast<std::size_t>(i)];
-    rows.row(i) << point.q.transpose(), point.v.transpose(), point.u.transpose(), times[i];
+    rows.row(i) << point.q.transpose(), point.v.transpose(), point.u.transpose(), point.y.transpose(), times[i];
   }
   return table(rows);
 }
@@ -221,7 +237,9 @@ Eigen::MatrixXd TracedProblem::table(const Eigen::MatrixXd& rows) const {
 
 TracedProblem::EndValues TracedProblem::at_ends(const State& first, const State& last) const {
   const ExpressionVector parameters = this->parameters();
-  FormulaReader read(ends_, {&parameters, &first.q, &first.v, &last.q, &last.v}, last.t);
+  require_first_order(first.y.size());
+  require_first_order(last.y.size());
+  FormulaReader read(ends_, {&parameters, &first.q, &first.v, &first.y, &last.q, &last.v, &last.y}, last.t);
   EndValues values;
   values.conditions = read.vector(boundary_conditions_);
   values.final_cost = read.scalar();
@@ -230,7 +248,8 @@ TracedProblem::EndValues TracedProblem::at_ends(const State& first, const State&
 
 TracedProblem::Values TracedProblem::at(const ControlledState& point) const {
   const ExpressionVector parameters = this->parameters();
-  FormulaReader read(schedule_, {&parameters, &point.q, &point.v, &point.u}, point.t);
+  require_first_order(point.y.size());
+  FormulaReader read(schedule_, {&parameters, &point.q, &point.v, &point.u, &point.y}, point.t);
   Values values;
   values.momentum = read.vector(n_);
   values.configuration_force = read.vector(n_);
@@ -241,6 +260,8 @@ TracedProblem::Values TracedProblem::at(const ControlledState& point) const {
   values.mass = read.matrix(n_, n_);
   values.momentum_by_configuration = read.matrix(n_, n_);
   values.momentum_by_time = read.vector(n_);
+  values.first_order_rates = read.vector(l_);
+  values.momentum_by_first_order = read.matrix(n_, l_);
   values.integrands = read.vector(integrals_);
   if (has_symmetry_) {
     values.symmetry = read.vector(n_);
@@ -250,7 +271,7 @@ TracedProblem::Values TracedProblem::at(const ControlledState& point) const {
 }
 
 TracedProblem::Values TracedProblem::at(const State& point) const {
-  return at(ControlledState{point.q, point.v, ExpressionVector(m_), point.t});
+  return at(ControlledState{point.q, point.v, ExpressionVector(m_), point.t, point.y});
 }
 
 }  // namespace dmocbench

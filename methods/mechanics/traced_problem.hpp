@@ -17,7 +17,7 @@ namespace dmocbench {
 
 /// A problem's formulas, traced once, with the derivatives that the equations of motion contain.
 ///
-/// Every formula is a function of one point (q, v, u, t); `at` substitutes other formulas, such as those of an
+/// Every formula is a function of one point (q, v, u, y, t); `at` substitutes other formulas, such as those of an
 /// element's stage, for that point.
 class TracedProblem {
  public:
@@ -32,6 +32,8 @@ class TracedProblem {
     ExpressionMatrix mass;                       ///< L_vv, n × n
     ExpressionMatrix momentum_by_configuration;  ///< L_vq, n × n: ∂(L_v)_i/∂q_j
     ExpressionVector momentum_by_time;           ///< L_vt, n entries
+    ExpressionVector first_order_rates;          ///< g = ẏ, l entries
+    ExpressionMatrix momentum_by_first_order;    ///< L_vy, n × l
     ExpressionVector integrands;                 ///< c, as many entries as there are integral constraints
     ExpressionVector symmetry;                   ///< ξ(q), n entries, empty without symmetry
     ExpressionMatrix symmetry_jacobian;          ///< Dξ(q), n × n, empty without symmetry
@@ -68,6 +70,7 @@ class TracedProblem {
 
   [[nodiscard]] Eigen::Index configuration_size() const noexcept { return n_; }  ///< n.
   [[nodiscard]] Eigen::Index control_size() const noexcept { return m_; }        ///< m.
+  [[nodiscard]] Eigen::Index first_order_size() const noexcept { return l_; }    ///< l.
   /// True if the problem has a symmetry to show.
   [[nodiscard]] bool has_symmetry() const noexcept { return has_symmetry_; }
   /// How many entries h has.
@@ -83,21 +86,24 @@ class TracedProblem {
   /// True if the conditions or the cost of the ends depend on the velocity of the first or the last end, or on T.
   [[nodiscard]] bool ends_read_first_velocity() const { return ends_read(n_, n_); }
   /// True if r or Φ depends on q̇(T).
-  [[nodiscard]] bool ends_read_last_velocity() const { return ends_read(3 * n_, n_); }
+  [[nodiscard]] bool ends_read_last_velocity() const { return ends_read(3 * n_ + l_, n_); }
   /// True if r or Φ depends on T.
-  [[nodiscard]] bool ends_read_horizon() const { return ends_read(4 * n_, 1); }
+  [[nodiscard]] bool ends_read_horizon() const { return ends_read(4 * n_ + 2 * l_, 1); }
   /// True if L_v depends on t: then the momentum of a given velocity changes with the horizon.
   [[nodiscard]] bool momentum_depends_on_time() const noexcept { return momentum_depends_on_time_; }
+  /// True if L_v depends on a first-order state.
+  [[nodiscard]] bool momentum_depends_on_first_order() const noexcept { return momentum_depends_on_first_order_; }
   /// True if L_v depends on an unknown parameter.
   [[nodiscard]] bool momentum_depends_on_unknowns() const noexcept { return momentum_depends_on_unknowns_; }
 
   /// The formulas at many points, in numbers: row i belongs to points[i] at time times[i]. The columns hold p, L_q and
   /// f (n each), C, h, then L_vv column by column; further columns are not for callers.
   [[nodiscard]] Eigen::MatrixXd table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const;
-  /// The same of points (q, v, u, t), one in each row.
+  /// The same of points (q, v, u, y, t), one in each row.
   [[nodiscard]] Eigen::MatrixXd table(const Eigen::MatrixXd& rows) const;
 
-  /// All formulas with the given point substituted.
+  /// All formulas with the given point substituted. Throws `Error` if the point lacks first-order states: not every
+  /// method knows them.
   [[nodiscard]] Values at(const ControlledState& point) const;
   /// The formulas of the ends with the given states substituted.
   [[nodiscard]] EndValues at_ends(const State& first, const State& last) const;
@@ -105,6 +111,7 @@ class TracedProblem {
   [[nodiscard]] Values at(const State& point) const;
 
  private:
+  void require_first_order(Eigen::Index given) const;
   void trace_formulas(const Problem& problem);
   void trace_ends(const Problem& problem);
   /// Whether an input of the ends' formulas is read, numbered without the parameters.
@@ -116,11 +123,13 @@ class TracedProblem {
 
   Eigen::Index n_;
   Eigen::Index m_;
+  Eigen::Index l_;
   Eigen::Index path_constraints_ = 0;
   Eigen::Index integrals_ = 0;
   Eigen::Index boundary_conditions_ = 0;
   bool has_symmetry_ = false;
   bool momentum_depends_on_time_ = false;
+  bool momentum_depends_on_first_order_ = false;
   bool momentum_depends_on_unknowns_ = false;
   std::vector<bool> constraints_read_controls_;
   // The inputs of all formulas begin with the open parameters, then the unknown ones.

@@ -148,6 +148,8 @@ Table node_table(const Problem& problem, const Trajectory& trajectory) {
                        {"p_", names, trajectory.p, "its momentum p = L_v"},
                        {"psi_q_", names, trajectory.psi_q, "costate of q"},
                        {"psi_p_", names, trajectory.psi_p, "costate of p"},
+                       {"", problem.first_order_names(), trajectory.y, "first-order state"},
+                       {"psi_", problem.first_order_names(), trajectory.psi_y, "costate of a first-order state"},
                        {"", unknown_names(problem), unknowns, "unknown parameter"}});
 }
 
@@ -159,7 +161,7 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   std::vector<std::string> names;
   std::vector<std::string> units;
-  PointFunction quantities(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
+  const auto formulas = [&](const ControlledState& x) {
     const Picture picture = pictured_quantities(problem, x);
     ExpressionVector values(static_cast<Eigen::Index>(picture.size()));
     for (std::size_t i = 0; i < picture.size(); ++i) {
@@ -168,13 +170,15 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
       values[static_cast<Eigen::Index>(i)] = picture[i].value;
     }
     return values;
-  });
+  };
+  PointFunction quantities(problem.configuration_size(), problem.control_size(), formulas, problem.first_order_size());
   Eigen::MatrixXd values(trajectory.node_times.size(), quantities.output_count());
   Eigen::VectorXd at_node(quantities.output_count());
   for (Eigen::Index k = 0; k < trajectory.node_times.size(); ++k) {
     const double t = trajectory.node_times[k];
-    quantities.evaluate(trajectory.q.row(k).transpose(), trajectory.v.row(k).transpose(), control_at(trajectory, t), t,
-                        at_node);
+    MotionPoint node = trajectory.node(k);
+    node.u = control_at(trajectory, t);
+    quantities.evaluate(node, t, at_node);
     values.row(k) = at_node.transpose();
   }
   const Unit time = problem.card().time_unit;
@@ -236,6 +240,7 @@ Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, con
   require_similar_horizon(problem, trajectory.node_times.tail<1>()[0], nodes_file);
   trajectory.q = columns(nodes, problem.configuration_names(), "", nodes_file);
   trajectory.v = columns(nodes, problem.configuration_names(), "v_", nodes_file);
+  trajectory.y = columns(nodes, problem.first_order_names(), "", nodes_file);
   trajectory.stage_u = columns(stages, problem.control_names(), "", stages_file);
   read_costates(nodes, problem.configuration_names(), nodes_file, trajectory);
   read_unknowns(problem, nodes, nodes_file, trajectory);

@@ -55,12 +55,13 @@ StageMultipliers as_pairs(const Eigen::VectorXd& local, const Tableau& tableau, 
 }  // namespace
 
 Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
-                  const Eigen::MatrixXd& v) {
+                  const Trajectory& motion) {
   const Layout& layout = transcription.layout();
   const auto intervals = static_cast<Eigen::Index>(layout.intervals());
   const Eigen::Index n = transcription.traced_problem().configuration_size();
   const bool has_second = layout.node_state() != NodeState::configuration;
-  const Eigen::Index node_size = has_second ? 2 * n : n;
+  const Eigen::Index l = layout.shape().first_order_size;
+  const Eigen::Index node_size = (has_second ? 2 * n : n) + l;
 
   const Eigen::MatrixXd adjoint =
       transcription.tabulate(transcription.functions().adjoint, primal, multipliers);  // N × 2 node_size
@@ -69,7 +70,7 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   at_nodes.row(intervals) = -adjoint.row(intervals - 1).rightCols(node_size);
   at_nodes /= transcription.cost_scale();
 
-  Costates result{at_nodes.leftCols(n), Eigen::MatrixXd(intervals + 1, n)};
+  Costates result{at_nodes.leftCols(n), Eigen::MatrixXd(intervals + 1, n), at_nodes.rightCols(l)};
   if (!has_second) {
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto head = static_cast<Eigen::Index>(layout.node_row_head(i));
@@ -77,21 +78,21 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
     }
     return result;
   }
-  result.psi_p = at_nodes.rightCols(n);
+  result.psi_p = at_nodes.middleCols(n, n);
   if (layout.node_state() == NodeState::momentum) return result;
   LegendreTransform legendre(transcription.traced_problem());
   const Eigen::VectorXd times = transcription.node_times(primal);
   for (Eigen::Index k = 0; k <= intervals; ++k) {
-    Eigen::VectorXd q(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      q[i] = primal[static_cast<Eigen::Index>(layout.configuration_head(i)) + k];
-    }
-    const Eigen::VectorXd velocity = v.row(k).transpose();
+    const MotionPoint node = motion.node(k);
     const double t = times[k];
     const Eigen::VectorXd psi_p =
-        solve_square(legendre.mass(q, velocity, t), Eigen::VectorXd(result.psi_p.row(k).transpose()));
+        solve_square(legendre.mass(node.q, node.v, t, node.y), Eigen::VectorXd(result.psi_p.row(k).transpose()));
     result.psi_p.row(k) = psi_p.transpose();
-    result.psi_q.row(k) -= (legendre.momentum_by_configuration(q, velocity, t).transpose() * psi_p).transpose();
+    result.psi_q.row(k) -=
+        (legendre.momentum_by_configuration(node.q, node.v, t, node.y).transpose() * psi_p).transpose();
+    if (l == 0) continue;
+    result.psi_y.row(k) -=
+        (legendre.momentum_by_first_order(node.q, node.v, t, node.y).transpose() * psi_p).transpose();
   }
   return result;
 }

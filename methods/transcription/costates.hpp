@@ -11,6 +11,7 @@ namespace dmocbench {
 struct Costates {
   Eigen::MatrixXd psi_q;  ///< (N + 1) × n
   Eigen::MatrixXd psi_p;  ///< (N + 1) × n
+  Eigen::MatrixXd psi_y;  ///< ∂V_k/∂y_k at fixed (q_k, p_k), (N + 1) × l
 };
 
 /// Costates by one formula for all methods: with ℓ_k(z) = cost + multipliers · rows of element k, the cost-to-go
@@ -18,10 +19,10 @@ struct Costates {
 /// node -∂ℓ_{N-1}/∂x_N with respect to the right one).
 ///
 /// DMOC: ψ^p_k is the multiplier of node k's row, ψ^q_k = ∂ℓ_k/∂q_k. Hamiltonian: x = (q, p), as it stands.
-/// Tangent-space: x = (q, v), carried over by ψ^p = L_vv⁻¹ ψ^v, ψ^q = ψ^q̃ - (∂p/∂q)ᵀ ψ^p. `v` are the node velocities,
-/// (N + 1) × n.
+/// Tangent-space: x = (q, v), carried over by ψ^p = L_vv⁻¹ ψ^v, ψ^q = ψ^q̃ - (∂p/∂q)ᵀ ψ^p, ψ^y = ψ^ỹ - (∂p/∂y)ᵀ ψ^p.
+/// `motion` is the trajectory with its velocities.
 [[nodiscard]] Costates costates(Transcription& transcription, const Eigen::VectorXd& primal,
-                                const Eigen::VectorXd& multipliers, const Eigen::MatrixXd& v);
+                                const Eigen::VectorXd& multipliers, const Trajectory& motion);
 
 /// Costates at the stages: the Ψ_i of the adjoint scheme (eq:stateco7, eq:stateco8), in the sign and unit of
 /// `Costates`. Row k s + i is stage i of interval k.

@@ -55,6 +55,12 @@ class ConstraintWords {
       const auto i = static_cast<Eigen::Index>(unknown / (layout_->intervals() + 1));
       return "bounds().q: " + coordinate(i) + where(place);
     }
+    for (Eigen::Index i = 0; i < shape.first_order_size; ++i) {
+      const std::size_t head = layout_->first_order_head(i);
+      if (unknown >= head && unknown - head <= layout_->intervals()) {
+        return "bounds().y: " + named('y', i, problem_->first_order_names()) + where(place);
+      }
+    }
     for (Eigen::Index stage = 0; stage < shape.stages; ++stage) {
       for (Eigen::Index i = 0; i < shape.control_size; ++i) {
         const std::size_t column = layout_->control_head(stage, i);
@@ -135,6 +141,11 @@ class ConstraintWords {
   /// A stage equation. Of elements outside the three families only the number of the equation is known.
   [[nodiscard]] std::string stage_equation(Eigen::Index column) const {
     const LayoutShape& shape = layout_->shape();
+    const Eigen::Index l = shape.first_order_size;
+    const Eigen::Index elements = shape.stage_equations - l * shape.stages;
+    if (column >= elements) {
+      return "first_order_rates: the rate of " + named('y', (column - elements) % l, problem_->first_order_names());
+    }
     const bool is_second = (column / n_) % 2 == 1;
     if (!shape.has_stage_unknowns) {
       const bool has_momenta = shape.node_state == NodeState::momentum;
@@ -143,13 +154,13 @@ class ConstraintWords {
     }
     switch (shape.node_state) {
       case NodeState::configuration:
-        if (shape.stage_equations != (shape.stages - 1) * n_) break;
+        if (elements != (shape.stages - 1) * n_) break;
         return equation_of(column % n_);
       case NodeState::momentum:
-        if (shape.stage_equations != 2 * shape.stages * n_) break;
+        if (elements != 2 * shape.stages * n_) break;
         return is_second ? equation_of(column % n_) : "lagrangian: the momentum p = L_v of " + coordinate(column % n_);
       case NodeState::velocity:
-        if (shape.stage_equations != 2 * shape.stages * n_) break;
+        if (elements != 2 * shape.stages * n_) break;
         return is_second ? equation_of(column % n_) : "the velocity as stage rate of " + coordinate(column % n_);
     }
     return fmt::format("equation {} of the method", column);
@@ -321,7 +332,8 @@ std::string idle_controls(const Problem& problem) {
   if (m == 0) return "";
   InputCounter inputs;
   const ExpressionVector u = inputs.take(m);
-  const ControlledState x{inputs.take(n), inputs.take(n), u, inputs.take()};
+  ControlledState x{inputs.take(n), inputs.take(n), u, inputs.take()};
+  x.y = inputs.take(problem.first_order_size());
   const Schedule force(problem.force(x));
   const bool is_read = std::ranges::any_of(force.steps(), [m](const Schedule::Step& step) {
     return step.operation == Operation::input && step.input_index < static_cast<std::size_t>(m);

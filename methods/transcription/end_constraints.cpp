@@ -21,20 +21,23 @@ namespace {
 struct KnownPoint {
   const char* name;             ///< of the function that states it
   double time;                  ///< of the end
-  std::vector<double> values;   ///< q, v, u, t
+  std::vector<double> values;   ///< q, v, u, y, t
   std::vector<bool> are_given;  ///< as many
 };
 
 KnownPoint known_point(const char* name, const EndBounds& end, Eigen::Index controls, double time, bool is_time_given) {
-  KnownPoint point{name, time, {}, {}};
-  for (const Bounds* const bounds : {&end.q, &end.v}) {
-    for (Eigen::Index i = 0; i < bounds->lower.size(); ++i) {
-      point.values.push_back(bounds->is_fixed(i) ? bounds->lower[i] : 0.0);
-      point.are_given.push_back(bounds->is_fixed(i));
+  const auto add = [](KnownPoint& point, const Bounds& bounds) {
+    for (Eigen::Index i = 0; i < bounds.lower.size(); ++i) {
+      point.values.push_back(bounds.is_fixed(i) ? bounds.lower[i] : 0.0);
+      point.are_given.push_back(bounds.is_fixed(i));
     }
-  }
+  };
+  KnownPoint point{name, time, {}, {}};
+  add(point, end.q);
+  add(point, end.v);
   point.values.resize(point.values.size() + static_cast<std::size_t>(controls), 0.0);
   point.are_given.resize(point.values.size(), false);
+  add(point, end.y);
   point.values.push_back(time);
   point.are_given.push_back(is_time_given);
   return point;
@@ -45,7 +48,9 @@ KnownPoint known_point(const char* name, const EndBounds& end, Eigen::Index cont
 bool may_be_broken(const TracedProblem& traced, const Bounds& path, const KnownPoint& point) {
   const Eigen::Index n = traced.configuration_size();
   const Eigen::Map<const Eigen::VectorXd> x(point.values.data(), static_cast<Eigen::Index>(point.values.size()));
-  const MotionPoint numbers{x.head(n), x.segment(n, n), x.segment(2 * n, traced.control_size())};
+  const Eigen::Index m = traced.control_size();
+  const MotionPoint numbers{x.head(n), x.segment(n, n), x.segment(2 * n, m),
+                            x.segment(2 * n + m, traced.first_order_size())};
   const Eigen::MatrixXd table = traced.table({&numbers, 1}, Eigen::VectorXd::Constant(1, point.time));
   const auto h = table.row(0).segment(3 * n + 1, traced.path_constraint_count());
   return !((h.transpose().array() >= path.lower.array()).all() && (h.transpose().array() <= path.upper.array()).all());
@@ -70,9 +75,12 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
   if (!may_be_broken(traced, path, point)) return;
   const Eigen::Index n = traced.configuration_size();
   const Eigen::Index m = traced.control_size();
-  const ExpressionVector x = input_vector(0, 2 * n + m + 1);
-  const ExpressionVector constraints =
-      traced.at(ControlledState{x.head(n), x.segment(n, n), x.segment(2 * n, m), x[2 * n + m]}).path_constraints;
+  const Eigen::Index l = traced.first_order_size();
+  const ExpressionVector x = input_vector(0, 2 * n + m + l + 1);
+  const ExpressionVector constraints = traced
+                                           .at(ControlledState{x.head(n), x.segment(n, n), x.segment(2 * n, m),
+                                                               x[2 * n + m + l], x.segment(2 * n + m, l)})
+                                           .path_constraints;
   const std::vector<std::string> names = problem.card().path_constraint_names;
   const std::span<const double> values(point.values);
   for (std::size_t i = 0; i < static_cast<std::size_t>(constraints.size()); ++i) {

@@ -11,6 +11,7 @@ struct End {
   ExpressionVector q;
   ExpressionVector p;  // Hamiltonian only
   ExpressionVector v;
+  ExpressionVector y;
 };
 
 }  // namespace
@@ -26,8 +27,12 @@ EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeStat
   const bool has_momenta = node_state != NodeState::velocity;
   const bool varies = has_momenta && traced.momentum_depends_on_unknowns();
   const bool moves = has_momenta && rules.free_horizon && traced.momentum_depends_on_time();
-  rules.first_clamped = bounds.first.all_fixed() && !varies;
-  rules.last_clamped = bounds.last.all_fixed() && !moves && !varies;
+  const auto is_clamped = [&](const EndBounds& end) {
+    const bool slides = has_momenta && traced.momentum_depends_on_first_order() && !end.y.all_fixed();
+    return end.all_fixed() && !varies && !slides;
+  };
+  rules.first_clamped = is_clamped(bounds.first);
+  rules.last_clamped = is_clamped(bounds.last) && !moves;
   return rules;
 }
 
@@ -36,9 +41,11 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
   InputCounter unknowns(parameters);
   const auto take_end = [&](bool has_velocity, const BoundaryState& given) {
     const Eigen::Index n = closed.configuration_size();
-    End end{.q = unknowns.take(n), .p = {}, .v = given.v.cast<Expression>()};
+    End end{.q = unknowns.take(n), .p = {}, .v = given.v.cast<Expression>(), .y = {}};
     if (rules.node_state == NodeState::momentum) end.p = unknowns.take(n);
-    if (rules.node_state == NodeState::velocity || has_velocity) end.v = unknowns.take(n);
+    if (rules.node_state == NodeState::velocity) end.v = unknowns.take(n);
+    end.y = unknowns.take(closed.first_order_size());
+    if (has_velocity) end.v = unknowns.take(n);
     return end;
   };
   const End first = take_end(rules.first_has_velocity(), problem.initial_state());
@@ -46,8 +53,8 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
   const Expression running = rules.mayer ? unknowns.take() : Expression(0.0);
   const Expression horizon = rules.free_horizon ? unknowns.take() : Expression(problem.horizon());
   const TracedProblem traced = closed.with_open_inputs(unknowns.take(closed.unknown_count()));
-  const State first_state{first.q, first.v, Expression(0.0)};
-  const State last_state{last.q, last.v, horizon};
+  const State first_state{first.q, first.v, Expression(0.0), first.y};
+  const State last_state{last.q, last.v, horizon, last.y};
   const TracedProblem::EndValues ends = traced.at_ends(first_state, last_state);
   const Expression cost = running + Expression(rules.cost_scale) * ends.final_cost;
 

@@ -14,7 +14,7 @@ namespace dmocbench {
 /// How the two ends of the horizon enter a program.
 ///
 /// An end is clamped if its whole state is given, and with it its momentum, which is then a number: it is not where L_v
-/// depends on an unknown parameter. At any other end, DMOC and
+/// depends on an unknown parameter, or on a first-order state that is not given there. At any other end, DMOC and
 /// Hamiltonian collocation have the velocity as a further unknown, tied to the momentum by p = L_v(q, v); nothing else
 /// changes. Tangent-space collocation has that unknown at every node.
 struct EndRules {
@@ -36,7 +36,8 @@ struct EndRules {
 
 /// The functions of both ends of the horizon, traced and differentiated once.
 ///
-/// Local unknowns, for the first end and then for the last: q, p (Hamiltonian), v where it is an unknown; then z_N in
+/// Local unknowns, for the first end and then for the last: q, p (Hamiltonian), y, v where it is an unknown
+/// (tangent-space: q, v, y); then z_N in
 /// Mayer form; T where it is free; unknown parameters. Cost: Φ, in Mayer form z_N + Φ. Local constraints (rows): per
 /// end whose velocity is an unknown, ±L_v(q, v), added to the equation of the node (DMOC), or p - L_v(q, v) = 0
 /// (Hamiltonian); then the boundary conditions r = 0 (eq:gDLOCP6).

@@ -12,12 +12,12 @@ struct Unknowns : IntervalUnknowns {
   LocalInputs inputs;
 };
 
-Unknowns make_unknowns(const TracedProblem& problem, const Element& element, Eigen::Index stages,
+Unknowns make_unknowns(const TracedProblem& problem, const Element& element, const Tableau& tableau,
                        const IntervalRules& rules) {
   const std::size_t parameters = problem.open_parameters().size();
   InputCounter counter(parameters);
   Unknowns unknowns;
-  static_cast<IntervalUnknowns&>(unknowns) = take_unknowns(counter, problem, element, stages);
+  static_cast<IntervalUnknowns&>(unknowns) = take_unknowns(counter, problem, element, tableau.stages());
   const Eigen::Index sums = problem.integral_count() + (rules.mayer ? 1 : 0);
   unknowns.left_sums = counter.take(sums);
   unknowns.right_sums = counter.take(sums);
@@ -27,7 +27,21 @@ Unknowns make_unknowns(const TracedProblem& problem, const Element& element, Eig
   unknowns.inputs.unknowns = counter.taken() - parameters;
   unknowns.h = horizon * Expression::input(unknowns.inputs.step());
   unknowns.t = horizon * Expression::input(unknowns.inputs.time());
+  if (problem.first_order_size() == 0) return unknowns;
+  unknowns.rates_y = stage_rates(unknowns.left_y, unknowns.right_y, unknowns.rates_y, tableau.b, unknowns.h);
+  unknowns.stages_y = stage_values(unknowns.left_y, unknowns.rates_y, tableau.a, unknowns.h);
   return unknowns;
+}
+
+/// Ẏ_i - g at the stages.
+ExpressionVector first_order_equations(const TracedProblem& problem, const Unknowns& unknowns,
+                                       const IntervalTrace& trace) {
+  if (problem.first_order_size() == 0) return {};
+  std::vector<ExpressionVector> equations;
+  for (std::size_t i = 0; i < trace.stages.size(); ++i) {
+    equations.emplace_back(unknowns.rates_y[i] - problem.at(trace.stages[i]).first_order_rates);
+  }
+  return stacked(equations);
 }
 
 ExpressionVector path_rows(const TracedProblem& problem, const std::vector<ControlledState>& stages,
@@ -53,12 +67,15 @@ ExpressionVector sum_rows(const TracedProblem& problem, const Unknowns& unknowns
   return unknowns.right_sums - unknowns.left_sums - added;
 }
 
-Schedule stage_table(const std::vector<ControlledState>& stages) {
+Schedule stage_table(const std::vector<ControlledState>& stages, const std::vector<ExpressionVector>& rates_y) {
   std::vector<ExpressionVector> parts;
-  for (const ControlledState& stage : stages) {
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const ControlledState& stage = stages[i];
     parts.push_back(stage.q);
     parts.push_back(stage.v);
     parts.emplace_back(ExpressionVector::Constant(1, stage.t));
+    parts.push_back(stage.y);
+    if (stage.y.size() > 0) parts.push_back(rates_y[i]);
   }
   return Schedule(stacked(parts));
 }
@@ -67,9 +84,10 @@ Schedule stage_table(const std::vector<ControlledState>& stages) {
 
 IntervalFunctions trace_interval(const TracedProblem& traced, const Element& element, const Tableau& tableau,
                                  const IntervalRules& rules) {
-  const Unknowns unknowns = make_unknowns(traced, element, tableau.stages(), rules);
+  const Unknowns unknowns = make_unknowns(traced, element, tableau, rules);
   const TracedProblem problem = traced.with_open_inputs(unknowns.parameters);
-  const IntervalTrace trace = element.trace(problem, tableau, unknowns);
+  IntervalTrace trace = element.trace(problem, tableau, unknowns);
+  trace.stage_equations = stacked({trace.stage_equations, first_order_equations(problem, unknowns, trace)});
   const ExpressionVector path = path_rows(problem, trace.stages, rules.bounded_velocities);
   const Expression running = Expression(rules.cost_scale) * trace.cost;
   const ExpressionVector rows = stacked({trace.left_rows, trace.right_rows, trace.stage_equations, path,
@@ -77,7 +95,7 @@ IntervalFunctions trace_interval(const TracedProblem& traced, const Element& ele
   const Expression cost = rules.mayer ? Expression(0.0) : running;
 
   IntervalFunctions functions;
-  const Eigen::Index of_nodes = 2 * (unknowns.left_q.size() + unknowns.left_second.size());
+  const Eigen::Index of_nodes = 2 * (unknowns.left_q.size() + unknowns.left_second.size() + unknowns.left_y.size());
   static_cast<LocalFunctions&>(functions) =
       differentiate(cost, rows, unknowns.inputs.unknowns, unknowns.inputs.parameters, of_nodes);
   functions.has_stage_unknowns = element.has_stage_unknowns();
@@ -88,7 +106,7 @@ IntervalFunctions trace_interval(const TracedProblem& traced, const Element& ele
   functions.free_horizon = rules.free_horizon;
   functions.integrals = problem.integral_count();
   functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum}));
-  functions.stages = stage_table(trace.stages);
+  functions.stages = stage_table(trace.stages, unknowns.rates_y);
   return functions;
 }
 

@@ -22,7 +22,8 @@ struct IntervalRules {
 /// Inputs: `LocalInputs`, the open parameters first.
 /// Local unknowns: those of `IntervalUnknowns` in its order; z_k and z_{k+1}, the sums up to either node: the cost in
 /// Mayer form, then the integrals; T where it is free; unknown parameters.
-/// Local constraints (rows): left and right terms and stage equations of the element; path constraints, which are not
+/// Local constraints (rows): left and right terms and stage equations of the element, Ẏ_i = g of first-order
+/// states; path constraints, which are not
 /// equalities of the element: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); z_{k+1} - z_k less what the
 /// interval adds to each sum. `adjoint` is ∂ℓ/∂(left node), then ∂ℓ/∂(right node).
 struct IntervalFunctions : LocalFunctions {
@@ -36,7 +37,7 @@ struct IntervalFunctions : LocalFunctions {
   Eigen::Index integrals = 0;  ///< integral constraints
 
   Schedule momenta;  ///< left momentum, then right momentum
-  Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i
+  Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i, Y_i, Ẏ_i
 };
 
 /// Traces the formulas of one interval of an element and differentiates them.

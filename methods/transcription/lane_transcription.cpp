@@ -78,6 +78,9 @@ LaneTranscription::LaneTranscription(const Transcription& program)
       hessian_entries_(static_cast<Eigen::Index>(program.hessian_structure().size())),
       steps_(each_for_all_lanes(program.step_inputs())),
       times_(each_for_all_lanes(program.time_inputs())) {
+  if (program.layout().shape().first_order_size > 0 || program.layout().shape().integrals > 0) {
+    throw Error("a batch knows neither first-order states nor integral constraints");
+  }
   if (program.layout().shape().unknown_parameters > 0) throw Error("a batch needs given parameters; some are unknown");
   if (program.has_free_horizon()) throw Error("a batch needs a given horizon; that of this problem is free");
   const Layout& layout = program.layout();

@@ -29,6 +29,7 @@ struct LayoutShape {
   bool last_has_velocity = false;       ///< the velocity at T is an unknown of its own
   bool free_horizon = false;            ///< T is an unknown
   Eigen::Index conditions = 0;          ///< boundary conditions
+  Eigen::Index first_order_size = 0;    ///< l: nodes carry y besides
   Eigen::Index integrals = 0;           ///< nodes carry each so far, and intervals have a row for it
   Eigen::Index unknown_parameters = 0;  ///< each is an unknown of the whole horizon
 
@@ -40,11 +41,11 @@ struct LayoutShape {
 
 /// Where the unknowns and rows of all intervals stand in the program's vectors.
 ///
-/// Vectors are stored column by column: q_1 of all nodes, q_2 of all nodes, ..., then p or v, interior rates, controls,
-/// z; at last v_0, v_N, unknown parameters and T where they are unknowns. Every local quantity of an element is
-/// therefore contiguous over the intervals: that of interval k stands at `first` + k. For a quantity of the left node
-/// `first` is the head of its series, for the same quantity of the right node one more. Rows: those of the nodes, those
-/// of the intervals, then p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
+/// Vectors are stored column by column: q_1 of all nodes, q_2 of all nodes, ..., then p or v, y, interior rates,
+/// controls, z; at last v_0, v_N, unknown parameters and T where they are unknowns. Every local quantity of an element
+/// is therefore contiguous over the intervals: that of interval k stands at `first` + k. For a quantity of the left
+/// node `first` is the head of its series, for the same quantity of the right node one more. Rows: those of the nodes,
+/// those of the intervals, then p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
 class Layout {
  public:
   /// Numbers all unknowns and rows of a program of this shape.
@@ -73,6 +74,14 @@ class Layout {
   }
   [[nodiscard]] std::size_t second_head(Eigen::Index i) const noexcept {  ///< of p_i or v_i
     return configuration_head(shape_.configuration_size + i);
+  }
+  [[nodiscard]] std::size_t first_order_head(Eigen::Index i) const noexcept {  ///< of y_i
+    return configuration_head(node_columns() - shape_.first_order_size + i);
+  }
+  /// Of component i of Ẏ_stage.
+  [[nodiscard]] std::size_t first_order_rate_head(Eigen::Index stage, Eigen::Index i) const noexcept {
+    const Eigen::Index before = interior_stages() * (node_columns() - shape_.first_order_size);
+    return interval_head(rates_, before + stage * shape_.first_order_size + i);
   }
   /// Of component i of the stage rate Q̇_stage.
   [[nodiscard]] std::size_t rate_head(Eigen::Index stage, Eigen::Index i) const noexcept {
@@ -133,9 +142,9 @@ class Layout {
   [[nodiscard]] const IntervalStructure& structure() const noexcept { return structure_; }
 
  private:
-  /// Of q, and of p or v.
+  /// Of q, of p or v, and of y.
   [[nodiscard]] Eigen::Index node_columns() const noexcept {
-    return (node_state() == NodeState::configuration ? 1 : 2) * shape_.configuration_size;
+    return (node_state() == NodeState::configuration ? 1 : 2) * shape_.configuration_size + shape_.first_order_size;
   }
   /// The head of series i of the intervals behind `first`.
   [[nodiscard]] std::size_t interval_head(std::size_t first, Eigen::Index i) const noexcept {

@@ -42,7 +42,9 @@ Bounds end_momentum(bool clamped, const EndBounds& end, double t, const TracedPr
                     const char* where) {
   const Eigen::Index n = traced.configuration_size();
   if (!clamped) return Bounds::none(n);
-  const MotionPoint point{end.q.lower, end.v.lower, Eigen::VectorXd::Zero(traced.control_size())};
+  const MotionPoint point{end.q.lower, end.v.lower, Eigen::VectorXd::Zero(traced.control_size()),
+                          // Where it is not given, no momentum depends on it.
+                          end.y.lower.array().isFinite().select(end.y.lower, 0.0)};
   const Eigen::VectorXd momentum = traced.table({&point, 1}, Eigen::VectorXd::Constant(1, t)).row(0).head(n);
   if (!momentum.allFinite()) throw Error(problem.name() + ": the momentum at the " + where + " is not finite");
   return Bounds::fixed(momentum);
@@ -104,6 +106,12 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
     }
     if (ends.first_has_velocity()) set_entry(variables, layout.first_velocity(i), bounds.first.v, i);
     if (ends.last_has_velocity()) set_entry(variables, layout.last_velocity(i), bounds.last.v, i);
+  }
+  for (Eigen::Index i = 0; i < traced.first_order_size(); ++i) {
+    const std::size_t head = layout.first_order_head(i);
+    set(variables, head, last_node + 1, bounds.y.lower[i], bounds.y.upper[i]);
+    set_entry(variables, head, bounds.first.y, i);
+    set_entry(variables, head + last_node, bounds.last.y, i);
   }
   bound_controls(variables, bounds.u, layout);
   for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) set(variables, layout.sum_head(i), 1, 0.0, 0.0);

@@ -61,6 +61,9 @@ void Transcription::set_end(const BoundaryState& state, EndBounds ProblemBounds:
   if (state.q.size() != n || state.v.size() != n || !state.q.allFinite() || !state.v.allFinite()) {
     throw Error(fmt::format("{}: {} needs {} numbers each for q and v", problem_->name(), name, n));
   }
+  if (state.y.size() != traced_.first_order_size() || !state.y.allFinite()) {
+    throw Error(fmt::format("{}: {} needs {} numbers y", problem_->name(), name, traced_.first_order_size()));
+  }
   Values values = present_values();
   const auto fix = [](const Eigen::VectorXd& at, Bounds& bounds) {
     for (Eigen::Index i = 0; i < at.size(); ++i) {
@@ -70,6 +73,7 @@ void Transcription::set_end(const BoundaryState& state, EndBounds ProblemBounds:
   EndBounds& bounds = values.bounds.*end;
   fix(state.q, bounds.q);
   fix(state.v, bounds.v);
+  fix(state.y, bounds.y);
   use(std::move(values));
 }
 

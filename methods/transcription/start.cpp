@@ -34,6 +34,12 @@ Eigen::VectorXd unknowns_of(const Transcription& transcription, const Trajectory
       if (has_second) set(layout.second_rate_head(i, c), second_rates(rows_of(i), c));
     }
   }
+  for (Eigen::Index c = 0; c < motion.y.cols(); ++c) {
+    set(layout.first_order_head(c), motion.y.col(c));
+    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
+      set(layout.first_order_rate_head(i, c), motion.stage_y_rates(rows_of(i), c));
+    }
+  }
   for (Eigen::Index c = 0; c < motion.stage_u.cols(); ++c) {
     // Where neighbours share a control, that of the first stage is taken.
     for (Eigen::Index i = layout.stages() - 1; i >= 0; --i) {
@@ -69,18 +75,21 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
       motion.unknowns.size() == problem.unknown_count() ? motion.unknowns : guessed_unknowns(transcription);
   tables.node_times = horizon * transcription.grid().relative_times();
   for (Eigen::MatrixXd* table : {&tables.q, &tables.p, &tables.v}) table->setZero(tables.node_times.size(), n);
+  tables.y.resize(tables.node_times.size(), problem.first_order_size());
   std::optional<LegendreTransform> legendre;  // where nodes carry momenta
   if (transcription.layout().node_state() == NodeState::momentum) legendre.emplace(problem);
   for (Eigen::Index k = 0; k < tables.node_times.size(); ++k) {
     const MotionPoint node = point_at(tables.node_times[k]);
     tables.q.row(k) = node.q.transpose();
     tables.v.row(k) = node.v.transpose();
+    if (node.y.size() > 0) tables.y.row(k) = node.y.transpose();
     if (!legendre) continue;
-    tables.p.row(k) = legendre->momentum(node.q, node.v, tables.node_times[k]).transpose();
+    tables.p.row(k) = legendre->momentum(node.q, node.v, tables.node_times[k], node.y).transpose();
   }
   const Eigen::Index s = tables.stages();
   tables.stage_v.resize(widths.size() * s, n);
   tables.stage_u.resize(widths.size() * s, problem.control_size());
+  tables.stage_y_rates.setZero(widths.size() * s, problem.first_order_size());
   for (Eigen::Index row = 0; row < tables.stage_v.rows(); ++row) {
     const Eigen::Index k = row / s;
     const MotionPoint stage = point_at(tables.node_times[k] + tables.tableau.c[row % s] * widths[k]);
@@ -90,14 +99,22 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
   return tables;
 }
 
-/// Sets interior rates of p or v to the mean rates of their intervals, of which there is one per entry of `widths`.
-void set_mean_rates(const Layout& layout, Eigen::Index n, const Eigen::VectorXd& widths, Eigen::VectorXd& x) {
-  for (Eigen::Index c = 0; c < n; ++c) {
-    const auto nodes = x.segment(static_cast<Eigen::Index>(layout.second_head(c)), widths.size() + 1);
+/// Sets interior rates of p or v and of y to the mean rates of their intervals, of which there is one per entry of
+/// `widths`.
+void set_mean_rates(const Layout& layout, const Eigen::VectorXd& widths, Eigen::VectorXd& x) {
+  const auto set = [&](std::size_t nodes_head, const auto& rate_head) {
+    const auto nodes = x.segment(static_cast<Eigen::Index>(nodes_head), widths.size() + 1);
     const Eigen::VectorXd rates = (nodes.tail(widths.size()) - nodes.head(widths.size())).cwiseQuotient(widths);
     for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
-      x.segment(static_cast<Eigen::Index>(layout.second_rate_head(i, c)), widths.size()) = rates;
+      x.segment(static_cast<Eigen::Index>(rate_head(i)), widths.size()) = rates;
     }
+  };
+  const LayoutShape& shape = layout.shape();
+  for (Eigen::Index c = 0; layout.node_state() != NodeState::configuration && c < shape.configuration_size; ++c) {
+    set(layout.second_head(c), [&](Eigen::Index i) { return layout.second_rate_head(i, c); });
+  }
+  for (Eigen::Index c = 0; c < shape.first_order_size; ++c) {
+    set(layout.first_order_head(c), [&](Eigen::Index i) { return layout.first_order_rate_head(i, c); });
   }
 }
 
@@ -133,8 +150,9 @@ Eigen::MatrixXd second_rates(const Problem& problem, NodeState node_state, const
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   EquationsOfMotion motion(traced);
-  PointFunction force(traced.configuration_size(), traced.control_size(),
-                      [&](const ControlledState& x) { return traced.at(x).generalised_force; });
+  PointFunction force(
+      traced.configuration_size(), traced.control_size(),
+      [&](const ControlledState& x) { return traced.at(x).generalised_force; }, traced.first_order_size());
   Eigen::MatrixXd rates(trajectory.stage_q.rows(), trajectory.stage_q.cols());
   Eigen::VectorXd rate(rates.cols());
   for (Eigen::Index row = 0; row < rates.rows(); ++row) {
@@ -142,7 +160,7 @@ Eigen::MatrixXd second_rates(const Problem& problem, NodeState node_state, const
     if (node_state == NodeState::momentum) {
       force.evaluate(stage, trajectory.stage_times[row], rate);
     } else {
-      rate = motion.acceleration(stage.q, stage.v, stage.u, trajectory.stage_times[row]);
+      rate = motion.acceleration(stage.q, stage.v, stage.u, trajectory.stage_times[row], stage.y);
     }
     rates.row(row) = rate.transpose();
   }
@@ -163,9 +181,7 @@ Eigen::VectorXd sample(Transcription& transcription, const Motion& motion) {
   const Trajectory tables = tables_of(transcription, motion, horizon);
   Eigen::VectorXd x = unknowns_of(transcription, tables, Eigen::MatrixXd::Zero(tables.stage_v.rows(), tables.q.cols()));
   x = x.cwiseMax(lower).cwiseMin(upper);
-  if (layout.node_state() != NodeState::configuration) {
-    set_mean_rates(layout, tables.q.cols(), horizon * transcription.grid().relative_widths(), x);
-  }
+  set_mean_rates(layout, horizon * transcription.grid().relative_widths(), x);
   if (layout.shape().sums() > 0) add_up(transcription, x);
   return x.cwiseMax(lower).cwiseMin(upper);
 }

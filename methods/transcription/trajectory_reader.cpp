@@ -29,12 +29,18 @@ void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Tr
   trajectory.stage_q.resize(intervals * s, n);
   trajectory.stage_v.resize(intervals * s, n);
   trajectory.stage_u.resize(intervals * s, transcription.traced_problem().control_size());
+  const Eigen::Index l = transcription.traced_problem().first_order_size();
+  trajectory.stage_y.resize(intervals * s, l);
+  trajectory.stage_y_rates.resize(intervals * s, l);
+  const Eigen::Index width = 2 * n + 1 + 2 * l;
   for (Eigen::Index i = 0; i < s; ++i) {
     const auto rows = Eigen::seqN(i, intervals, s);
-    const auto stage = table.middleCols(i * (2 * n + 1), 2 * n + 1);
+    const auto stage = table.middleCols(i * width, width);
     trajectory.stage_q(rows, Eigen::all) = stage.leftCols(n);
     trajectory.stage_v(rows, Eigen::all) = stage.middleCols(n, n);
     trajectory.stage_times(rows) = stage.col(2 * n);
+    trajectory.stage_y(rows, Eigen::all) = stage.middleCols(2 * n + 1, l);
+    trajectory.stage_y_rates(rows, Eigen::all) = stage.rightCols(l);
     for (Eigen::Index c = 0; c < trajectory.stage_u.cols(); ++c) {
       trajectory.stage_u(rows, c) = primal.segment(static_cast<Eigen::Index>(layout.control_head(i, c)), intervals);
     }
@@ -76,6 +82,11 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
     trajectory.q.col(i) =
         primal.segment(static_cast<Eigen::Index>(layout.configuration_head(i)), trajectory.node_times.size());
   }
+  trajectory.y.resize(trajectory.node_times.size(), layout.shape().first_order_size);
+  for (Eigen::Index i = 0; i < trajectory.y.cols(); ++i) {
+    trajectory.y.col(i) =
+        primal.segment(static_cast<Eigen::Index>(layout.first_order_head(i)), trajectory.node_times.size());
+  }
   trajectory.unknowns = transcription.unknown_parameters(primal);
   transcription.set_unknown_parameters(trajectory.unknowns);
   read_integrals(layout, primal, trajectory);
@@ -84,11 +95,12 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   add_velocities(transcription.traced_problem(), trajectory);
   trajectory.cost = transcription.objective(primal) / transcription.cost_scale();
   if (static_cast<std::size_t>(multipliers.size()) == transcription.constraint_count()) {
-    Costates psi = costates(transcription, primal, multipliers, trajectory.v);
+    Costates psi = costates(transcription, primal, multipliers, trajectory);
     trajectory.psi_q = std::move(psi.psi_q);
     trajectory.psi_p = std::move(psi.psi_p);
+    trajectory.psi_y = std::move(psi.psi_y);
     read_prices(transcription, multipliers, trajectory);
-    if (transcription.functions().path_rows == 0 && trajectory.integrals.size() == 0 &&
+    if (transcription.functions().path_rows == 0 && trajectory.integrals.size() == 0 && trajectory.y.cols() == 0 &&
         transcription.functions().has_stage_unknowns) {
       StageCostates stages = stage_costates(transcription, multipliers, trajectory);
       trajectory.stage_psi_q = std::move(stages.psi_q);

@@ -37,6 +37,7 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .last_has_velocity = ends.last_has_velocity(),
           .free_horizon = ends.free_horizon,
           .conditions = traced.boundary_condition_count(),
+          .first_order_size = traced.first_order_size(),
           .integrals = traced.integral_count(),
           .unknown_parameters = traced.unknown_count()};
 }

@@ -8,12 +8,17 @@ std::string undefined_stage(const Problem& problem, Transcription& transcription
                             FormulaCheck::Derivatives up_to) {
   const Layout& layout = transcription.layout();
   const Eigen::Index n = problem.configuration_size();
+  const Eigen::Index l = problem.first_order_size();
+  const Eigen::Index width = 2 * n + 1 + 2 * l;
   const Eigen::MatrixXd stages = transcription.tabulate(transcription.functions().stages, x);
   FormulaCheck check(problem, up_to);
   for (Eigen::Index k = 0; k < stages.rows(); ++k) {
     for (Eigen::Index i = 0; i < layout.stages(); ++i) {
-      const auto stage = stages.row(k).segment(i * (2 * n + 1), 2 * n + 1);
-      MotionPoint point{.q = stage.head(n), .v = stage.segment(n, n), .u = Eigen::VectorXd(problem.control_size())};
+      const auto stage = stages.row(k).segment(i * width, width);
+      MotionPoint point{.q = stage.head(n),
+                        .v = stage.segment(n, n),
+                        .u = Eigen::VectorXd(problem.control_size()),
+                        .y = stage.segment(2 * n + 1, l)};
       for (Eigen::Index c = 0; c < point.u.size(); ++c) {
         point.u[c] = x[static_cast<Eigen::Index>(layout.control_head(i, c)) + k];
       }

@@ -140,7 +140,7 @@ TEST(Problems, AreRegularAlongTheirGuess) {
     for (int i = 0; i <= 16; ++i) {
       const double t = problem->horizon() * i / 16.0;
       const MotionPoint point = problem->guess(t);
-      EXPECT_TRUE(motion.acceleration(point.q, point.v, point.u, t).allFinite()) << name;
+      EXPECT_TRUE(motion.acceleration(point.q, point.v, point.u, t, point.y).allFinite()) << name;
     }
   }
 }

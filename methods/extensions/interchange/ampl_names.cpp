@@ -74,10 +74,14 @@ class AmplNames {
     for (const std::string& half : halves) {
       for (const std::string& q : q_) at_nodes(half + q);
     }
+    for (Eigen::Index i = 1; i <= shape_.first_order_size; ++i) at_nodes(fmt::format("y_{}", i));
     for (const std::string& half : halves) {
       for (Eigen::Index stage = 1; stage <= interior_stages_; ++stage) {
         for (const std::string& q : q_) in_intervals(fmt::format("rate_{}_{}{}", stage, half, q));
       }
+    }
+    for (Eigen::Index stage = 1; stage <= interior_stages_; ++stage) {
+      for (Eigen::Index i = 1; i <= shape_.first_order_size; ++i) in_intervals(fmt::format("rate_{}_y_{}", stage, i));
     }
   }
 

@@ -36,6 +36,7 @@ void require_feedback(const Transcription& program, const Eigen::VectorXd& prima
                        : shape.shares_controls        ? "controls that two intervals share"
                        : shape.mayer                  ? "the Mayer form"
                        : shape.integrals > 0          ? "integral constraints"
+                       : shape.first_order_size > 0   ? "first-order states"
                        : shape.unknown_parameters > 0 ? "unknown parameters"
                                                       : nullptr;
   if (reason != nullptr) {

@@ -15,16 +15,18 @@ class PointDerivatives {
   /// Traces all of them.
   explicit PointDerivatives(const TracedProblem& problem)
       : n_(problem.configuration_size()),
-        function_(n_, problem.control_size(),
-                  [&](const ControlledState& x) {
-                    const TracedProblem::Values values = problem.at(x);
-                    ExpressionVector outputs(2 * n_ + 4 * n_ * n_);
-                    outputs << gradient(values.running_cost, x.q), gradient(values.running_cost, x.v),
-                        jacobian(values.generalised_force, x.q).reshaped(),
-                        jacobian(values.generalised_force, x.v).reshaped(), values.mass.reshaped(),
-                        values.momentum_by_configuration.reshaped();
-                    return outputs;
-                  }),
+        function_(
+            n_, problem.control_size(),
+            [&](const ControlledState& x) {
+              const TracedProblem::Values values = problem.at(x);
+              ExpressionVector outputs(2 * n_ + 4 * n_ * n_);
+              outputs << gradient(values.running_cost, x.q), gradient(values.running_cost, x.v),
+                  jacobian(values.generalised_force, x.q).reshaped(),
+                  jacobian(values.generalised_force, x.v).reshaped(), values.mass.reshaped(),
+                  values.momentum_by_configuration.reshaped();
+              return outputs;
+            },
+            problem.first_order_size()),
         values_(function_.output_count()) {}
 
   /// Everything below is that of the point evaluated last.

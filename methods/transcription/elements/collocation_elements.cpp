@@ -22,7 +22,7 @@ IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tabl
   for (Eigen::Index row = 0; row < stages; ++row) {
     const auto i = static_cast<std::size_t>(row);
     const Expression time = unknowns.t + Expression(tableau.c[row]) * h;
-    trace.stages.push_back({configurations[i], rates_q[i], unknowns.controls[i], time});
+    trace.stages.push_back({configurations[i], rates_q[i], unknowns.controls[i], time, unknowns.stage_y(i)});
     values.push_back(problem.at(trace.stages.back()));
     trace.stage_equations.segment(2 * row * n, n) = momenta[i] - values[i].momentum;
     trace.stage_equations.segment((2 * row + 1) * n, n) = rates_p[i] - values[i].generalised_force;
@@ -51,16 +51,18 @@ IntervalTrace TangentElement::trace(const TracedProblem& problem, const Tableau&
   for (Eigen::Index row = 0; row < stages; ++row) {
     const auto i = static_cast<std::size_t>(row);
     const Expression time = unknowns.t + Expression(tableau.c[row]) * h;
-    trace.stages.push_back({configurations[i], velocities[i], unknowns.controls[i], time});
+    trace.stages.push_back({configurations[i], velocities[i], unknowns.controls[i], time, unknowns.stage_y(i)});
     values.push_back(problem.at(trace.stages.back()));
     trace.stage_equations.segment(2 * row * n, n) = rates_q[i] - velocities[i];
     ExpressionVector momentum_rate = values[i].mass * rates_v[i] + values[i].momentum_by_time;
     momentum_rate += values[i].momentum_by_configuration * velocities[i];
+    if (problem.first_order_size() > 0) momentum_rate += values[i].momentum_by_first_order * unknowns.rates_y[i];
     trace.stage_equations.segment((2 * row + 1) * n, n) = momentum_rate - values[i].generalised_force;
   }
   trace.cost = quadrature_of_cost(values, tableau.b, h);
-  trace.left_momentum = problem.at(State{unknowns.left_q, unknowns.left_second, unknowns.t}).momentum;
-  trace.right_momentum = problem.at(State{unknowns.right_q, unknowns.right_second, unknowns.t + h}).momentum;
+  trace.left_momentum = problem.at(State{unknowns.left_q, unknowns.left_second, unknowns.t, unknowns.left_y}).momentum;
+  trace.right_momentum =
+      problem.at(State{unknowns.right_q, unknowns.right_second, unknowns.t + h, unknowns.right_y}).momentum;
   return trace;
 }
 

@@ -17,7 +17,7 @@ IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& ta
   std::vector<std::vector<ConjugatePair>> pairs;  // L_q + f works along Q_i, L_v along Q̇_i
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const Expression time = unknowns.t + Expression(tableau.c[static_cast<Eigen::Index>(i)]) * h;
-    trace.stages.push_back({configurations[i], rates[i], unknowns.controls[i], time});
+    trace.stages.push_back({configurations[i], rates[i], unknowns.controls[i], time, unknowns.stage_y(i)});
     values.push_back(problem.at(trace.stages.back()));
     pairs.push_back({{configurations[i], values[i].generalised_force}, {rates[i], values[i].momentum}});
   }

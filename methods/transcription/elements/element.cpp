@@ -12,10 +12,13 @@ IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& probl
   IntervalUnknowns unknowns;
   unknowns.left_q = counter.take(n);
   unknowns.left_second = counter.take(second);
+  unknowns.left_y = counter.take(problem.first_order_size());
   unknowns.right_q = counter.take(n);
   unknowns.right_second = counter.take(second);
+  unknowns.right_y = counter.take(problem.first_order_size());
   for (Eigen::Index j = 0; j < interior; ++j) unknowns.rates_q.push_back(counter.take(n));
   for (Eigen::Index j = 0; j < interior && second > 0; ++j) unknowns.rates_second.push_back(counter.take(n));
+  for (Eigen::Index j = 0; j < interior; ++j) unknowns.rates_y.push_back(counter.take(problem.first_order_size()));
   for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(counter.take(problem.control_size()));
   return unknowns;
 }

@@ -29,8 +29,17 @@ struct IntervalUnknowns {
   std::vector<ExpressionVector> rates_q;  ///< Q̇_1 .. Q̇_{s-1}, the last stage rate is eliminated; none of shooting
   std::vector<ExpressionVector> rates_second;  ///< Ṗ_j or V̇_j, j = 1 .. s-1; none of shooting
   std::vector<ExpressionVector> controls;      ///< U_1 .. U_s, m entries each
+  ExpressionVector left_y;                     ///< y_k, l entries
+  ExpressionVector right_y;                    ///< y_{k+1}
+  std::vector<ExpressionVector> rates_y;       ///< Ẏ_1 .. Ẏ_s of which the last is eliminated; none without y
+  std::vector<ExpressionVector> stages_y;      ///< Y_i = y_k + h Σ_j a_ij Ẏ_j; none without y
   Expression h;                                ///< the step
   Expression t;                                ///< t_k
+
+  /// Y_i; without entries where there are no first-order states.
+  [[nodiscard]] ExpressionVector stage_y(std::size_t i) const {
+    return stages_y.empty() ? ExpressionVector() : stages_y[i];
+  }
 };
 
 /// The formulas of an element for one interval.
@@ -39,7 +48,7 @@ struct IntervalTrace {
   ExpressionVector right_rows;          ///< added to the equations of node k + 1
   ExpressionVector stage_equations;     ///< equations of this interval alone, each equal to 0
   Expression cost;                      ///< h Σ b_i C(Q_i, Q̇_i, U_i)
-  std::vector<ControlledState> stages;  ///< (Q_i, Q̇_i, U_i, t_k + c_i h); V_i for tangent-space collocation
+  std::vector<ControlledState> stages;  ///< (Q_i, Q̇_i, U_i, t_k + c_i h, Y_i); V_i for tangent-space collocation
   ExpressionVector left_momentum;       ///< p_k seen from this interval, n entries
   ExpressionVector right_momentum;      ///< p_{k+1} seen from this interval, n entries
 };
@@ -56,6 +65,9 @@ struct IntervalTrace {
 /// The program is then: minimise Σ c over all intervals such that e = 0 on each interval and r + l = 0 at each inner
 /// node, r from the interval before it and l from the one after it. Numbering, sparsity, derivatives, boundary
 /// conditions and costates are generic (`Transcription`).
+///
+/// First-order states are collocated by the tableau, the same for every element: Ẏ_i = g at the stages. An element
+/// takes Y_i where its formulas read y, and holds it fixed where it varies q.
 ///
 /// With n the number of configurations, m of controls and d the size of a node, n for `NodeState::configuration` and 2n
 /// otherwise, every element satisfies four identities, which `broken_identities` (methods/diagnostics) checks.
@@ -104,8 +116,8 @@ class Element {
   Element() = default;
 };
 
-/// The unknowns of an interval of an element as the next inputs of `counter`, in the order of `IntervalUnknowns`; h and
-/// t are left to the caller.
+/// The unknowns of an interval of an element as the next inputs of `counter`: nodes (q, p or v, y), rates of q, of p or
+/// v and of y, controls. h, t, the last rate of y and its stages are left to the caller.
 [[nodiscard]] IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem,
                                              const Element& element, Eigen::Index stages);
 

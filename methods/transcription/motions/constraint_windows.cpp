@@ -25,13 +25,14 @@ std::vector<double> stage_times(const Tableau& tableau, const Grid& grid, double
   return times;
 }
 
-/// (q, v, u, t) of the guess at evenly spaced times, a row each.
+/// (q, v, u, y, t) of the guess at evenly spaced times, a row each.
 Eigen::MatrixXd sampled_guess(const Problem& problem, Eigen::Index count) {
-  Eigen::MatrixXd rows(count, 2 * problem.configuration_size() + problem.control_size() + 1);
+  Eigen::MatrixXd rows(count,
+                       2 * problem.configuration_size() + problem.control_size() + problem.first_order_size() + 1);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double t = problem.horizon() * static_cast<double>(i) / static_cast<double>(count - 1);
     const MotionPoint point = problem.guess(t);
-    rows.row(i) << point.q.transpose(), point.v.transpose(), point.u.transpose(), t;
+    rows.row(i) << point.q.transpose(), point.v.transpose(), point.u.transpose(), point.y.transpose(), t;
   }
   return rows;
 }

@@ -27,9 +27,10 @@ std::string place_of(double t, const Problem& problem, const Grid& grid) {
 
 /// What is wrong with a point of the guess; empty if nothing is.
 std::string flaw_of(const MotionPoint& point, const TracedProblem& traced) {
-  const std::string flaw = flaw_of_sizes(point, traced.configuration_size(), traced.control_size());
+  const std::string flaw =
+      flaw_of_sizes(point, traced.configuration_size(), traced.control_size(), traced.first_order_size());
   if (!flaw.empty()) return flaw;
-  const bool is_finite = point.q.allFinite() && point.v.allFinite() && point.u.allFinite();
+  const bool is_finite = point.q.allFinite() && point.v.allFinite() && point.u.allFinite() && point.y.allFinite();
   return is_finite ? "" : "the guess itself is not a number";
 }
 
@@ -70,7 +71,7 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
   }
   times.tail(2) << 0.0, horizon;
   for (const BoundaryState& end : {problem.initial_state(), problem.final_state()}) {
-    points.push_back({end.q, end.v, Eigen::VectorXd::Zero(traced.control_size())});
+    points.push_back({end.q, end.v, Eigen::VectorXd::Zero(traced.control_size()), end.y});
   }
 
   const Eigen::MatrixXd table = traced.table(points, times);

@@ -75,6 +75,16 @@ Eigen::VectorXd velocity_on_interval(const Trajectory& trajectory, Eigen::Index 
   return stage_polynomial(trajectory, trajectory.stage_v, interval, t);
 }
 
+Eigen::VectorXd first_order_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t) {
+  if (trajectory.y.cols() == 0) return {};
+  const double h = trajectory.step(interval);
+  const Eigen::VectorXd weights =
+      h * lagrange_integral(trajectory.tableau.c, (t - trajectory.node_times[interval]) / h);
+  const Eigen::Index s = trajectory.stages();
+  return trajectory.y.row(interval).transpose() +
+         trajectory.stage_y_rates.middleRows(interval * s, s).transpose() * weights;
+}
+
 Eigen::VectorXd control_at(const Trajectory& trajectory, double t, Side side) {
   if (trajectory.stages() > 1) {
     return control_on_interval(trajectory, interval_on_side(trajectory.node_times, t, side), t);
@@ -114,7 +124,12 @@ Motion smooth_motion(const Trajectory& trajectory) {
     const double inside =
         std::clamp(t, trajectory.node_times[0], trajectory.node_times[trajectory.node_times.size() - 1]);
     const auto n = static_cast<Eigen::Index>(curves->size());
-    MotionPoint point{Eigen::VectorXd(n), Eigen::VectorXd(n), control_at(trajectory, inside)};
+    MotionPoint point{Eigen::VectorXd(n), Eigen::VectorXd(n), control_at(trajectory, inside), {}};
+    if (trajectory.y.cols() > 0) {
+      const Eigen::Index k = interval_of(trajectory.node_times, inside);
+      const double tau = (inside - trajectory.node_times[k]) / trajectory.step(k);
+      point.y = ((1.0 - tau) * trajectory.y.row(k) + tau * trajectory.y.row(k + 1)).transpose();
+    }
     for (Eigen::Index i = 0; i < n; ++i) {
       const Interpolator& curve = (*curves)[static_cast<std::size_t>(i)];
       point.q[i] = curve(inside);

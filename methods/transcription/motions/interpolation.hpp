@@ -11,7 +11,7 @@ namespace dmocbench {
 
 /// A motion given for every time 0 <= t <= T; starts are sampled from it.
 struct Motion {
-  std::function<MotionPoint(double t)> at;  ///< (q, v, u) at a time
+  std::function<MotionPoint(double t)> at;  ///< (q, v, u, y) at a time
   double horizon = 0.0;                     ///< T > 0
   Eigen::VectorXd unknowns = {};            ///< unknown parameters; none where they are those of the problem
 };
@@ -43,8 +43,11 @@ enum class Side : std::uint8_t { left, right };
 /// The time derivative of the element's polynomial of the configuration in interval k = `interval`, n entries.
 [[nodiscard]] Eigen::VectorXd velocity_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t);
 
+/// The element's polynomial of first-order states in interval k = `interval`, l entries: y_k + h Σ_j Ẏ_j ∫₀^τ ℓ_j.
+[[nodiscard]] Eigen::VectorXd first_order_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t);
+
 /// The motion as a smooth curve: piecewise cubic Hermite in (q, v), its derivative as velocity, `control_at` as
-/// control.
+/// control; first-order states linear between the nodes.
 [[nodiscard]] Motion smooth_motion(const Trajectory& trajectory);
 
 }  // namespace dmocbench

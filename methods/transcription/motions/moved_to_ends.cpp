@@ -15,7 +15,7 @@ Eigen::VectorXd missing(const Bounds& bounds, const Eigen::VectorXd& values) {
 
 /// The fixed state of an end minus a point of a motion.
 BoundaryState missing(const EndBounds& end, const MotionPoint& point) {
-  return {.q = missing(end.q, point.q), .v = missing(end.v, point.v)};
+  return {.q = missing(end.q, point.q), .v = missing(end.v, point.v), .y = missing(end.y, point.y)};
 }
 
 }  // namespace
@@ -31,6 +31,7 @@ Motion moved_to_ends(const Motion& motion, const ProblemBounds& bounds) {
     point.q += r * r * ((1.0 + 2.0 * s) * first.q + s * horizon * first.v);
     point.q += s * s * ((1.0 + 2.0 * r) * last.q - r * horizon * last.v);
     point.v += 6.0 * s * r / horizon * (last.q - first.q);
+    point.y += r * first.y + s * last.y;
     point.v += r * (1.0 - 3.0 * s) * first.v + s * (3.0 * s - 2.0) * last.v;
     return point;
   };

@@ -25,6 +25,11 @@ struct Trajectory {
   Eigen::MatrixXd stage_u;      ///< U_i, N s × m
   Eigen::MatrixXd stage_p;      ///< P_i = L_v(Q_i, Q̇_i), N s × n
 
+  Eigen::MatrixXd y;              ///< first-order states at the nodes, (N + 1) × l
+  Eigen::MatrixXd stage_y;        ///< Y_i, N s × l
+  Eigen::MatrixXd stage_y_rates;  ///< Ẏ_i, N s × l
+  Eigen::MatrixXd psi_y;          ///< derivative of the optimal cost-to-go at fixed (q, p), (N + 1) × l; or empty
+
   /// Gradient of the optimal cost-to-go in (q, p) at the nodes, (N + 1) × n each; empty (0 × 0) without multipliers.
   Eigen::MatrixXd psi_q;
   Eigen::MatrixXd psi_p;  ///< see `psi_q`
@@ -43,11 +48,18 @@ struct Trajectory {
 
   /// h_k = t_{k+1} - t_k.
   [[nodiscard]] double step(Eigen::Index k) const { return node_times[k + 1] - node_times[k]; }
-  /// (q_k, v_k), without a control.
-  [[nodiscard]] MotionPoint node(Eigen::Index k) const { return {q.row(k).transpose(), v.row(k).transpose(), {}}; }
-  /// (Q_i, Q̇_i, U_i) in a row of the stage tables.
+  /// (q_k, v_k, y_k), without a control.
+  [[nodiscard]] MotionPoint node(Eigen::Index k) const {
+    return {q.row(k).transpose(), v.row(k).transpose(), {}, row_of(y, k)};
+  }
+  /// (Q_i, Q̇_i, U_i, Y_i) in a row of the stage tables.
   [[nodiscard]] MotionPoint stage(Eigen::Index row) const {
-    return {stage_q.row(row).transpose(), stage_v.row(row).transpose(), stage_u.row(row).transpose()};
+    return {stage_q.row(row).transpose(), stage_v.row(row).transpose(), stage_u.row(row).transpose(),
+            row_of(stage_y, row)};
+  }
+  /// A row of a table of first-order states; without entries where the problem has none.
+  [[nodiscard]] static Eigen::VectorXd row_of(const Eigen::MatrixXd& table, Eigen::Index row) {
+    return table.cols() == 0 ? Eigen::VectorXd() : Eigen::VectorXd(table.row(row).transpose());
   }
 
   /// N.

@@ -1,0 +1,311 @@
+// First-order states: orders at the nodes, costates, momenta of a changing mass, and what does not change without them.
+#include <cmath>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "methods/diagnostics/accuracy.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
+#include "methods/diagnostics/replay_error.hpp"
+#include "methods/judgement/polish.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/elements/families.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+#include "problems/control_rate.hpp"
+#include "problems/orbital_transfer_with_mass.hpp"
+#include "problems/two_link_with_motors.hpp"
+#include "tests/support/sentence_of_error.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Scheme;
+
+/// A program with its answer.
+struct Answer {
+  std::unique_ptr<Transcription> program;
+  Solution solution;
+  Trajectory motion;
+};
+
+Answer solved(const Problem& problem, const Scheme& scheme, Eigen::Index intervals, const Motion& start,
+              const std::string& solver = "interior_point") {
+  Answer answer{tests::transcribe(problem, scheme, Grid::uniform(intervals)), {}, {}};
+  SolverOptions options;
+  options.tolerance = 1e-10;
+  answer.solution = make_solver(solver, options)->solve(*answer.program, sample(*answer.program, start));
+  settle(*answer.program, options.tolerance, answer.solution);
+  polish(*answer.program, answer.solution);
+  EXPECT_TRUE(is_solved(answer.solution.status))
+      << problem.name() << ", " << scheme.label() << ", N = " << intervals << ": " << answer.solution.message;
+  answer.motion = read_trajectory(*answer.program, answer.solution.primal, answer.solution.multipliers);
+  return answer;
+}
+
+/// Gauss with four stages, of order 8, on 512 intervals.
+struct Reference {
+  explicit Reference(std::unique_ptr<Problem> of)
+      : problem(std::move(of)),
+        near(smooth_motion(solved(*problem, {"dmoc", 2}, 64, guessed_motion(*problem)).motion)),
+        motion(solved(*problem, {"hamiltonian", 4}, 512, near).motion) {}
+  std::unique_ptr<Problem> problem;
+  Motion near;
+  Trajectory motion;
+};
+
+const Reference& reference_of(const std::string& name) {
+  static const Reference orbit(std::make_unique<OrbitalTransferWithMass>());
+  static const Reference arm(std::make_unique<TwoLinkWithMotors>());
+  return name == "orbit" ? orbit : arm;
+}
+
+class OrdersOfFirstOrderStates : public testing::TestWithParam<std::tuple<std::string, Scheme>> {};
+
+TEST_P(OrdersOfFirstOrderStates, AreThoseOfTheTableauAtTheNodes) {
+  const auto& [name, scheme] = GetParam();
+  const Reference& reference = reference_of(name);
+  const int order = scheme.tableau().order;
+  // Where the errors are far above rounding, and the terms of higher order are small.
+  const Eigen::Index finest = order == 2 ? 512 : order == 4 || name == "arm" ? 256 : 128;
+  const auto errors = [&](Eigen::Index intervals) {
+    const Trajectory motion = solved(*reference.problem, scheme, intervals, reference.near).motion;
+    std::vector<double> all;
+    for (const auto part :
+         {&Trajectory::q, &Trajectory::p, &Trajectory::y, &Trajectory::psi_q, &Trajectory::psi_p, &Trajectory::psi_y}) {
+      const Eigen::MatrixXd& exact = reference.motion.*part;
+      const Eigen::MatrixXd at_nodes = exact(Eigen::seqN(0, intervals + 1, 512 / intervals), Eigen::all);
+      all.push_back((motion.*part - at_nodes).lpNorm<Eigen::Infinity>());
+    }
+    // On the orbit errors of the cost cancel.
+    if (name == "arm") all.push_back(std::abs(motion.cost - reference.motion.cost));
+    return all;
+  };
+  const std::vector<double> coarse = errors(finest / 2);
+  const std::vector<double> fine = errors(finest);
+  const std::vector<std::string> names{"q", "p", "y", "psi_q", "psi_p", "psi_y", "cost"};
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    const double slope = std::log2(coarse[i] / fine[i]);
+    EXPECT_GT(slope, order - 0.2) << names[i] << ": errors " << coarse[i] << ", " << fine[i];
+    if (names[i] == "cost") continue;  // where terms cancel, it may converge faster
+    EXPECT_NEAR(slope, order, 0.2) << names[i] << ": errors " << coarse[i] << ", " << fine[i];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OrdersOfFirstOrderStates,
+                         testing::Combine(testing::Values("orbit", "arm"), testing::ValuesIn(tests::all_schemes())),
+                         [](const auto& instance) {
+                           const Scheme& scheme = std::get<1>(instance.param);
+                           return std::get<0>(instance.param) + "_" + scheme.method + "_" + scheme.family +
+                                  std::to_string(scheme.stages);
+                         });
+
+class FirstOrderStates : public testing::TestWithParam<Scheme> {};
+
+TEST_P(FirstOrderStates, CostOneUnknownMoreForEachPerStageOfAnInterval) {
+  const TwoLinkWithMotors with;
+  const TwoLinkManipulator without;
+  const auto unknowns = [&](const Problem& problem, Eigen::Index intervals) {
+    return static_cast<long>(tests::transcribe(problem, GetParam(), Grid::uniform(intervals))->variable_count());
+  };
+  const auto per_interval = [&](const Problem& problem) { return unknowns(problem, 9) - unknowns(problem, 8); };
+  EXPECT_EQ(per_interval(with) - per_interval(without), 2 * GetParam().stages);
+}
+
+TEST_P(FirstOrderStates, CostatesAreTheGradientOfTheLeastCost) {
+  const Reference& reference = reference_of("orbit");
+  const Answer answer = solved(*reference.problem, GetParam(), 16, reference.near);
+  LegendreTransform legendre(answer.program->traced_problem());
+  const MotionPoint first = answer.motion.node(0);
+  const Eigen::VectorXd p = answer.motion.p.row(0).transpose();
+  const auto cost_from = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& momentum, double mass) {
+    const Eigen::VectorXd y = Eigen::VectorXd::Constant(1, mass);
+    Transcription& program = *answer.program;
+    program.set_initial_state({.q = q, .v = legendre.velocity(q, momentum, 0.0, first.v, y), .y = y});
+    SolverOptions options;
+    options.tolerance = 1e-11;
+    const Solution solution = make_solver("interior_point", options)->solve(program, answer.solution.primal);
+    EXPECT_EQ(solution.status, Status::solved) << solution.message;
+    return solution.objective / program.cost_scale();
+  };
+  constexpr double step = 1e-4;
+  const auto expect_slope = [&](double costate, const auto& cost_at) {
+    const double slope =
+        (8.0 * (cost_at(step) - cost_at(-step)) - (cost_at(2.0 * step) - cost_at(-2.0 * step))) / (12.0 * step);
+    EXPECT_NEAR(costate, slope, 1e-5 * answer.motion.psi_p.row(0).norm());
+  };
+  expect_slope(answer.motion.psi_y(0, 0), [&](double e) { return cost_from(first.q, p, first.y[0] + e); });
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(2, i);
+    expect_slope(answer.motion.psi_q(0, i), [&](double e) { return cost_from(first.q + e * unit, p, first.y[0]); });
+    expect_slope(answer.motion.psi_p(0, i), [&](double e) { return cost_from(first.q, p + e * unit, first.y[0]); });
+  }
+}
+
+TEST_P(FirstOrderStates, FreeOnesHaveNoCostateAtTheEnd) {
+  const Reference& reference = reference_of("arm");
+  const Trajectory motion = solved(*reference.problem, GetParam(), 16, reference.near).motion;
+  EXPECT_LT(motion.psi_y.bottomRows(1).norm(), 1e-7 * motion.psi_y.norm());
+}
+
+TEST_P(FirstOrderStates, MomentaOfAChangingMassAreTheWorkOfTheForces) {
+  const Reference& reference = reference_of("orbit");
+  const Trajectory motion = solved(*reference.problem, GetParam(), 32, reference.near).motion;
+  EXPECT_LT(motion.y(32, 0), 0.9);
+  const MomentumConsistency consistency = momentum_consistency(*reference.problem, motion);
+  if (GetParam().method != "tangent") {
+    EXPECT_LT(consistency.largest, 1e-12);
+  } else if (GetParam().tableau().order == 2) {
+    EXPECT_GT(consistency.largest, 1e-9);
+  }
+}
+
+TEST_P(FirstOrderStates, ReplayOfTheControlsLeadsToTheEnd) {
+  const Reference& reference = reference_of("arm");
+  const auto missed = [&](Eigen::Index intervals) {
+    const Trajectory motion = solved(*reference.problem, GetParam(), intervals, reference.near).motion;
+    EXPECT_NEAR(replay_error(*reference.problem, motion).cost, motion.cost, 0.1 * motion.cost);
+    return replay_error(*reference.problem, motion).norm();
+  };
+  const double coarse = missed(32);
+  EXPECT_LT(missed(64), 0.5 * coarse);
+}
+
+TEST_P(FirstOrderStates, EveryIntervalLeadsToTheNextNode) {
+  const Reference& reference = reference_of("orbit");
+  const Trajectory motion = solved(*reference.problem, GetParam(), 32, reference.near).motion;
+  EXPECT_LT(accuracy(*reference.problem, motion).relative_jump, 0.02);
+  Trajectory heavier = motion;
+  heavier.y(16, 0) += 0.05;
+  EXPECT_GT(accuracy(*reference.problem, heavier).relative_jump, 0.1);
+}
+
+TEST_P(FirstOrderStates, MassThatStaysMakesTheProblemOfThePaper) {
+  OrbitalTransferWithMass with;
+  with.set_parameter("inverse_power", 0.0);
+  const OrbitalTransfer without;
+  const Motion start = guessed_motion(without);
+  const Trajectory a = solved(with, GetParam(), 32, guessed_motion(with)).motion;
+  const Trajectory b = solved(without, GetParam(), 32, start).motion;
+  EXPECT_NEAR(a.cost, b.cost, 1e-9 * b.cost);
+  EXPECT_LT((a.q - b.q).lpNorm<Eigen::Infinity>(), 1e-9);
+  EXPECT_LT((a.psi_p - b.psi_p).lpNorm<Eigen::Infinity>(), 1e-6 * b.psi_p.lpNorm<Eigen::Infinity>());
+}
+
+TEST_P(FirstOrderStates, BoundedRateOfAForceHasItsClosedForm) {
+  if (GetParam().family == "lobatto" && GetParam().stages == 3) {
+    GTEST_SKIP() << "the cost reads no control, and three Lobatto stages leave it all but undetermined";
+  }
+  const ControlRate problem;
+  for (const std::string solver : {"ipopt", "interior_point"}) {
+    const Trajectory motion = solved(problem, GetParam(), 64, guessed_motion(problem), solver).motion;
+    EXPECT_NEAR(motion.cost, 24.0 / 13.0, 3e-3);
+    EXPECT_LT(motion.stage_u.lpNorm<Eigen::Infinity>(), 4.0 + 1e-8);
+    // At t = 1, where no bound acts.
+    EXPECT_NEAR(motion.y(32, 0), 1.5 - 348.0 / 169.0 * 0.625, 0.01);
+  }
+}
+
+TEST_P(FirstOrderStates, BoundsOnThemHoldAtEveryNode) {
+  class Limited final : public Problem {
+   public:
+    [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
+    [[nodiscard]] std::vector<std::string> control_names() const override { return {"rate"}; }
+    [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"force"}; }
+    [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override { return x.u; }
+    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.y; }
+    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+    [[nodiscard]] BoundaryState initial_state() const override { return at(0.0); }
+    [[nodiscard]] BoundaryState final_state() const override { return at(1.0); }
+    [[nodiscard]] double horizon() const override { return 1.0; }
+    [[nodiscard]] ProblemBounds bounds() const override {
+      ProblemBounds bounds = Problem::bounds();
+      bounds.y = Bounds::all(1, -5.0, 5.0);
+      return bounds;
+    }
+
+   private:
+    static BoundaryState at(double q) {
+      return {.q = Eigen::VectorXd::Constant(1, q), .v = Eigen::VectorXd::Zero(1), .y = Eigen::VectorXd::Zero(1)};
+    }
+  };
+  const Limited problem;
+  for (const std::string solver : {"ipopt", "interior_point"}) {
+    const Trajectory motion = solved(problem, GetParam(), 32, guessed_motion(problem), solver).motion;
+    EXPECT_NEAR(motion.y.maxCoeff(), 5.0, 1e-6);
+    EXPECT_NEAR(motion.y.minCoeff(), -5.0, 1e-6);
+  }
+}
+
+TEST_P(FirstOrderStates, BothInteriorPointMethodsAgreeOnCoarseAndFineGrids) {
+  const Reference& reference = reference_of("arm");
+  for (const Eigen::Index intervals : {64, 1024}) {
+    if (intervals > 64 && GetParam().stages > 2) continue;
+    const Answer by_intervals = solved(*reference.problem, GetParam(), intervals, reference.near);
+    const Answer by_ipopt = solved(*reference.problem, GetParam(), intervals, reference.near, "ipopt");
+    EXPECT_NEAR(by_intervals.motion.cost, by_ipopt.motion.cost, 1e-8 * by_ipopt.motion.cost);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FirstOrderStates, testing::ValuesIn(tests::all_schemes()), [](const auto& instance) {
+  return instance.param.method + "_" + instance.param.family + std::to_string(instance.param.stages);
+});
+
+class EqualFirstOrderStates : public testing::TestWithParam<std::tuple<std::string, int>> {};
+
+TEST_P(EqualFirstOrderStates, SolutionOfDmocSolvesTheProgramOfHamiltonianCollocation) {
+  const auto& [family, stages] = GetParam();
+  for (const std::string name : {"orbit", "arm"}) {
+    const Reference& reference = reference_of(name);
+    const Trajectory motion = solved(*reference.problem, {"dmoc", stages, family}, 32, reference.near).motion;
+    const auto other = tests::transcribe(*reference.problem, {"hamiltonian", stages, family}, Grid::uniform(32));
+    EXPECT_LT(tests::row_residual(*other, embed(*reference.problem, *other, motion)), 1e-9) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EqualFirstOrderStates,
+                         testing::Values(std::tuple("gauss", 1), std::tuple("gauss", 2), std::tuple("gauss", 3),
+                                         std::tuple("lobatto", 2), std::tuple("lobatto", 3)),
+                         [](const auto& instance) {
+                           return std::get<0>(instance.param) + std::to_string(std::get<1>(instance.param));
+                         });
+
+TEST(FirstOrderStatesRefused, ByShooting) {
+  const TwoLinkWithMotors problem;
+  EXPECT_EQ(tests::sentence_of_error([&] {
+              static_cast<void>(tests::transcribe(problem, {"multiple_shooting_rk4_1", 1}, Grid::uniform(8)));
+            }),
+            "this method does not know first-order states (Problem::first_order_names); dmoc, hamiltonian and tangent "
+            "do");
+}
+
+TEST(FirstOrderStatesRefused, WithRatesOfAnotherSize) {
+  class Short final : public Problem {
+   public:
+    [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
+    [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+    [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"a", "b"}; }
+    [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override { return x.u; }
+    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+    [[nodiscard]] BoundaryState initial_state() const override {
+      return {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(2)};
+    }
+    [[nodiscard]] BoundaryState final_state() const override { return initial_state(); }
+    [[nodiscard]] double horizon() const override { return 1.0; }
+  };
+  EXPECT_EQ(tests::sentence_of_error([] {
+              static_cast<void>(tests::transcribe(Short(), {"dmoc", 1}, Grid::uniform(8)));
+            }),
+            "short: first_order_rates has 1 entries, expected 2");
+}
+
+}  // namespace
+}  // namespace dmocbench
