@@ -74,7 +74,7 @@ std::string relation(double lower, double upper) {
   return "<mo>∈</mo><mo>[</mo>" + number(lower) + "<mo>,</mo>" + number(upper) + "<mo>]</mo>";
 }
 
-void trace_along(const Problem& problem, StatedProblem& result) {
+void trace_along(const Problem& problem, const ProblemBounds& bounds, StatedProblem& result) {
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index m = problem.control_size();
   InputCounter inputs(result.letters.size());
@@ -91,7 +91,7 @@ void trace_along(const Problem& problem, StatedProblem& result) {
   for (Eigen::Index i = 0; i < force.size(); ++i)
     result.along.push_back({indexed("f", mathml_of_name(names.at(static_cast<std::size_t>(i)))), force[i], ""});
   const ExpressionVector constraints = problem.path_constraints(x);
-  const Bounds path = problem.bounds().of_path(constraints.size());
+  const Bounds path = bounds.of_path(constraints.size());
   for (Eigen::Index i = 0; i < constraints.size(); ++i) {
     result.along.push_back(
         {indexed("h", fmt::format("<mn>{}</mn>", i + 1)), constraints[i], relation(path.lower[i], path.upper[i])});
@@ -168,8 +168,9 @@ StatedProblem stated(const Problem& problem) {
   }
   if (result.free_letter.empty()) result.free_letter = "part";
 
+  const ProblemBounds bounds = problem.bounds();  // before the trace: parameters that they read may be open in formulas
   const ParameterTrace open(problem, varying);
-  trace_along(problem, result);
+  trace_along(problem, bounds, result);
   trace_ends(problem, result);
   return result;
 }
