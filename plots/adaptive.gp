@@ -29,14 +29,14 @@ do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
     set logscale y 10; set format y "%g"
     set format x ""
     unset xlabel
-    set ylabel "step {/:Italic h}" offset 1
+    set ylabel "step {/:Italic h}" offset inwards
     set key at screen 0.5, screen 0.01 center bottom vertical maxrows 2 width 1 samplen 2
     plot for [where in stages] rows("adaptive_steps", where.",method=dmoc", "step") using "t":"step"\
            with steps linecolor rgb colour_of_stages(entry(where, "stages")) linewidth 2 dashtype 1 title label(where)
     eval place(90, 750, 130, 290)
     unset logscale y; set format x "%g"
     set xlabel "{/:Italic t}"
-    set ylabel "q_1 / max |q_1|" offset 1.5
+    set ylabel "q_1 / max |q_1|" offset inwards
     unset key
     plot "< ".rows_awk("-v where='".problem_word.",method=dmoc,stages=3'", "adaptive_steps") using "t":"motion"\
            with linespoints linecolor rgb grey pointtype 7 pointsize 0.5
@@ -63,7 +63,7 @@ do for [kind in kinds] {
     set format x (quantity eq "state" || quantity eq "momentum" ? "" : "10^{%T}")
     set yrange [0.1:10]
     set xlabel (quantity eq "state" || quantity eq "momentum" ? "" : "largest relative error")
-    set ylabel (quantity eq "state" || quantity eq "costate" ? "estimated / true error" : "") offset 1
+    set ylabel (quantity eq "state" || quantity eq "costate" ? "estimated / true error" : "") offset inwards
     set title quantity
     eval key_below
     plot 0.3 with lines linetype 8, 3 with lines linetype 8,\

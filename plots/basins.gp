@@ -51,7 +51,7 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
     set size ratio 1
     unset grid
     set xlabel "bulge in q_1 [range of q_1]"
-    set ylabel "bulge in q_2 [range of q_2]" offset 1
+    set ylabel "bulge in q_2 [range of q_2]" offset inwards
     set style fill solid 1.0 noborder
     do for [i = 1:words(methods)] {
       method = word(methods, i)

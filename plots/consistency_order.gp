@@ -57,7 +57,7 @@ do for [problem_word in problems_of("consistency_order", "error")] {
         last = word(of_figure(figure), 3)
         set format x (quantity eq last ? "10^{%T}" : "")
         set xlabel (quantity eq last ? "step {/:Italic h}, unit of time as solved" : "")
-        set ylabel formula(quantity) offset 1.5
+        set ylabel formula(quantity) offset inwards
         set key at graph 1.03, graph 1 left top font ",12" samplen 2.5
         plot for [guide in guides] number(up_to_comma(guide)) * (x / x_high)**number(guide[strstrt(guide, ",") + 1:*])\
              with lines linetype 8,\

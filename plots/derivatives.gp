@@ -67,7 +67,7 @@ do for [problem_word in problems] {
         set title (q == 1 ? method_label(entry(word(methods, m), "method")) : "") font ",12" offset 0, -0.6
         set xlabel (q == 2 ? "number of intervals N" : "")
         if (q == 1) { set format x "" }
-        set ylabel (m > 1 ? "" : q == 1 ? "time of the solver [s]" : "KKT residual, exact derivatives") offset 1
+        set ylabel (m > 1 ? "" : q == 1 ? "time of the solver [s]" : "KKT residual, exact derivatives") offset inwards
         if (q == 1 && m == 1) {
           set key at screen 0.5, screen 0.008 center bottom vertical maxrows 3 width -3 font ",12" samplen 2.5
         } else { unset key }

@@ -42,8 +42,8 @@ do for [where in has_free_motions ? problems_of("structure_modified_energy", "dr
            pointsize 0.7 title with_slope("DMOC, ".energy_label(int(i)),\
              slope("structure_modified_energy_slopes", scheme(problem, "dmoc"), "drift_".i)),\
          for [i in truncations] rows("structure_modified_energy", of_truncation(problem, "tangent", i), "drift")\
-           using "h":"drift" with linespoints linecolor rgb colour(int(i)) linewidth 1.2 dashtype (8, 5) pointtype 8\
-           pointsize 1 title with_slope("Tangent-space, ".energy_label(int(i)),\
+           using "h":"drift" with linespoints linecolor rgb colour(int(i)) linewidth 1.2 dashtype (8, 5)\
+           pointtype triangle(int(i)) pointsize 1.2 title with_slope("Tangent-space, ".energy_label(int(i)),\
              slope("structure_modified_energy_slopes", scheme(problem, "tangent"), "drift_".i))
     eval end_figure(kind, problem."_modified_energy")
   }
@@ -58,19 +58,19 @@ do for [where in problems_of("structure_energy_work", "largest_gap")] {
     figure_title = title_text(problem_label(problem).": energy against the work of the forces along optimal motions",\
         "Paper: “Conservation of a Modified Energy”, section 3.3: the relation between a modified energy and the virtual"\
         ." work. Midpoint rule, each method on its own optimal motion; largest difference over the nodes.", "")
-    eval panels(1, 2, 85, 15, 260, 85, 0)
+    eval panels(1, 2, 85, 15, 265, 85, 0)
     eval power_axis("xy")
     eval step_tics
     set xlabel "step {/:Italic h}, in the problem's unit of time"
-    set ylabel axis_label("max_k |change of energy − work|", problem, "energy_unit") offset 1
-    set key at screen 0.02, screen 0.26 left top maxrows auto font ",12" samplen 2.5
+    set ylabel axis_label("max_k |change of energy − work|", problem, "energy_unit") offset inwards
+    set key at screen 0.02, screen upwards(185) left top maxrows auto font ",12" samplen 2.5
     set title "energy and virtual work"
     plot for [method in paper_families] rows("structure_energy_work", scheme(problem, method), "largest_gap")\
            using "h":"largest_gap" with linespoints linestyle method_style(method)\
            title with_slope(method_label(method),\
              slope("structure_energy_work_slopes", scheme(problem, method), "gap"))
     unset ylabel
-    set key at screen 0.53, screen 0.26 left top maxrows auto font ",12" samplen 2.5
+    set key at screen 0.53, screen upwards(185) left top maxrows auto font ",12" samplen 2.5
     set title "modified energy and modified work"
     plot for [i in truncations] rows("structure_modified_work", of_truncation(problem, "dmoc", i), "gap_to_modified_work")\
            using "h":"gap_to_modified_work" with linespoints linecolor rgb colour(int(i)) linewidth 2.5 dashtype 1\

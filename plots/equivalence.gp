@@ -6,7 +6,8 @@ plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 name = "equivalence"
 eval require(name, "problem,method,tableau,stages,status,branch,intervals,configuration_difference,".\
-    "costate_difference,adjoint_residual,adjoint_residual_by_plain_coefficients")
+    "costate_difference,adjoint_residual,adjoint_residual_by_plain_coefficients,forced_form_residual,".\
+    "acceleration_form_residual")
 
 is_gauss(where) = entry(where, "tableau") eq "gauss"
 points_of(where) = is_gauss(where) ? 7 : 6
@@ -45,7 +46,7 @@ do for [problem_word in problems_of(name, "")] {
       set ytics 1e3
       set title (column eq "configuration_difference" ? "configurations" : "costates") offset 0, -0.5
       if (column eq "configuration_difference") { set xlabel ""; set format x "" } else { set format x "%g" }
-      set ylabel "relative difference" offset 2
+      set ylabel "relative difference" offset inwards
       set key at graph 1.02, graph 1 left top maxrows auto font ",12" samplen 2.5 width 0
       plot for [curve in curves_with("tangent", column)] rows(name, curve, column)\
            using (column("intervals")):(column(column))\
@@ -121,7 +122,7 @@ do for [problem_word in problems_of(name, "")] {
       set ytics 1e2
       forced = column eq "forced_form_residual"
       set title (forced ? "form with forces, F = L_q + f" : "form with accelerations, F = q̈(q, q̇, u)") offset 0, -0.5
-      set ylabel (forced ? "largest residual" : "") offset 1.5
+      set ylabel (forced ? "largest residual" : "") offset inwards
       if (!forced) { set format y ""; unset key }
       plot for [method in paper_families] rows(name, problem_word.",method=".method, column)\
            using (column("intervals")):(column(column)) with linespoints linetype method_style(method)\

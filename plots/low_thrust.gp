@@ -33,7 +33,7 @@ do for [problem_word in problems_of("low_thrust", "cost_error")] {
       set format x '%g'
       set xrange [7:36]
       set xlabel "steps per revolution"
-      set ylabel "|J − J*| / J*" offset 1.5
+      set ylabel "|J − J*| / J*" offset inwards
       set key at screen 0.5, screen 0.01 center bottom vertical maxrows 3 width 0 font ",12"
       set title entry(panel, "revolutions")." revolutions; ".reference_label(panel) font ",12"
       plot for [one in drawn_methods] rows("low_thrust", where.",".one, "cost_error")\

@@ -32,7 +32,7 @@ do for [where in problems_of("objective", "")] {
         panels == 1 ? "" : is_certified\
         ? "Right: J* is the certified cost of the continuous problem; an error that changes its sign dips."\
         : "Right: against the cost of ".reference_words("convergence", where)."; an error that changes its sign dips.")
-    if (panels == 2) { eval panels(1, 2, 90, 12, 100, 100, 0) } else { set title figure_title }
+    if (panels == 2) { eval panels(1, 2, 90, 15, 115, 100, 0) } else { set title figure_title }
     if (panels == 2) { eval key_below } else { set key top right }
     eval measure("objective", where, "intervals", "objective")
     eval intervals_axis

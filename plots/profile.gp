@@ -73,7 +73,7 @@ do for [kind in kinds] {
     set format y (m == 1 ? "%.1f" : "")
     set title word(measure_labels, m) font ",12"
     set xlabel "multiple of the best"
-    set ylabel (m == 1 ? "share of the instances" : "") offset 1
+    set ylabel (m == 1 ? "share of the instances" : "") offset inwards
     if (m == 3) { set key at screen 0.5, screen 0.01 center bottom vertical maxrows count font ",12" } else { unset key }
     if (successes(1) == 0) { set label 101 "no instance was solved" at graph 0.5, 0.5 center font ",13" textcolor rgb grey }
     plot for [i = 1:count] profile_rows(i, measure) using (column("ratio")):(column("share")) with steps linetype 20 + i dashtype 1,\

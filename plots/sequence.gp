@@ -30,7 +30,7 @@ do for [problem_word in problems_of("sequence", "microseconds")] {
       methods = distinct("sequence", "method", where, "microseconds")
       set logscale y 10; set format y "%g"; set ytics autofreq
       set xlabel "step"
-      set ylabel "microseconds" offset 1
+      set ylabel "microseconds" offset inwards
       lowest = 420 * (words(sequences) - panel)
       eval place(85, 755, lowest + 145, panel == 1 ? top_of_panels(figure_title) : lowest + 390)
       set key at screen 0.05, screen upwards(lowest + 80) left top font ",12" samplen 1.5

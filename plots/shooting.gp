@@ -54,7 +54,7 @@ do for [problem_word in distinct("shooting", "problem", "", "")] {
       eval intervals_axis
       set xrange [first / 1.1:last * 1.1]
       eval set_range("y", lowest, highest, 3)
-      set ylabel error_of("{/:Italic q}") offset 1
+      set ylabel error_of("{/:Italic q}") offset inwards
       set key at screen 0.02, screen upwards(375) left bottom vertical maxrows 3 width -6 font ",12" samplen 2.5
       plot for [name in tables_of_errors] for [where in curves(name, problem_word)] rows(name, where, "state_error")\
              using (column("intervals")):(column("state_error")) with linespoints linecolor rgb colour(entry(where, "method"))\
@@ -72,7 +72,7 @@ do for [problem_word in distinct("shooting", "problem", "", "")] {
     eval intervals_axis
     set xrange [x_low / 1.1:x_high * 1.1]
     eval set_range("y", y_low / 2, 100 * y_high, 1)
-    set ylabel "condition of the KKT matrix" offset 1
+    set ylabel "condition of the KKT matrix" offset inwards
     set key default
     set key top left reverse Left noautotitle font ",12" samplen 2.5
     plot for [method in programs] rows("shooting", problem_word.",method=".method, "condition")\

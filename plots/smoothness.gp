@@ -36,7 +36,7 @@ do for [kind in kinds] {
     set format x '%g'
     set yrange [1e-8:1]
     if (stages == 2) { set xlabel "step {/:Italic h}" } else { set xlabel ""; set format x "" }
-    set ylabel "max_k |({/:Italic q}, {/:Italic p})_k − ({/:Italic q}*, {/:Italic p}*)(t_k)|" offset 1.5
+    set ylabel "max_k |({/:Italic q}, {/:Italic p})_k − ({/:Italic q}*, {/:Italic p}*)(t_k)|" offset inwards
     set key at graph 1.02, graph 1 left top font ",12" samplen 3
     set title sprintf("Gauss, s = %d (order %d where the optimum is smooth)", stages, 2 * stages)
     plot for [where in situations] rows("smoothness", at(where, stages), "state_error") using "h":"state_error"\

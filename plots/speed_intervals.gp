@@ -51,7 +51,7 @@ if (words(drawn) > 0) {
       set xtics () font ",13"
       do for [w = 1:way_count] { set xtics add (i == words(drawn) ? way_label(w) : "" w) }
       set title problem_label(problem) offset 0, -0.5
-      set ylabel "time per interval [ns]" offset 1.5
+      set ylabel "time per interval [ns]" offset inwards
       if (i == 1) { set key top left } else { unset key }
       shown = ""
       do for [w = 1:way_count] { do for [q = 1:3] {
@@ -106,7 +106,7 @@ if (words(methods) > 0) {
       set format x "%g"
       set title quantity_label(q)
       set xlabel "number of links n"
-      set ylabel (q == 1 ? "time per interval [ns]" : "") offset 1
+      set ylabel (q == 1 ? "time per interval [ns]" : "") offset inwards
       unset key
       if (q == 1) { set key at screen 0.01, screen 0.015 left bottom vertical maxrows words(stages) width -6 samplen 2 font ",12" }
       plot for [i = 1:words(methods)] for [s = 1:words(stages)]\

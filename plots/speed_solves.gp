@@ -37,7 +37,7 @@ if (words(drawn) > 0) {
     eval begin_figure(kind, "speed_solves", 600)
     figure_title = title_text("Time of a solve per interval and iteration", "",\
         "One thread, tolerance 1e-10, from the problem's own guess; what was not solved is left out. Smaller is better.")
-    eval panels(1, words(drawn), 90, 25, 150, 30, 0)
+    eval panels(1, words(drawn), 105, 25, 150, 30, 0)
     do for [p = 1:words(drawn)] {
       problem = word(drawn, p)
       unset logscale; set autoscale; unset label
@@ -46,7 +46,7 @@ if (words(drawn) > 0) {
       eval grids_axis
       set yrange [50:200000]
       set title problem_label(problem) font ",12"
-      set ylabel (p == 1 ? "time per interval and iteration [ns]" : "") offset 1
+      set ylabel (p == 1 ? "time per interval and iteration [ns]" : "") offset inwards
       unset key
       if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 3 width 0 font ",12" }
       shown = ""

@@ -32,7 +32,7 @@ do for [kind in kinds] {
   set xrange [*:*]
   eval power_axis("xy")
   set xlabel "period"
-  set ylabel "largest |E − E_0| of a period [GM/a]" offset 1
+  set ylabel "largest |E − E_0| of a period [GM/a]" offset inwards
   set title "unforced motion, ".steps." steps per period"
   plot for [choice in choices] rows("step_control_energy", ellipse.",".choice, "")\
        using (column("period") + 1):(magnitude(column("energy_smallest"), column("energy_largest")))\
@@ -45,7 +45,7 @@ do for [kind in kinds] {
   set format x '%g'
   set xrange [56:580]
   set xlabel "steps per period"
-  set ylabel "largest error of (q, v)" offset 1
+  set ylabel "largest error of (q, v)" offset inwards
   set title "the first period of the same motion"
   plot for [choice in choices] rows("step_control", ellipse.",".choice, "state_error")\
        using "steps_per_period":"state_error"\
@@ -53,7 +53,7 @@ do for [kind in kinds] {
   eval place(505, 745, 80, 330)
   set xrange [28:290]
   set xlabel "number of intervals N"
-  set ylabel "|J − J*| / J*" offset 1
+  set ylabel "|J − J*| / J*" offset inwards
   set title "optimal transfer"
   plot for [choice in transfers] rows("step_control_transfer", ellipse.",".choice, "cost_error")\
        using "intervals":"cost_error"\

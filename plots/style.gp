@@ -211,6 +211,7 @@ key_below = "set key at screen 0.5, screen 0.01 center bottom vertical maxrows 1
 # Every figure is `page_width` pixels wide, which stand for the 16 cm of a printed page: 12 pixels, the smallest text, are 7 pt
 # there. Text is 15 pixels high, and its indices by _ and ^ are 12; smaller fonts are for text without indices.
 page_width = 770
+# The terminal of SVG takes ticks for wider than they are: labels of axes with a margin of their own have `offset inwards`.
 # A figure is written under a hidden name, in which `drawer` is the process that may remove it, and renamed when it is
 # complete.
 if (!exists("drawer")) drawer = "0"
@@ -221,8 +222,8 @@ terminal(kind, height) = kind eq "svg"\
     ? sprintf("set terminal svg size %d, %d enhanced font 'sans-serif,15' background 'white'", page_width, height)\
     : sprintf("set terminal pngcairo size %d, %d enhanced font 'sans-serif,15' fontscale 1.5 linewidth 2 pointscale 3\
         dashlength 1.4", 2 * page_width, 2 * height)
-begin_figure(kind, name, height) = sprintf("figure_height = %g; system \"mkdir -p '%s'\"; %s; set output \"%s\"; %s",\
-    height, figures, terminal(kind, height), hidden(kind, name), stamp)
+begin_figure(kind, name, height) = sprintf("figure_height = %g; inwards = %g; system \"mkdir -p '%s'\"; %s; set output \"%s\"; %s",\
+    height, kind eq "svg" ? 1.5 : 0, figures, terminal(kind, height), hidden(kind, name), stamp)
 # Across a figure of an incomplete table, whatever else is drawn there.
 stamp = "unset label 901; unset label 902; if (strlen(incomplete) > 0) {\
     set label 901 'INCOMPLETE' at screen 0.5, screen 0.52 center front font ',60' textcolor rgb '#60D55E00';\

@@ -28,7 +28,7 @@ do for [where in system(rows_awk("-v take=all -v branches=any -v distinct=proble
         .entry(where, "intervals").". ".conditions("sweep"), "")
     eval panels(2, 2, 85, 80, 80, 130, 125)
     set xlabel system("echo '".x."' | tr '_' ' '")
-    set ylabel system("echo '".y."' | tr '_' ' '") offset 1
+    set ylabel system("echo '".y."' | tr '_' ' '") offset inwards
     set xtics few_ticks(X_max - X_min > 0 ? X_max - X_min : 1)
     set offsets graph 0.08, graph 0.08, graph 0.1, graph 0.1
     unset key
@@ -37,7 +37,7 @@ do for [where in system(rows_awk("-v take=all -v branches=any -v distinct=proble
     unset ylabel
     set title "iterations"
     plot answers(where) using x:y:"major_iterations" with points pointtype 5 pointsize size_of(where) linecolor palette
-    set ylabel system("echo '".y."' | tr '_' ' '") offset 1
+    set ylabel system("echo '".y."' | tr '_' ' '") offset inwards
     set title "status"
     set key at graph 1.1, graph 1 left top
     plot tried(where) using x:(is("solved")) with points pointtype 5 pointsize 1 linecolor rgb blue title "solved",\

@@ -19,7 +19,7 @@ set cbrange [T_min:T_max]
 set xtics few_ticks(2 * R_max)
 set ytics few_ticks(2 * R_max)
 set xlabel "x [km]"
-set ylabel "y [km]" offset 1.5
+set ylabel "y [km]" offset inwards
 set label 1 "Earth" at 0, 0.12 * R_max center front textcolor rgb "#52697A"
 set label 2 sprintf("arrows: thrust, across the radius\nthe longest %.3g m/s²\ncolour: time, as on the right", largest_thrust) at 0, -0.3 * R_max center front\
     font ",12" textcolor rgb "#52697A"

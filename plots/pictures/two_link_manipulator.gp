@@ -14,7 +14,7 @@ set xrange [-1.12 * R_max:1.12 * R_max]
 set yrange [-1.12 * R_max:1.12 * R_max]
 set cbrange [T_min:T_max]
 set xlabel "x [m]"
-set ylabel "y [m]" offset 1.5
+set ylabel "y [m]" offset inwards
 set label 1 "start" at 0, -R_max offset 2, -0.2 font ",13" textcolor rgb "#3A8FA8"
 set label 2 "end" at 0, R_max offset 2, 0.4 font ",13" textcolor rgb "#2B1B5E"
 plot table(picture) using (column("tip_x_in_m")):(column("tip_y_in_m")):(column("t_in_s"))\
