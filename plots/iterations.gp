@@ -108,7 +108,7 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
         ."Dashed: the paper’s 1.".(problem eq "orbital_transfer" ? "7" : "5").". ".\
         conditions(solves).". Above the line DMOC takes less. Warm solves take few iterations: one more is a large ratio.",\
         "Replay error: how far from the final state the continuous system ends under the computed control.")
-    eval panels(1, 3, 70, 12, 150, 12, 0)
+    eval panels(1, 3, 80, 12, 150, 12, 0)
     paper_ratio = problem eq "orbital_transfer" ? 1.7 : problem eq "two_link_manipulator" ? 1.5 : NaN
     low = 1; high = 1
     do for [c = 1:words(currencies)] {
@@ -132,7 +132,7 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
       set ytics (0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2, 2.5, 3, 4, 6, 8); set format y '%g'; unset mytics
       set yrange [low / 1.1:high * 1.1]
       set title word(panel_titles, i) font ",14"
-      set ylabel (i == 1 ? "collocation / DMOC" : "")
+      set ylabel (i == 1 ? "collocation / DMOC" : "") offset inwards
       if (i > 1) { set format y "" }
       if (i < 3) { unset key } else { set key at screen 0.5, screen 0.01 center bottom vertical maxrows 3 width -1 font ",12" samplen 2.5 }
       drawn = ""

@@ -31,7 +31,7 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
     stats points("node") using "x" name "X" nooutput
     set xtics few_ticks(X_max - X_min)
     set xlabel entry(told_of, "horizontal") noenhanced
-    set ylabel entry(told_of, "vertical") noenhanced
+    set ylabel entry(told_of, "vertical") noenhanced offset inwards
     unset title
     plot points("node") using "x":"y" with points pointtype 7 pointsize 0.25 linecolor rgb "#B8B8B8" title "nodes",\
          points("before") using "x":"y" with lines linetype 3 title cost_text("path", entry(told_of, "cost_before")),\

@@ -97,26 +97,26 @@ do for [figure in "paper_discretemaps paper_exact_maps"] {
   do for [kind in kinds] {
     eval begin_figure(kind, figure, exact ? 520 : 350)
     eval plane(20, exact ? 10.4 : 6.4)
-    set title exact ? title_text("Exact discrete Lagrangian and forces, and the continuous forced Hamiltonian flow",\
+    set title exact ? title_text("Exact discrete Lagrangian and forces, continuous Hamiltonian flow with force",\
         "Paper: section 2.3, diagram:LEH", "") : title_text("Forced discrete Lagrangian map and forced discrete Hamiltonian map",\
         "Paper: section 2.2, fig:discretemaps (diagram:LH)", "")
     do for [k = 0:1] { set label sprintf("(q_%d, q_%d)", k, k + 1) at 6 + 8 * k, upper center }
     do for [k = 0:2] { set label sprintf("(q_%d, p_%d)", k, k) at 2 + 8 * k, lower center }
     # So large that indices of indices are no smaller than other text.
-    set label large(exact ? "F_{L_d^E}^{u_0, u_1}" : "F@^{u_0, u_1}_{L_d}") at 10, upper + 0.75 center
+    set label large(exact ? "F_{L_d^E}^{ u_0, u_1}" : "F_{L_d}^{ u_0, u_1}") at 10, upper + 0.75 center
     eval arrow(7.4, upper, 12.6, upper)
     do for [k = 0:1] {
       x = 6 + 8 * k
       eval arrow(x - 0.7, upper - 0.5, x - 3.4, lower + 0.6)
       eval arrow(x + 0.7, upper - 0.5, x + 3.4, lower + 0.6)
-      set label large(sprintf("𝔽^{f−}L@_d^{%s%d}", E, k)) at x - 2.4, upper - 2.1 right
-      set label large(sprintf("𝔽^{f+}L@_d^{%s%d}", E, k)) at x + 1.6, upper - 1.2 left
+      set label large(sprintf("𝔽^{f−}L_d^{ %s%d}", E, k)) at x - 2.7, upper - 2.1 right
+      set label large(sprintf("𝔽^{f+}L_d^{ %s%d}", E, k)) at x + 1.9, upper - 1.2 left
       eval arrow(3.4 + 8 * k, lower, 8.6 + 8 * k, lower)
-      set label large(exact ? sprintf("F̃_{L_d^E}^{u_%d} = (F@_H^{u_%d})^h", k, k) : sprintf("F̃@^{u_%d}_{L_d}", k))\
+      set label large(exact ? sprintf("F̃_{L_d^E}^{ u_%d} = (F_H^{ u_%d})^h", k, k) : sprintf("F̃_{L_d}^{ u_%d}", k))\
           at 6 + 8 * k, lower - 0.8 center
       if (exact) {
         eval arrow(3.7 + 8 * k, 0.9, 8.3 + 8 * k, 0.9)
-        set label large(sprintf("(F@_L^{u_%d})^h", k)) at 6 + 8 * k, 0.15 center
+        set label large(sprintf("(F_L^{ u_%d})^h", k)) at 6 + 8 * k, 0.15 center
       }
     }
     if (exact) {

@@ -28,7 +28,7 @@ do for [where in problems_of(name, ratio)] {
         "Paper: section 3.4, rem:savings. ".timed_conditions("structure_advantage").". Above the line DMOC takes less.",\
         "Bars: 99 % intervals over the rounds. Ipopt reports no time of its linear systems: instead, the time of an"\
         ." iteration without evaluations.")
-    eval panels(1, 2, 75, 15, 165, 95, 0)
+    eval panels(1, 2, 80, 15, 165, 95, 0)
     # Both panels have one range, which holds all that is drawn.
     low = 1; high = 1
     do for [panel = 1:2] {
@@ -56,7 +56,7 @@ do for [where in problems_of(name, ratio)] {
         if (strlen(distinct(name, "quantity", selected, "ratio_lower")) > 0) { with_bars = with_bars." ".w }
       }
       set yrange [low / 1.1:high * 1.1]
-      set ylabel "Hamiltonian / DMOC, ".word(panels, panel)
+      set ylabel "Hamiltonian / DMOC, ".word(panels, panel) offset inwards
       if (panel == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 3 width 2 } else { unset key }
       plot 1 with lines linecolor rgb grey linewidth 1 notitle,\
            for [w in "1 2 3"] keyentry with linespoints linecolor rgb colour(w + 0) linewidth 1.8 dashtype 1\
