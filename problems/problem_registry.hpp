@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,7 +14,7 @@ namespace dmocbench {
 class Registry {
  public:
   /// Makes a problem.
-  using Maker = std::unique_ptr<Problem> (*)();
+  using Maker = std::function<std::unique_ptr<Problem>()>;
 
   /// Adds the problem of a class, `registry.add<Furuta>()`; it is made by its default constructor. Throws `Error` if
   /// its name is there already, or is no name that a command line and a file take: small letters, digits and
@@ -24,6 +25,8 @@ class Registry {
   }
   /// Adds the problem that this makes.
   void add(Maker make);
+  /// The same with an origin, in the place of an earlier problem of that name and origin, if there is one.
+  void put(Maker make, const std::string& origin);
 
   /// Adds all problems of another registry, which come from `origin`, such as the path of a library. Throws `Error`,
   /// and adds none, if one of their names is there already.

@@ -1,6 +1,7 @@
 #include "problems/registry.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
@@ -47,6 +48,14 @@ bool is_name(const std::string& text) {
          text.find_first_not_of(all) == std::string::npos && text != "all";
 }
 
+/// Throws `Error` if it is no name.
+std::string name_made_by(const Registry::Maker& maker) {
+  std::string name = maker()->name();
+  if (is_name(name)) return name;
+  throw Error("a problem cannot be named \"" + name +
+              R"(": names are small letters, digits and underscores, a letter first, and not "all")");
+}
+
 std::string in_brackets(const std::string& origin) { return origin.empty() ? "" : " (" + origin + ")"; }
 
 // One line per problem.
@@ -87,13 +96,16 @@ Registry problems_of_the_suite() {
 }  // namespace
 
 void Registry::add(Maker maker) {
-  const std::string name = maker()->name();
-  if (!is_name(name)) {
-    throw Error("a problem cannot be named \"" + name +
-                R"(": names are small letters, digits and underscores, a letter first, and not "all")");
-  }
+  const std::string name = name_made_by(maker);
   require_new(name, "");
-  entries_.push_back({name, maker, ""});
+  entries_.push_back({name, std::move(maker), ""});
+}
+
+void Registry::put(Maker maker, const std::string& origin) {
+  const std::string name = name_made_by(maker);
+  std::erase_if(entries_, [&](const Entry& entry) { return entry.name == name && entry.origin == origin; });
+  require_new(name, origin);
+  entries_.push_back({name, std::move(maker), origin});
 }
 
 void Registry::add_all(const Registry& others, const std::string& origin) {

@@ -2,9 +2,6 @@
 # targets of the package, and the Markdown pages next to the code.
 get_property(targets GLOBAL PROPERTY DMOCBENCH_TARGETS)
 set(inputs)
-if(DMOCBENCH_EXTENSIONS)
-  list(APPEND targets dmocbench_c)
-endif()
 foreach(target IN LISTS targets ITEMS dmocbench_experiment)
   get_target_property(headers ${target} HEADER_SET)
   get_target_property(folder ${target} SOURCE_DIR)

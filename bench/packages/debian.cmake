@@ -1,6 +1,6 @@
-# Debian packages: `cpack -G DEB` in the build folder makes `dmocbench`, the program with its figures, `libdmocbench0`, the
-# shared library with an interface in C, and `libdmocbench-dev`, the headers and libraries for compiling. A package holds the files that `cmake --install` installs for a component; man pages and the files that Debian requires
-# of every package are added by `complete_debian`.
+# Debian packages: `cpack -G DEB` in the build folder makes `dmocbench`, the program with its figures, `python3-dmocbench`,
+# the package for Python, and `libdmocbench-dev`, what programs are compiled with. What belongs to a package is what
+# `cmake --install` installs of a component; man pages and what Debian asks of every package are added by `complete_debian`.
 include_guard(GLOBAL)
 
 set(CPACK_PACKAGE_NAME dmocbench)
@@ -12,8 +12,8 @@ set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)
-if(DMOCBENCH_EXTENSIONS)
-  list(APPEND CPACK_COMPONENTS_ALL library)
+if(TARGET dmocbench_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
 
@@ -56,17 +56,15 @@ and by shooting, and compares accuracy, structure and cost of the answers in
 tables and figures. Problems of one's own come from a shared library, which
 libdmocbench-dev makes of one header each.")
 
-# Its name ends in the version of its interface, as the library's own.
-set(library libdmocbench${PROJECT_VERSION_MAJOR})
-file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library})
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
-set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
-    "optimal control by DMOC and collocation, from C and other languages
-A shared library with an interface in C, dmocbench.h, that Python, Julia,
-Rust and others reach without a compiler: make a problem by its name, set its
-parameters, solve it, get arrays.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-dmocbench)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-pandas)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "optimal control by DMOC and collocation, in Python
+State an optimal control problem of a mechanical system as a Python class,
+solve it by DMOC and by collocation at the speed of C++, with numpy arrays
+as answers, and compare the methods by the experiments of dmocbench.")
 
 # The static libraries bring nothing with them: linking them needs the libraries they were compiled with.
 set(adolc)
@@ -77,7 +75,7 @@ endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdmocbench-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "${library} (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), coinor-libipopt-dev, libboost-dev, libeigen3-dev (>= 3.4), libfmt-dev, liblapack-dev, liblapacke-dev, libmumps-seq-dev, libnlopt-dev, pkg-config${adolc}"
+    "coinor-libipopt-dev, libboost-dev, libeigen3-dev (>= 3.4), libfmt-dev, liblapack-dev, liblapacke-dev, libmumps-seq-dev, libnlopt-dev, pkg-config${adolc}"
 )
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
     "cmake (>= 3.25), dmocbench (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), g++, libcli11-dev, nlohmann-json3-dev")

@@ -11,6 +11,7 @@
 #include <new>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
@@ -34,7 +35,17 @@ CLI::Option* add(CLI::App& app, const std::string& names, Value& value, const st
   return option->get_default_str() == "[]" ? option->default_str("") : option;
 }
 
+/// Where sentences of errors go; null for standard error.
+std::string*& complaint_of_thread() {
+  thread_local std::string* complaint = nullptr;
+  return complaint;
+}
+
 int report_error(const std::string& name, const std::string& sentence) {
+  if (std::string* const complaint = complaint_of_thread()) {
+    *complaint = one_line(sentence);
+    return 2;
+  }
   // Not by fmt::print, which throws where standard error is closed or full.
   static_cast<void>(std::fputs((name + ": " + one_line(sentence) + "\n").c_str(), stderr));
   return 2;
@@ -63,6 +74,10 @@ bool is_out_of_threads(const std::exception& error) noexcept {
 }
 
 }  // namespace
+
+ComplaintScope::ComplaintScope(std::string* complaint) : outer_(std::exchange(complaint_of_thread(), complaint)) {}
+
+ComplaintScope::~ComplaintScope() { complaint_of_thread() = outer_; }
 
 std::string one_line(std::string_view text) {
   constexpr std::size_t longest = 2000;

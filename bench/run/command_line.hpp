@@ -75,6 +75,21 @@ void print_line(const std::string& text);
 int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                 const std::function<int(CommandLine&)>& body);
 
+/// For a program within another one: as long as it exists, the sentences by which `run_program` reports errors go to
+/// `complaint` and not to standard error; null leaves them there.
+class ComplaintScope {
+ public:
+  explicit ComplaintScope(std::string* complaint);
+  ~ComplaintScope();
+  ComplaintScope(const ComplaintScope&) = delete;
+  ComplaintScope& operator=(const ComplaintScope&) = delete;
+  ComplaintScope(ComplaintScope&&) = delete;
+  ComplaintScope& operator=(ComplaintScope&&) = delete;
+
+ private:
+  std::string* outer_;
+};
+
 /// Standard error if it is a terminal: one line there says what is being done. The line is erased at the end.
 class ProgressLine {
  public:

@@ -76,6 +76,15 @@ std::vector<std::string> parse_with_libraries(CommandLine& line) {
   return command_line;
 }
 
+void note_source_of_problem(const std::string& problem, const std::string& file, const std::string& source) {
+  nlohmann::ordered_json& libraries = loaded_libraries();
+  const nlohmann::ordered_json problems{problem};
+  for (std::size_t i = libraries.size(); i-- > 0;) {  // an earlier version
+    if (libraries[i].at("path") == file && libraries[i].at("problems") == problems) libraries.erase(i);
+  }
+  libraries.push_back({{"path", file}, {"crc32", fmt::format("{:08x}", crc_32(source))}, {"problems", problems}});
+}
+
 std::string library_of(const std::string& problem) {
   for (const nlohmann::ordered_json& library : loaded_libraries()) {
     const auto problems = library.at("problems").get<std::vector<std::string>>();

@@ -22,6 +22,10 @@ void load_problem_libraries(const std::vector<std::string>& libraries);
 /// Registers --library behind all other options, parses, and loads the libraries; the program and its arguments.
 std::vector<std::string> parse_with_libraries(CommandLine& line);
 
+/// Notes that a problem was made of the source of a file while the program ran: for `library_of` and metadata, where it
+/// is a library of one problem, whose checksum is that of its source.
+void note_source_of_problem(const std::string& problem, const std::string& file, const std::string& source);
+
 /// The file that a problem was loaded from, without its folder; empty for a problem of the suite.
 [[nodiscard]] std::string library_of(const std::string& problem);
 

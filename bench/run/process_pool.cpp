@@ -23,6 +23,8 @@ namespace dmocbench {
 
 namespace {
 
+constexpr std::array interrupts{SIGINT, SIGHUP, SIGTERM};
+
 volatile std::sig_atomic_t requested = 0;
 
 extern "C" void on_signal(int signal) {
@@ -76,8 +78,17 @@ std::pair<Worker, std::string> wait_for_one(std::map<pid_t, Worker>& running) {
 
 }  // namespace
 
+ListeningScope::ListeningScope() {
+  for (std::size_t i = 0; i < before_.size(); ++i) ::sigaction(interrupts[i], nullptr, &before_[i]);
+}
+
+ListeningScope::~ListeningScope() {
+  for (std::size_t i = 0; i < before_.size(); ++i) ::sigaction(interrupts[i], &before_[i], nullptr);
+  requested = 0;
+}
+
 void listen_for_interrupt() {
-  for (const int signal : {SIGINT, SIGHUP, SIGTERM}) {
+  for (const int signal : interrupts) {
     if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <csignal>
 #include <cstddef>
 #include <functional>
 #include <stdexcept>
@@ -9,6 +11,21 @@ namespace dmocbench {
 /// From now on Ctrl-C (SIGINT), a closed terminal (SIGHUP) and SIGTERM ask for a stop instead of ending the program; a
 /// second one ends it. What the caller ignores (nohup) stays ignored.
 void listen_for_interrupt();
+
+/// For a program within another one: once it has ended, the signals of `listen_for_interrupt` do what they did before,
+/// and no stop has been asked for.
+class ListeningScope {
+ public:
+  ListeningScope();
+  ~ListeningScope();
+  ListeningScope(const ListeningScope&) = delete;
+  ListeningScope& operator=(const ListeningScope&) = delete;
+  ListeningScope(ListeningScope&&) = delete;
+  ListeningScope& operator=(ListeningScope&&) = delete;
+
+ private:
+  std::array<struct sigaction, 3> before_;
+};
 
 /// True once a stop has been asked for.
 [[nodiscard]] bool interrupt_requested() noexcept;

@@ -1,0 +1,237 @@
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "bench/extensions/python/bindings.hpp"
+#include "bench/extensions/python/calls.hpp"
+#include "bench/extensions/python/handles.hpp"
+#include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/batch/solve_batch.hpp"
+#include "methods/transcription/elements/families.hpp"
+#include "methods/transcription/lane_transcription.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+
+namespace dmocbench::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The instances: a row each of what differs; tables without rows are those of the problem.
+struct Instances {
+  std::size_t count = 0;
+  std::vector<std::string> parameters;  ///< names
+  Rows values;                          ///< of the parameters
+  Rows first;                           ///< (q, v) at 0
+  Rows last;                            ///< (q, v) at T
+};
+
+/// Arrays of the answers, a row per instance.
+struct Answers {
+  Eigen::VectorXd cost;
+  std::vector<std::string> status;
+  std::vector<bool> is_solved;
+  Eigen::VectorXi iterations;
+  Rows q;  ///< node by node, where motions are asked for
+  Rows u;  ///< stage by stage
+};
+
+struct BatchAsked {
+  std::string method = "dmoc";
+  std::string tableau = "gauss";
+  int stages = 1;
+  long long intervals = 64;
+  double tolerance = BatchOptions{}.tolerance;
+  int most_iterations = BatchOptions{}.most_iterations;
+  std::size_t threads = 0;
+  bool motions = false;
+};
+
+void require_rows(const Rows& table, std::size_t count, Eigen::Index columns, const char* name) {
+  if (table.rows() == 0) return;
+  if (static_cast<std::size_t>(table.rows()) != count || table.cols() != columns) {
+    throw Error(fmt::format("solve_batch: {} is an array of {} x {}, expected {} x {}", name, table.rows(),
+                            table.cols(), count, columns));
+  }
+  if (!table.allFinite()) throw Error(fmt::format("solve_batch: {} has an entry that is not a finite number", name));
+}
+
+/// The work on one batch.
+class Batch {
+ public:
+  Batch(const Problem& problem, const BatchAsked& asked, const Instances& instances)
+      : problem_(problem),
+        asked_(asked),
+        instances_(instances),
+        program_(problem, *make_element(asked.method), make_tableau(asked.tableau, asked.stages),
+                 Grid::uniform(asked.intervals), OpenParameters{instances.parameters}),
+        start_(sample(program_, guessed_motion(problem))) {
+    const Eigen::Index n = problem.configuration_size();
+    require_rows(instances.values, instances.count, std::ssize(instances.parameters), "parameters");
+    require_rows(instances.first, instances.count, 2 * n, "start");
+    require_rows(instances.last, instances.count, 2 * n, "end");
+    const auto count = static_cast<Eigen::Index>(instances.count);
+    answers_.cost = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN());
+    answers_.status.assign(instances.count, std::string(name_of(Status::not_run)));
+    answers_.is_solved.assign(instances.count, false);
+    answers_.iterations = Eigen::VectorXi::Zero(count);
+  }
+
+  Answers solve(Call& call) {
+    std::atomic<bool> is_stopped = false;
+    BatchOptions options{.tolerance = asked_.tolerance, .most_iterations = asked_.most_iterations};
+    options.threads = asked_.threads;
+    options.stop_requested = [&, caller = std::this_thread::get_id()] {
+      if (std::this_thread::get_id() == caller && call.is_interrupted()) is_stopped = true;
+      return is_stopped.load();
+    };
+    const bool has_parameters = !instances_.parameters.empty();
+    if (has_parameters) options.set_parameters = parameters_of(program_);
+    // Instances with parameters of their own are prepared by the program, which a running batch needs itself.
+    constexpr std::size_t most_prepared = 4096;
+    const std::size_t step = has_parameters ? most_prepared : std::max<std::size_t>(instances_.count, 1);
+    for (std::size_t first = 0; first < instances_.count && !is_stopped; first += step) {
+      solve_some(first, std::min(first + step, instances_.count), options);
+    }
+    return std::move(answers_);
+  }
+
+ private:
+  void solve_some(std::size_t begin, std::size_t end, const BatchOptions& options) {
+    std::vector<BatchInstance> prepared;
+    if (!instances_.parameters.empty()) {
+      for (std::size_t i = begin; i < end; ++i) prepared.push_back(with_parameters(i));
+      program_.set_parameters(parameter_values(problem_));
+    }
+    ClampedEnds ends(program_);
+    const auto next = [&](std::size_t index, BatchInstance& instance) {
+      if (index >= end - begin) return false;
+      if (prepared.empty()) {
+        write(begin + index, ends, instance);
+      } else {
+        instance = prepared[index];
+      }
+      return true;
+    };
+    const auto take = [&](std::size_t index, const Solution& solution) { keep(begin + index, solution); };
+    solve_batch(program_, lanes_of(program_), start_, next, take, options);
+    read_motions();
+  }
+
+  [[nodiscard]] static BoundaryState state_of(const Rows& rows, std::size_t number, const BoundaryState& otherwise) {
+    if (rows.rows() == 0) return otherwise;
+    const Eigen::Index n = rows.cols() / 2;
+    const auto row = rows.row(static_cast<Eigen::Index>(number));
+    return {.q = row.head(n).transpose(), .v = row.tail(n).transpose()};
+  }
+
+  void write(std::size_t number, ClampedEnds& ends, BatchInstance& instance) const {
+    instance.start = start_;
+    instance.equality_values = program_.constraint_lower();
+    if (instances_.first.rows() == 0 && instances_.last.rows() == 0) return;
+    ends.write(state_of(instances_.first, number, first_), state_of(instances_.last, number, last_), instance.start,
+               instance.equality_values);
+  }
+
+  BatchInstance with_parameters(std::size_t number) {
+    Eigen::VectorXd values = parameter_values(problem_);
+    for (std::size_t i = 0; i < instances_.parameters.size(); ++i) {
+      values[static_cast<Eigen::Index>(parameter_number(problem_, instances_.parameters[i]))] =
+          instances_.values(static_cast<Eigen::Index>(number), static_cast<Eigen::Index>(i));
+    }
+    program_.set_parameters(values);
+    if (instances_.first.rows() > 0) program_.set_initial_state(state_of(instances_.first, number, first_));
+    if (instances_.last.rows() > 0) program_.set_final_state(state_of(instances_.last, number, last_));
+    BatchInstance instance;
+    instance.start = sample(program_, guessed_motion(program_));
+    const Eigen::VectorXd& rows = program_.constraint_lower();
+    instance.equality_values = rows.array().isFinite().select(rows, 0.0);  // those of inequalities are not read
+    instance.parameters = values;
+    return instance;
+  }
+
+  void keep(std::size_t number, const Solution& solution) {
+    const auto row = static_cast<Eigen::Index>(number);
+    answers_.status[number] = name_of(solution.status);
+    answers_.is_solved[number] = is_solved(solution.status);
+    answers_.cost[row] = solution.objective / program_.cost_scale();
+    answers_.iterations[row] = solution.major_iterations.value_or(0);
+    if (asked_.motions) points_.emplace_back(number, solution.primal);
+  }
+
+  void read_motions() {
+    for (const auto& [number, primal] : points_) {
+      if (primal.size() == 0 || !primal.allFinite()) continue;
+      const Trajectory motion = read_trajectory(program_, primal, Eigen::VectorXd());
+      keep_motion(number, motion.q, answers_.q);
+      keep_motion(number, motion.stage_u, answers_.u);
+    }
+    points_.clear();
+  }
+
+  void keep_motion(std::size_t number, const Rows& values, Rows& table) const {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    if (table.size() == 0) table = Rows::Constant(static_cast<Eigen::Index>(instances_.count), values.size(), none);
+    table.row(static_cast<Eigen::Index>(number)) = values.reshaped<Eigen::RowMajor>().transpose();
+  }
+
+  const Problem& problem_;
+  const BatchAsked& asked_;
+  const Instances& instances_;
+  Transcription program_;
+  Eigen::VectorXd start_;
+  BoundaryState first_ = problem_.initial_state();
+  BoundaryState last_ = problem_.final_state();
+  Answers answers_;
+  std::vector<std::pair<std::size_t, Eigen::VectorXd>> points_;  // of instances whose motions are still to be read
+};
+
+}  // namespace
+
+void bind_batch(py::module_& module) {
+  py::class_<BatchAsked>(module, "BatchAsked")
+      .def(py::init<>())
+      .def_readwrite("method", &BatchAsked::method)
+      .def_readwrite("tableau", &BatchAsked::tableau)
+      .def_readwrite("stages", &BatchAsked::stages)
+      .def_readwrite("intervals", &BatchAsked::intervals)
+      .def_readwrite("tolerance", &BatchAsked::tolerance)
+      .def_readwrite("most_iterations", &BatchAsked::most_iterations)
+      .def_readwrite("threads", &BatchAsked::threads)
+      .def_readwrite("motions", &BatchAsked::motions);
+  module.def(
+      "solve_batch",
+      [](const ProblemHandle& handle, const BatchAsked& asked, std::size_t count,
+         const std::vector<std::string>& parameters, const Rows& values, const Rows& first, const Rows& last) {
+        const Instances instances{count, parameters, values, first, last};
+        Answers answers = without_gil([&](Call& call) {
+          const StopScope scope([&call] { return call.is_interrupted(); }, 0.0);
+          return Batch(*handle.problem, asked, instances).solve(call);
+        });
+        py::dict result;
+        result["cost"] = std::move(answers.cost);
+        result["status"] = std::move(answers.status);
+        result["is_solved"] = std::move(answers.is_solved);
+        result["iterations"] = std::move(answers.iterations);
+        result["q"] = std::move(answers.q);
+        result["u"] = std::move(answers.u);
+        return result;
+      },
+      py::arg("problem"), py::arg("asked"), py::arg("count"), py::arg("parameters"), py::arg("values"),
+      py::arg("first"), py::arg("last"));
+}
+
+}  // namespace dmocbench::python

@@ -1,0 +1,57 @@
+"""dmocbench: state an optimal control problem of a mechanical system, solve it, compare transcriptions.
+
+    import dmocbench as db
+
+    class Pendulum(db.Problem):
+        q = db.coordinates("theta", unit="rad")
+        u = db.controls("tau", unit="N m")
+        length = db.parameter(1.0, "m", "of the rod", lower=0.1, upper=10)
+        horizon = 2.0
+        start = db.at_rest(theta=0.0)
+        end = db.at_rest(theta=3.141592653589793)
+
+        def lagrangian(self, x):
+            return 0.5 * self.length**2 * x.v.theta**2 + 9.81 * self.length * db.cos(x.q.theta)
+
+        def force(self, x):
+            return [x.u.tau]
+
+        def running_cost(self, x):
+            return 0.5 * x.u.tau**2
+
+    print(db.solve(Pendulum(), method="dmoc", intervals=64))
+"""
+
+from ._core import (  # noqa: F401
+    Error,
+    Expression,
+    Spline,
+    __version__,
+    acos,
+    asin,
+    asinh,
+    atan,
+    atan2,
+    cos,
+    cosh,
+    erf,
+    exp,
+    hypot,
+    log,
+    methods,
+    problem_names,
+    sin,
+    sinh,
+    smooth_abs,
+    smooth_if_else,
+    smooth_max,
+    smooth_min,
+    smooth_sign,
+    solvers,
+    sqrt,
+    tan,
+    tanh,
+)
+from .experiments import Results, Table, convergence, load_library, read_table, register, run  # noqa: F401
+from .problem import Problem, at_rest, between, controls, coordinates, free, motion, parameter, state  # noqa: F401
+from .solving import Batch, Solution, problem, solve, solve_batch  # noqa: F401

@@ -1,0 +1,55 @@
+"""python3 -m dmocbench EXPERIMENT [FILE.py ...] OPTIONS: an experiment, on the problems that the files state too."""
+
+import importlib.util
+import inspect
+import os
+import sys
+
+from . import _core
+from .experiments import register
+from .problem import Problem
+
+
+def problems_of(file):
+    """The problems that a file states, in its order."""
+    name = os.path.splitext(os.path.basename(file))[0]
+    spec = importlib.util.spec_from_file_location(name, file)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    sys.path.insert(0, os.path.dirname(os.path.abspath(file)))
+    spec.loader.exec_module(module)
+    found = [value for value in vars(module).values()
+             if inspect.isclass(value) and issubclass(value, Problem) and value.__module__ == name]
+    if not found:
+        raise _core.Error(f"{file} states no problem: a class derived from dmocbench.Problem")
+    return found
+
+
+def main(words):
+    if not words or words[0] in ("-h", "--help"):
+        print(__doc__.strip() + "\n")
+        for name, description in _core.programs():
+            print(f"  {name:<20} {description}")
+        return 0
+    experiment, rest = words[0], words[1:]
+    if experiment not in [name for name, _ in _core.programs()]:
+        raise _core.Error(f"there is no experiment \"{experiment}\"; python3 -m dmocbench --help lists them")
+    files = [word for word in rest if word.endswith(".py")]
+    for file in files:
+        if not os.path.isfile(file):
+            raise _core.Error(f"there is no file {file}")
+    names = [register(problem).name for file in files for problem in problems_of(file)]
+    rest = [word for word in rest if word not in files]
+    if names and not any(word == "--problem" or word.startswith("--problem=") for word in rest):
+        rest += ["--problem", ",".join(names)]
+    return _core.run(experiment, rest, False)
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except _core.Error as error:
+        print(f"dmocbench: {error}", file=sys.stderr)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        sys.exit(130)

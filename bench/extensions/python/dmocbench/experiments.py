@@ -1,0 +1,157 @@
+"""Experiments of the program dmocbench, in process, on problems of Python too."""
+
+from __future__ import annotations
+
+import csv
+import inspect
+import json
+import os
+import sys
+
+from . import _core
+from ._core import Error
+from .problem import Problem
+from .solving import handle_of
+
+
+class Table:
+    """Rows of a table: iteration gives a dict for each, with numbers as float or int, and None for empty entries."""
+
+    def __init__(self, columns, rows):
+        self.columns = columns
+        self.rows = rows
+
+    def __len__(self):
+        return len(self.rows)
+
+    def __iter__(self):
+        return iter(self.rows)
+
+    def __getitem__(self, key):
+        """A row by its number, or a column by its name."""
+        if isinstance(key, str):
+            if key not in self.columns:
+                raise Error(f"there is no column {key}; there are {', '.join(self.columns)}")
+            return [row[key] for row in self.rows]
+        return self.rows[key]
+
+    def to_pandas(self):
+        """The same as a DataFrame of pandas."""
+        import pandas
+
+        return pandas.DataFrame(self.rows, columns=self.columns)
+
+    def __repr__(self):
+        return f"<a table of {len(self)} rows: {', '.join(self.columns)}>"
+
+
+class Results(Table):
+    """The rows of an experiment. further: the other tables that it has written, by the ends of their names ("slopes");
+    orders: the fitted orders, where there are any; files: how the names of all files begin; is_complete: whether all is
+    solved. Experiments of several tables, such as structure, have further ones only."""
+
+    def __init__(self, table, further, files, is_complete):
+        super().__init__(table.columns, table.rows)
+        self.further = further
+        self.orders = further.get("slopes")
+        self.files = files
+        self.is_complete = is_complete
+
+
+def _value(text):
+    if text == "":
+        return None
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text
+
+
+def read_table(file, problems=None):
+    """A table that dmocbench has written; with `problems` only the rows of these."""
+    with open(file, newline="") as stream:
+        reader = csv.DictReader(stream)
+        rows = [{name: _value(text) for name, text in row.items()} for row in reader]
+        columns = list(reader.fieldnames or [])
+    if problems is not None and "problem" in columns:
+        rows = [row for row in rows if row["problem"] in problems]
+    return Table(columns, rows)
+
+
+def load_library(*files):
+    """Loads libraries of problems that dmocbench_add_problems has made in CMake; their problems are then known by name."""
+    _core.load_problem_libraries([os.fspath(file) for file in files])
+
+
+def register(problem):
+    """Makes a problem known by its name to all experiments of this process. Returns what C++ takes for it."""
+    handle = handle_of(problem)
+    if not isinstance(handle.original, Problem):
+        return handle
+    cls = type(handle.original)
+    try:
+        file, source = inspect.getsourcefile(cls) or "python", inspect.getsource(cls)
+    except (OSError, TypeError):
+        file, source = "python", repr(sorted(vars(cls)))
+    _core.register_problem(handle, file, source)
+    return handle
+
+
+def _arguments(options):
+    arguments = []
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        if value is None:
+            continue
+        if isinstance(value, bool):
+            arguments.append(option if value else "--no-" + option[2:])
+        elif isinstance(value, (list, tuple, range)):
+            arguments += [option, ",".join(str(entry) for entry in value)]
+        else:
+            arguments += [option, str(value)]
+    return arguments
+
+
+def run(experiment, problem=None, *, out="results", name=None, arguments=(), **options):
+    """Runs an experiment as the program does, on a problem, a name or a list of them, and returns its `Results`.
+
+    options are those of the program: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False.
+    It writes the same files into the folder `out`. arguments: further words of a command line, where an option is
+    repeated. Throws Error where the program would print a sentence, KeyboardInterrupt on Ctrl-C.
+    """
+    known = [entry for entry, _ in _core.programs()]
+    if experiment not in known:
+        raise Error(f"there is no experiment {experiment}; there are {', '.join(known)}")
+    words = ["--out", os.fspath(out)] + ([] if name is None else ["--name", name])
+    problems = None
+    if problem is not None:
+        handles = [register(one) for one in (problem if isinstance(problem, (list, tuple)) else [problem])]
+        problems = [handle.name for handle in handles]
+        words += ["--problem", ",".join(problems)]
+        settings = {setting for handle in handles if not isinstance(handle.original, Problem)
+                    for setting in handle.settings.split()}
+        for setting in sorted(settings):
+            words += ["--set", setting]
+    sys.stdout.flush()
+    code = _core.run(experiment, words + _arguments(options) + [str(word) for word in arguments], True)
+    return _results(os.fspath(out), name or experiment, problems, code == 0)
+
+
+def _results(out, name, problems, is_complete):
+    """What a run has written, as its metadata list it; None where it writes no tables."""
+    metadata = os.path.join(out, name + ".json")
+    if not os.path.exists(metadata):
+        return None
+    with open(metadata) as file:
+        files = list(json.load(file).get("tables", {}))
+    tables = {file: read_table(os.path.join(out, file), problems) for file in files}
+    main = tables.pop(name + ".csv", Table([], []))
+    further = {file.removeprefix(name + "_").removesuffix(".csv"): table for file, table in tables.items()}
+    return Results(main, further, os.path.join(out, name), is_complete)
+
+
+def convergence(problem, **options):
+    """Errors over the step and fitted orders: run("convergence", problem, ...)."""
+    return run("convergence", problem, **options)

@@ -1,0 +1,52 @@
+"""Points at which formulas are stated: x.q.theta, x.q[0], x.v, x.u, x.t."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+class Named(np.ndarray):
+    """A vector of traced numbers whose entries have names: q.theta is q[0]. What is computed of it has no names."""
+
+    def __array_finalize__(self, _source):
+        self._names = ()
+        self._kind = "this vector"
+
+    def __getattr__(self, name):
+        names = self.__dict__.get("_names", ())
+        if name in names:
+            return self[names.index(name)]
+        if name.startswith("_") or not names:
+            raise AttributeError(f"{self.__dict__.get('_kind', 'this vector')} has no attribute {name}")
+        raise AttributeError(f"{self._kind} has no entry {name}; it has {', '.join(names)}")
+
+
+def named(entries, names, kind):
+    """The entries as a vector with these names."""
+    vector = np.empty(len(entries), dtype=object).view(Named)
+    for i, entry in enumerate(entries):
+        vector[i] = entry
+    vector._names = tuple(names)
+    vector._kind = kind
+    return vector
+
+
+class Point:
+    """A state, at which a formula is stated, and the control that acts there.
+
+    q: coordinates; v: their rates, by the same names; u: controls (not at the ends, nor in a Lagrangian); t: time.
+    """
+
+    __slots__ = ("q", "v", "t", "_u")
+
+    def __init__(self, q, v, u, t):
+        self.q = q
+        self.v = v
+        self._u = u
+        self.t = t
+
+    @property
+    def u(self):
+        if self._u is None:
+            raise AttributeError("x.u is not there: the Lagrangian and formulas of the ends depend on q, v and t only")
+        return self._u

@@ -1,0 +1,460 @@
+"""How a problem is stated: a class derived from Problem, with declarative members and formulas."""
+
+from __future__ import annotations
+
+import copy
+import difflib
+import inspect
+import math
+import re
+
+import numpy as np
+
+from . import _core
+from ._core import Error
+from .points import Named, Point, named
+
+_infinity = math.inf
+
+
+class _Vector:
+    """Declares the entries of a vector."""
+
+    def __init__(self, kind, names, unit, bounds):
+        for name in names:
+            if not isinstance(name, str) or not name.isidentifier():
+                raise Error(f"{kind} have names such as \"theta\", not {name!r}")
+            if hasattr(Named, name):
+                raise Error(f"{kind} cannot be named {name}, which arrays of numpy have for something else")
+        if len(set(names)) < len(names):
+            raise Error(f"two {kind} have the same name: {', '.join(names)}")
+        self.names = tuple(names)
+        self.units = _per_name(unit, names, f"unit of {kind}", str)
+        self.bounds = bounds
+
+    def limits(self, part):
+        """Lower and upper bounds of a part, an array each."""
+        lower, upper = self.bounds[part]
+        return (
+            _numbers(lower, self.names, f"the lower bounds of {', '.join(self.names)}", -_infinity),
+            _numbers(upper, self.names, f"the upper bounds of {', '.join(self.names)}", _infinity),
+        )
+
+
+def _per_name(value, names, what, kind):
+    """A value for each name: one for all, a list, or a dict by names."""
+    if isinstance(value, kind):
+        return [value] * len(names)
+    if isinstance(value, dict):
+        _require_known(value, names, what)
+        return [value.get(name, "") for name in names]
+    values = list(value)
+    if len(values) != len(names):
+        raise Error(f"{what} has {len(values)} entries, expected {len(names)}")
+    return values
+
+
+def _require_known(given, names, what):
+    for name in given:
+        if name not in names:
+            close = difflib.get_close_matches(str(name), names, 1)
+            hint = f"; did you mean {close[0]}?" if close else f"; there are {', '.join(names) or 'none'}"
+            raise Error(f"{what} has an entry {name}, which is no name{hint}")
+
+
+def _numbers(value, names, what, default):
+    """An array with a number for each name: of one for all, a list, or a dict by names; `default` where there is none."""
+    if value is None:
+        return np.full(len(names), float(default))
+    if isinstance(value, dict):
+        _require_known(value, names, what)
+        return np.array([_number(value.get(name, default), what) for name in names])
+    if np.ndim(value) == 0:
+        return np.full(len(names), _number(value, what))
+    values = [_number(entry, what) for entry in value]
+    if len(values) != len(names):
+        raise Error(f"{what} has {len(values)} entries, expected {len(names)}")
+    return np.array(values)
+
+
+def _number(value, what):
+    if isinstance(value, str) or not hasattr(value, "__float__"):
+        raise Error(f"{what}: expected a number, got {value!r}")
+    return float(value)
+
+
+def coordinates(*names, unit="", lower=None, upper=None, rate_lower=None, rate_upper=None):
+    """Declares the configuration q by the names of its entries.
+
+    unit: of each (for pictures and tables). lower, upper: bounds on q at every node; rate_lower, rate_upper: on q' at
+    every stage. Each is one number for all, a list, or a dict by names.
+    """
+    return _Vector("coordinates", names, unit, {"q": (lower, upper), "v": (rate_lower, rate_upper)})
+
+
+def controls(*names, unit="", lower=None, upper=None):
+    """Declares the control u by the names of its entries, with bounds at every stage, as for `coordinates`."""
+    return _Vector("controls", names, unit, {"u": (lower, upper)})
+
+
+class parameter:
+    """A number of a problem that its user may set: Pendulum(length=2.0), problem.length = 2.0, or --set length=2.
+
+    In formulas self.length is a number, or a formula where the parameter is kept open (`solve_batch`, sweeps).
+    """
+
+    def __init__(self, value, unit="", meaning="", lower=-_infinity, upper=_infinity, whole=False):
+        self.value = _number(value, "the value of a parameter")
+        self.unit = unit
+        self.meaning = meaning
+        self.lower = float(lower)
+        self.upper = float(upper)
+        self.whole = bool(whole)
+        self.name = ""
+
+    def __set_name__(self, owner, name):
+        self.name = name
+
+    def check(self, value):
+        value = _number(value, f"parameter {self.name}")
+        _core.check_parameter(self.name, value, self.lower, self.upper, self.whole)
+        return value
+
+    def __get__(self, instance, owner=None):
+        if instance is None:
+            return self
+        reader = instance.__dict__.get("_reader")
+        if reader is not None:
+            return reader.read(self.name)
+        value = instance._values.get(self.name, self.value)
+        return int(value) if self.whole else value
+
+    def __set__(self, instance, value):
+        if instance.__dict__.get("_reader") is not None:
+            raise Error(f"parameter {self.name} cannot be set while the problem is solved")
+        instance._values[self.name] = self.check(value)
+
+
+class between:
+    """A number that is left open between two bounds. guess: where solves start, by default the middle."""
+
+    def __init__(self, lower, upper, guess=None):
+        self.lower = _number(lower, "between")
+        self.upper = _number(upper, "between")
+        if guess is None:
+            guess = 0.5 * (self.lower + self.upper)
+            if not math.isfinite(guess):
+                raise Error("between: with an infinite bound, guess= is needed")
+        self.guess = _number(guess, "between: guess")
+
+
+class free(between):
+    """A number that is left open. guess: where solves start."""
+
+    def __init__(self, guess=0.0):
+        super().__init__(-_infinity, _infinity, guess)
+
+
+class state:
+    """A state at an end of the horizon: configuration q and rates v, each a list or a dict by names.
+
+    Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None is at rest. state(theta=0.0) is q by
+    names, at rest.
+    """
+
+    def __init__(self, q=None, v=None, **by_name):
+        if q is not None and by_name:
+            raise Error("state takes either q= or coordinates by their names")
+        self.q = by_name if q is None else q
+        self.v = v
+
+    def resolved(self, names, where):
+        """(values, lower bounds, upper bounds) of q, and of v."""
+        return _end_part(self.q, names, f"{where}: q"), _end_part(self.v, names, f"{where}: v", is_rate=True)
+
+
+def at_rest(*q, **by_name):
+    """A state at rest: at_rest(theta=0.0), or at_rest([0.0, 1.0])."""
+    if len(q) > 1 or (q and by_name):
+        raise Error("at_rest takes coordinates by their names, or one list of them")
+    return state(q=q[0]) if q else state(**by_name)
+
+
+def _end_part(part, names, what, is_rate=False):
+    if part is None:
+        part = [0.0] * len(names) if is_rate else None
+    if part is None:
+        raise Error(f"{what} is not given")
+    if isinstance(part, dict):
+        _require_known(part, names, what)
+        missing = [name for name in names if name not in part]
+        if missing and not is_rate:
+            raise Error(f"{what} lacks {', '.join(missing)}; write free() for what is left open")
+        part = [part.get(name, 0.0) for name in names]
+    if isinstance(part, between):
+        part = [part] * len(names)
+    if np.ndim(part) == 0 and not isinstance(part, (list, tuple)):
+        part = [part]
+    part = list(part)
+    if len(part) != len(names):
+        raise Error(f"{what} has {len(part)} entries, expected {len(names)}")
+    entries = [entry if isinstance(entry, between) else _fixed(entry, what) for entry in part]
+    return tuple(np.array([getattr(entry, side) for entry in entries]) for side in ("guess", "lower", "upper"))
+
+
+def _fixed(value, what):
+    number = _number(value, what)
+    if not math.isfinite(number):
+        raise Error(f"{what} is {number}, not a finite number")
+    return between(number, number, number)
+
+
+class motion:
+    """A guess from arrays: between the times t it is linear. q: len(t) x n; v: by default the slopes of q; u: by
+    default 0. Times are those of the problem; where its horizon is another one, the motion is stretched."""
+
+    def __init__(self, t, q, v=None, u=None):
+        self.t = np.asarray(t, dtype=float)
+        self.q = _table(q, self.t, "q")
+        self.v = np.gradient(self.q, self.t, axis=0) if v is None else _table(v, self.t, "v")
+        self.u = None if u is None else _table(u, self.t, "u")
+        if self.t.ndim != 1 or len(self.t) < 2 or np.any(np.diff(self.t) <= 0.0):
+            raise Error("guess: t must be at least two times that ascend")
+
+    def at(self, t, horizon, m):
+        t = self.t[0] + t / horizon * (self.t[-1] - self.t[0])
+        parts = [self.q, self.v, np.zeros((len(self.t), m)) if self.u is None else self.u]
+        return tuple(np.array([np.interp(t, self.t, column) for column in part.T]) for part in parts)
+
+
+def _table(values, t, name):
+    table = np.asarray(values, dtype=float)
+    table = table.reshape(-1, 1) if table.ndim == 1 else table
+    if table.ndim != 2 or len(table) != len(t):
+        raise Error(f"guess: {name} has {len(table)} rows, expected one for each of the {len(t)} times")
+    return table
+
+
+_declared = {"q", "u", "start", "end", "horizon", "bounds", "guess", "cost_scale", "name", "source", "time_unit",
+             "reference", "path_constraint_names", "boundary_condition_names"}
+_formulas = {"lagrangian", "force", "running_cost", "path_constraints", "boundary_conditions", "final_cost", "symmetry",
+             "picture"}
+_members = _declared | _formulas
+
+
+class Problem:
+    """A mechanical optimal control problem: minimise the integral of `running_cost` and `final_cost`.
+
+    Derive a class from it and state
+
+    q = coordinates("theta", ...), u = controls("tau", ...) (may be left out), any number of `parameter`s;
+    horizon: a number, or between(lower, upper, guess) for one that is free;
+    start, end: a `state` or `at_rest`;
+    lagrangian(self, x): L(q, v, t); force(self, x): the generalised force, n entries (may be left out);
+    running_cost(self, x): the integrand of the cost.
+
+    Optional: final_cost(self, last), path_constraints(self, x) >= 0, boundary_conditions(self, first, last) = 0,
+    bounds(self) (a dict of "q", "v", "u" to (lower, upper)), guess(self, t) -> (q, v, u) or `motion`, symmetry(self, q),
+    cost_scale, picture(self, x) (a dict of a name to a formula or (formula, unit)), name, source, time_unit
+    ("s", 1.0), reference (cost, digits, certificate), path_constraint_names, boundary_condition_names.
+
+    start, end, horizon and cost_scale may be methods too, where they depend on parameters. The docstring of the class
+    is the description. Formulas are traced once: they may loop and call functions, but not branch on x.
+    """
+
+    def __init__(self, **values):
+        for name, value in values.items():
+            self._require_parameter(name)
+            setattr(self, name, value)
+
+    def __new__(cls, *_arguments, **_values):
+        instance = super().__new__(cls)
+        instance._values = {}
+        return instance
+
+    def __repr__(self):
+        values = ", ".join(f"{name}={value:g}" for name, value in self._values.items())
+        return f"{type(self).__name__}({values})"
+
+    def handle(self):
+        """The problem as C++ sees it, checked. Throws Error with a sentence if something is missing or does not fit."""
+        return _core.ProblemHandle(self)
+
+    def parameters(self):
+        """The values of all parameters by name."""
+        return {name: getattr(self, name) for name in _parameters_of(type(self))}
+
+    # What C++ asks.
+
+    def _require_parameter(self, name):
+        names = list(_parameters_of(type(self)))
+        if name not in names:
+            raise Error(f"{self._problem_name()} has no parameter {name}; it has {', '.join(names) or 'none'}")
+
+    def _bound(self, reader):
+        _check_members(self)
+        bound = copy.copy(self)
+        bound._values = dict(self._values)
+        bound.__dict__["_reader"] = reader
+        return bound
+
+    def _problem_name(self):
+        name = getattr(type(self), "name", None)
+        return name if isinstance(name, str) else re.sub(r"(?<!^)(?<!_)(?=[A-Z])", "_", type(self).__name__).lower()
+
+    def _coordinate_names(self):
+        return list(self.q.names)
+
+    def _control_names(self):
+        return list(self._controls().names)
+
+    def _controls(self):
+        return getattr(self, "u", None) or controls()
+
+    def _declared_parameters(self):
+        return [(one.name, one.value, one.unit, one.meaning, one.lower, one.upper, one.whole)
+                for one in _parameters_of(type(self)).values()]
+
+    def _stated_members(self):
+        return [name for name in _members if getattr(self, name, None) is not None]
+
+    def _has_constant_numbers(self):
+        constants = (state, between, int, float, dict, type(None))
+        stated = [inspect.getattr_static(self, name, None) for name in ("start", "end", "horizon", "bounds")]
+        return all(isinstance(value, constants) for value in stated)
+
+    def _value_of(self, name):
+        value = getattr(self, name)
+        return value() if callable(value) else value
+
+    def _number_of(self, name):
+        return _number(self._value_of(name), name)
+
+    def _point(self, q, v, u, t):
+        names = self.q.names
+        control = None if u is None else named(u, self._controls().names, "u")
+        return Point(named(q, names, "q"), named(v, names, "v"), control, t)
+
+    def _coordinates_at(self, q):
+        return named(q, self.q.names, "q")
+
+    def _end(self, name):
+        end = self._value_of(name)
+        if not isinstance(end, state):
+            raise Error(f"{name} is {end!r}, expected state(...) or at_rest(...)")
+        return end.resolved(self.q.names, name)
+
+    def _horizon(self):
+        horizon = self._value_of("horizon")
+        if isinstance(horizon, between):
+            return horizon.guess, horizon.lower, horizon.upper
+        number = _number(horizon, "horizon")
+        return number, number, number
+
+    def _bounds(self):
+        bounds = dict(zip("qvu", (self.q.limits("q"), self.q.limits("v"), self._controls().limits("u"))))
+        stated = self._value_of("bounds") if getattr(self, "bounds", None) is not None else {}
+        if not isinstance(stated, dict):
+            raise Error(f"bounds is {type(stated).__name__}, expected a dict such as {{\"u\": (lower, upper)}}")
+        for part, limits in stated.items():
+            if part not in bounds:
+                raise Error(f"bounds has an entry {part!r}; the entries are \"q\", \"v\" and \"u\"")
+            names = self._controls().names if part == "u" else self.q.names
+            if not isinstance(limits, (list, tuple)) or len(limits) != 2:
+                raise Error(f"bounds[{part!r}] is {limits!r}, expected (lower, upper)")
+            bounds[part] = tuple(_numbers(side, names, f"bounds[{part!r}]", default)
+                                 for side, default in zip(limits, (-_infinity, _infinity)))
+        return bounds
+
+    def _numbers(self):
+        (first_q, first_v), (last_q, last_v) = self._end("start"), self._end("end")
+        numbers = {"horizon": self._horizon()}
+        for name, (guess, lower, upper) in (("first_q", first_q), ("first_v", first_v), ("last_q", last_q),
+                                            ("last_v", last_v)):
+            numbers[name] = guess
+            numbers[name + "_bounds"] = (lower, upper)
+        for part, limits in self._bounds().items():
+            numbers[part + "_bounds"] = limits
+        return numbers
+
+    def _guess_at(self, t):
+        guess = self.guess
+        m = len(self._controls().names)
+        if isinstance(guess, motion):
+            return guess.at(t, self._horizon()[0], m)
+        point = guess(t)
+        if not isinstance(point, (tuple, list)) or len(point) not in (2, 3):
+            raise Error(f"guess returns {type(point).__name__}, expected (q, v, u)")
+        parts = list(point) + ([np.zeros(m)] if len(point) == 2 else [])
+        return tuple(np.atleast_1d(np.asarray(part, dtype=float)) for part in parts)
+
+    def _card(self):
+        cls = type(self)
+        doc = cls.__doc__ if cls.__doc__ != Problem.__doc__ else None
+        reference = getattr(self, "reference", None)
+        if reference is not None:
+            cost, digits, *words = reference
+            reference = (float(cost), int(digits), words[0] if words else "stated by the user")
+        guess = getattr(getattr(self, "guess", None), "__doc__", None)
+        return {
+            "description": " ".join((doc or "").strip().split("\n\n")[0].split()).rstrip("."),
+            "source": getattr(self, "source", ""),
+            "guess": " ".join((guess or "as stated").split()) if not isinstance(
+                getattr(self, "guess", None), motion) else "linear between given points",
+            "time_unit": tuple(getattr(self, "time_unit", ("s", 1.0))),
+            "reference": reference,
+            "path_constraint_names": list(getattr(self, "path_constraint_names", [])),
+            "boundary_condition_names": list(getattr(self, "boundary_condition_names", [])),
+        }
+
+    def _picture(self, x):
+        if getattr(self, "picture", None) is None:
+            pairs = [(self.q, x.q), (self._controls(), x.u)]
+            return [(name, unit, value) for declared, values in pairs
+                    for name, unit, value in zip(declared.names, declared.units, values)]
+        quantities = self.picture(x)
+        return [(name, value[1], value[0]) if isinstance(value, tuple) else (name, "", value)
+                for name, value in quantities.items()]
+
+
+def _parameters_of(cls):
+    """All parameters of a class by name, those of its bases first."""
+    found = {}
+    for base in reversed(cls.__mro__):
+        found.update({name: value for name, value in vars(base).items() if isinstance(value, parameter)})
+    return found
+
+
+def _check_members(problem):
+    name = problem._problem_name()
+    for member, kind in (("q", "q = coordinates(\"theta\")"), ("lagrangian", "lagrangian(self, x)"),
+                         ("start", "start = at_rest(...)"), ("end", "end = at_rest(...)"), ("horizon", "horizon = 1.0")):
+        if getattr(problem, member, None) is None:
+            raise Error(f"{name} lacks {member}; write {kind}")
+    for member, maker in (("q", "coordinates"), ("u", "controls")):
+        value = getattr(problem, member, None)
+        if value is not None and not isinstance(value, _Vector):
+            raise Error(f"{name}: {member} is {value!r}, expected {maker}(\"name\", ...)")
+    if not problem.q.names:
+        raise Error(f"{name}: q = coordinates() has no names")
+    if getattr(problem, "u", None) is not None and getattr(problem, "force", None) is None:
+        raise Error(f"{name} has controls but lacks force(self, x)")
+    if getattr(problem, "running_cost", None) is None and getattr(problem, "final_cost", None) is None:
+        raise Error(f"{name} lacks running_cost(self, x) and final_cost(self, last); write at least one of them")
+    for member in _formulas:
+        value = getattr(problem, member, None)
+        if value is not None and not callable(value):
+            raise Error(f"{name}: {member} is {value!r}, expected a method {member}(self, x)")
+    _refuse_misspelt(problem, name)
+
+
+def _refuse_misspelt(problem, name):
+    for cls in type(problem).__mro__:
+        if cls is Problem:
+            return
+        for member, value in vars(cls).items():
+            if member.startswith("_") or member in _members or isinstance(value, parameter):
+                continue
+            close = difflib.get_close_matches(member, _members, 1, cutoff=0.85)
+            if close and getattr(problem, close[0], None) is None:
+                raise Error(f"{name} has a member {member}, which nothing reads; did you mean {close[0]}?")

@@ -1,0 +1,206 @@
+"""Solving one problem, or many instances of it."""
+
+from __future__ import annotations
+
+import inspect
+
+import numpy as np
+
+from . import _core
+from ._core import Error
+from .problem import Problem
+
+
+class NamedProblem:
+    """A problem that is built in, or that a library has, with values of its parameters: problem("cart_pole", mass=2)."""
+
+    def __init__(self, name, **values):
+        self._handle = _core.ProblemHandle.named(name, {key: float(value) for key, value in values.items()})
+
+    def handle(self):
+        return self._handle
+
+    @property
+    def name(self):
+        return self._handle.name
+
+    @property
+    def description(self):
+        return self._handle.description
+
+    def parameters(self):
+        """The values of all parameters by name."""
+        return dict(self._handle.parameters)
+
+    def __repr__(self):
+        return f"<problem {self.name}{' ' if self._handle.settings else ''}{self._handle.settings}>"
+
+
+def problem(name, **values):
+    """The problem of that name, built in or from a library, with these values of its parameters."""
+    return NamedProblem(name, **values)
+
+
+def handle_of(problem):
+    """What C++ takes for a problem: an instance or subclass of Problem, a named problem, or a name."""
+    if isinstance(problem, str):
+        problem = NamedProblem(problem)
+    elif inspect.isclass(problem) and issubclass(problem, Problem):
+        problem = problem()
+    if not isinstance(problem, (Problem, NamedProblem)):
+        raise Error(f"expected a problem, or its name, not {problem!r}")
+    return problem.handle()
+
+
+def _fill(asked, given):
+    for name, value in given.items():
+        try:
+            setattr(asked, name, value)
+        except TypeError:
+            raise Error(f"{name}={value!r} is of the wrong type, expected one like {getattr(asked, name)!r}") from None
+    return asked
+
+
+class Stages:
+    """Values at the stages of all intervals, a row each: t, q, v, u, p, psi_q, psi_p."""
+
+    def __init__(self, answer):
+        self._answer = answer
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._answer, "stage_" + name)
+
+
+class Solution:
+    """An answer: numbers, and arrays of the motion with a row per node (a row per stage in `stages`).
+
+    status, message, is_solved; cost, iterations, seconds, setup_seconds, kkt_residual, constraint_violation,
+    relative_jump, replay_error (distance from the end when the controls are replayed), largest_violation (of bounds and
+    path constraints anywhere on the motion); t, q, v, p, psi_q, psi_p, psi = (psi_q, psi_p); stages.t, .q, .v, .u, .p.
+    None where the solve ended without it. Arrays are views of what C++ has found; they may outlive the solution.
+    """
+
+    def __init__(self, answer):
+        self._answer = answer
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._answer, name)
+
+    def __dir__(self):
+        return sorted({*super().__dir__(), *(name for name in dir(self._answer) if not name.startswith("_"))})
+
+    @property
+    def stages(self):
+        return Stages(self._answer)
+
+    @property
+    def psi(self):
+        """The costates, (psi_q, psi_p) side by side: (N + 1) x 2n."""
+        return None if self.psi_q is None else np.hstack([self.psi_q, self.psi_p])
+
+    def column(self, name):
+        """A coordinate at the nodes, or a control at the stages, by its name."""
+        for names, table in ((self.coordinates, self.q), (self.controls, self._answer.stage_u)):
+            if name in names:
+                return None if table is None else table[:, names.index(name)]
+        raise Error(f"there is no {name}; there are {', '.join(self.coordinates + self.controls)}")
+
+    def to_pandas(self):
+        """The nodes as a DataFrame of pandas: t, q, v and p by names."""
+        import pandas
+
+        columns = {"t": self.t}
+        for prefix, table in (("", self.q), ("rate_", self.v), ("momentum_", self.p)):
+            for i, name in enumerate(self.coordinates):
+                columns[prefix + name] = table[:, i]
+        return pandas.DataFrame(columns)
+
+    def __repr__(self):
+        def text(value, form):
+            return "none" if value is None else format(value, form)
+
+        lines = [f"{self.problem} by {self.method} ({self.tableau}, {self.stage_count} stages, {self.intervals} intervals): "
+                 f"{self.status}"]
+        lines.append(f"  cost {text(self.cost, '.12g')}, {text(self.iterations, 'd')} iterations of {self.solver}, "
+                     f"{self.seconds * 1e3:.3g} ms")
+        if self.is_solved:
+            lines.append(f"  replay error {text(self.replay_error, '.2g')}, largest violation "
+                         f"{text(self.largest_violation, '.2g')}")
+        else:
+            lines.append(f"  {self.message}")
+        return "\n".join(lines)
+
+
+def solve(problem, method="dmoc", *, intervals=128, tableau="gauss", stages=1, solver="auto", start=None, accuracy=None,
+          refinement="h", nodes=None, tolerance=None, most_iterations=None, most_seconds=0.0, derivatives="tape",
+          form="bolza", verbose=False, options=None):
+    """Solves a problem and returns a `Solution`; one that does not converge says so in its status.
+
+    problem: an instance of a class derived from Problem, or the name of a built-in problem. method: one of `methods()`.
+    intervals: N of a uniform grid; nodes: relative node times from 0 to 1 instead. start: a Solution to begin with,
+    else the guess of the problem. accuracy: refines the grid ("h"), or also the number of stages ("hp"), until the
+    estimated relative error is at most that. options: those of the solver by name. Throws Error on misuse.
+    """
+    if start is not None and not isinstance(start, Solution):
+        raise Error(f"start= takes a Solution, not {type(start).__name__}; state a guess in the problem")
+    given = {"method": method, "intervals": intervals, "tableau": tableau, "stages": stages, "solver": solver,
+             "accuracy": accuracy, "refinement": refinement, "most_seconds": most_seconds, "derivatives": derivatives,
+             "form": form, "verbose": verbose, "options": {key: str(value) for key, value in (options or {}).items()}}
+    for name, value in (("nodes", nodes), ("tolerance", tolerance), ("most_iterations", most_iterations)):
+        if value is not None:
+            given[name] = value
+    asked = _fill(_core.Asked(), given)
+    return Solution(_core.solve(handle_of(problem), asked, start._answer if start is not None else None))
+
+
+class Batch:
+    """Answers to many instances, a row each: cost, status, is_solved, iterations; with motions=True also q (instances x
+    nodes x n) and u (instances x stages of all intervals x m), NaN where there is none."""
+
+    def __init__(self, arrays, n, m):
+        self.cost = arrays["cost"]
+        self.status = np.array(arrays["status"])
+        self.is_solved = np.array(arrays["is_solved"], dtype=bool)
+        self.iterations = arrays["iterations"]
+        self.q = arrays["q"].reshape(len(self.cost), -1, n) if arrays["q"].size else None
+        self.u = arrays["u"].reshape(len(self.cost), -1, m) if arrays["u"].size else None
+
+    def __len__(self):
+        return len(self.cost)
+
+    def __repr__(self):
+        return f"<{len(self)} instances, {int(self.is_solved.sum())} solved>"
+
+
+def solve_batch(problem, *, parameters=None, start=None, end=None, method="dmoc", intervals=64, tableau="gauss", stages=1,
+                tolerance=None, most_iterations=None, threads=0, motions=False):
+    """Solves many instances of one problem, eight side by side in vector registers, on all processors.
+
+    parameters: a dict of names to arrays, one number per instance; start, end: arrays of states (q, v), a row of 2n
+    numbers per instance. What is not given is that of the problem. Both ends and the horizon must be fixed. Returns a
+    `Batch`. Throws Error on misuse.
+    """
+    handle = handle_of(problem)
+    n, m = len(handle.coordinates), len(handle.controls)
+    columns = {name: np.asarray(values, dtype=float).ravel() for name, values in (parameters or {}).items()}
+    tables = [np.zeros((0, 2 * n)) if table is None else np.asarray(table, dtype=float) for table in (start, end)]
+    for name, table in zip(("start", "end"), tables):
+        if table.ndim != 2:
+            raise Error(f"solve_batch: {name} has {table.ndim} dimensions, expected a row of {2 * n} numbers (q, v) per "
+                        "instance")
+    counts = {len(values) for values in columns.values()} | {len(table) for table in tables if len(table)}
+    if len(counts) != 1:
+        raise Error("solve_batch: arrays of parameters, start and end must have the same number of instances, got "
+                    f"{', '.join(map(str, sorted(counts))) or 'none'}")
+    count = counts.pop()
+    values = np.column_stack(list(columns.values())) if columns else np.zeros((0, 0))
+    given = {"method": method, "intervals": intervals, "tableau": tableau, "stages": stages, "threads": threads,
+             "motions": motions}
+    given.update({name: value for name, value in (("tolerance", tolerance), ("most_iterations", most_iterations))
+                  if value is not None})
+    asked = _fill(_core.BatchAsked(), given)
+    return Batch(_core.solve_batch(handle, asked, count, list(columns), values, *tables), n, m)

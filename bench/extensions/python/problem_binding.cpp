@@ -1,0 +1,106 @@
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <dlfcn.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "bench/extensions/python/bindings.hpp"
+#include "bench/extensions/python/calls.hpp"
+#include "bench/extensions/python/handles.hpp"
+#include "bench/extensions/python/python_problem.hpp"
+#include "bench/run/problem_libraries.hpp"
+#include "methods/expression/schedule.hpp"
+#include "methods/mechanics/problem_check.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench::python {
+
+namespace py = pybind11;
+
+namespace {
+
+void set_values(Problem& problem, const std::map<std::string, double>& values) {
+  for (const auto& [name, value] : values) problem.set_parameter(name, value);
+}
+
+ProblemHandle named(const std::string& name, const std::map<std::string, double>& values) {
+  std::shared_ptr<Problem> problem = make_unchecked_problem(name);
+  set_values(*problem, values);
+  check_problem(*problem);
+  return {std::move(problem), py::none()};
+}
+
+ProblemHandle of_python(const py::object& original) {
+  auto problem = std::make_shared<PythonProblem>(original);
+  without_gil([&](Call&) {
+    check_problem(*problem);
+    return true;
+  });
+  return {std::move(problem), original};
+}
+
+/// The libraries find the functions that they call in this module, which Python has loaded for itself alone.
+void load_libraries(const std::vector<std::string>& files) {
+  Dl_info module{};
+  if (::dladdr(reinterpret_cast<const void*>(&load_problem_libraries), &module) != 0) {  // NOLINT(*-reinterpret-cast)
+    ::dlopen(module.dli_fname, RTLD_NOW | RTLD_NOLOAD | RTLD_GLOBAL);
+  }
+  load_problem_libraries(files);
+}
+
+/// Operations of the formulas L, p, L_q, f, C, h and their derivatives, as they are traced of every problem.
+std::size_t operation_count(const ProblemHandle& handle) {
+  return without_gil([&](Call&) {
+    const Problem& problem = *handle.problem;
+    InputCounter inputs;
+    const auto n = problem.configuration_size();
+    const ControlledState x{inputs.take(n), inputs.take(n), inputs.take(problem.control_size()), inputs.take()};
+    const TracedProblem::Values values = TracedProblem(problem).at(x);
+    std::vector<Expression> formulas{problem.lagrangian(x.state()), values.running_cost};
+    for (const ExpressionVector* part : {&values.momentum, &values.generalised_force, &values.path_constraints}) {
+      append(formulas, *part);
+    }
+    append(formulas, values.mass);
+    append(formulas, values.momentum_by_configuration);
+    return Schedule(formulas).operation_count();
+  });
+}
+
+}  // namespace
+
+void bind_problems(py::module_& module) {
+  py::class_<ParameterReader>(module, "ParameterReader").def("read", &ParameterReader::read);
+  py::class_<ProblemHandle>(module, "ProblemHandle", "A problem as C++ sees it.")
+      .def(py::init(&of_python), py::arg("problem"))
+      .def_static("named", &named, py::arg("name"), py::arg("values") = std::map<std::string, double>())
+      .def_readonly("original", &ProblemHandle::original)
+      .def_property_readonly("name", [](const ProblemHandle& handle) { return handle.problem->name(); })
+      .def_property_readonly("settings", [](const ProblemHandle& handle) { return handle.problem->settings(); })
+      .def_property_readonly("description",
+                             [](const ProblemHandle& handle) { return handle.problem->card().description; })
+      .def_property_readonly("coordinates",
+                             [](const ProblemHandle& handle) { return handle.problem->configuration_names(); })
+      .def_property_readonly("controls", [](const ProblemHandle& handle) { return handle.problem->control_names(); })
+      .def_property_readonly("parameters",
+                             [](const ProblemHandle& handle) {
+                               std::map<std::string, double> values;
+                               for (const Parameter& one : handle.problem->parameters()) values[one.name] = one.value;
+                               return values;
+                             })
+      .def("operation_count", &operation_count, "Operations of the formulas and their derivatives.");
+  module.def("problem_names", &problem_names, "Names of all problems that are built in or loaded.");
+  module.def("load_problem_libraries", &load_libraries, py::arg("files"));
+  module.def(
+      "check_parameter",
+      [](const std::string& name, double value, double lower, double upper, bool whole) {
+        Parameter{name, value, "", "", lower, upper, whole}.check(value);
+      },
+      py::arg("name"), py::arg("value"), py::arg("lower"), py::arg("upper"), py::arg("whole"));
+}
+
+}  // namespace dmocbench::python

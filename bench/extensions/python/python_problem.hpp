@@ -1,0 +1,110 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench::python {
+
+class PythonProblem;
+
+/// How an object of a Python class reads the parameters of the C++ problem that it speaks for: as formulas while one is
+/// traced, else as numbers.
+class ParameterReader {
+ public:
+  /// The parameter of that name. Throws `Error` as `Problem::parameter`, and where the problem is gone.
+  [[nodiscard]] pybind11::object read(const std::string& name) const;
+
+ private:
+  friend class PythonProblem;
+  const PythonProblem* problem_ = nullptr;  ///< null once it is gone
+};
+
+/// A problem whose members are those of an object of the Python class `dmocbench.Problem`.
+///
+/// It keeps a copy of the object, so that later changes of the original do not reach solves that go on. Its functions
+/// may be called by any thread, with or without the GIL. What Python raises becomes an `Error` that names the function,
+/// and is kept for the call (`Call`).
+class PythonProblem final : public Problem {
+ public:
+  /// Of an object, whose function `_bound` makes the copy. Holds the GIL. Throws as Python does where something is
+  /// missing.
+  explicit PythonProblem(const pybind11::object& original);
+  ~PythonProblem() override;
+  PythonProblem(const PythonProblem&) = delete;
+  PythonProblem& operator=(const PythonProblem&) = delete;
+  PythonProblem(PythonProblem&&) = delete;
+  PythonProblem& operator=(PythonProblem&&) = delete;
+
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override;
+  [[nodiscard]] ProblemCard card() const override;
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return configuration_names_; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return control_names_; }
+
+  [[nodiscard]] Expression lagrangian(const State& x) const override;
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override;
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override;
+  [[nodiscard]] BoundaryState initial_state() const override { return numbers()->first; }
+  [[nodiscard]] BoundaryState final_state() const override { return numbers()->last; }
+  [[nodiscard]] double horizon() const override { return numbers()->horizon; }
+
+  // Each optional member of `Problem` is one function here and one member of the Python class.
+  [[nodiscard]] ProblemBounds bounds() const override { return numbers()->bounds; }
+  [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override;
+  [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override;
+  [[nodiscard]] Expression final_cost(const State& last) const override;
+  [[nodiscard]] double cost_scale() const override;
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override;
+  [[nodiscard]] MotionPoint guess(double t) const override;
+
+ private:
+  /// What a problem states as numbers, for values of its parameters.
+  struct Numbers {
+    Eigen::VectorXd parameters;
+    BoundaryState first;
+    BoundaryState last;
+    double horizon = 0.0;
+    ProblemBounds bounds;
+  };
+  friend class ParameterReader;
+
+  /// True if the class has that member.
+  [[nodiscard]] bool states(const char* member) const;
+  /// A member as formula, as many entries as it has. `arguments()`: the arguments for Python.
+  template <class Arguments>
+  [[nodiscard]] ExpressionVector formula(const char* member, const Arguments& arguments) const;
+  template <class Arguments>
+  [[nodiscard]] Expression single_formula(const char* member, const Arguments& arguments) const;
+  template <class Arguments>
+  [[nodiscard]] ExpressionVector optional_formula(const char* member, const Arguments& arguments) const;
+  /// `work()` with the GIL; what Python raises is an `Error` that names the member.
+  template <class Work>
+  [[nodiscard]] auto asked_of_python(const char* member, const Work& work) const;
+  [[nodiscard]] pybind11::object point(const ExpressionVector& q, const ExpressionVector& v, const ExpressionVector* u,
+                                       const Expression& t) const;
+  [[nodiscard]] pybind11::object point(const State& x) const { return point(x.q, x.v, nullptr, x.t); }
+  [[nodiscard]] pybind11::object point(const ControlledState& x) const { return point(x.q, x.v, &x.u, x.t); }
+  [[nodiscard]] std::shared_ptr<const Numbers> numbers() const;
+  [[nodiscard]] Numbers read_numbers() const;
+
+  // Objects of Python; touched with the GIL only.
+  pybind11::object object_;
+  pybind11::object reader_;
+
+  std::string name_;
+  std::vector<std::string> configuration_names_;
+  std::vector<std::string> control_names_;
+  std::vector<std::string> members_;
+  bool has_constant_numbers_ = false;  ///< no number depends on a parameter
+  mutable std::mutex last_numbers_use_;
+  mutable std::shared_ptr<const Numbers> last_numbers_;  ///< the last that were read
+};
+
+}  // namespace dmocbench::python

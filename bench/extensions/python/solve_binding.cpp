@@ -1,0 +1,262 @@
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "bench/extensions/python/bindings.hpp"
+#include "bench/extensions/python/calls.hpp"
+#include "bench/extensions/python/handles.hpp"
+#include "bench/run/solve_case.hpp"
+#include "methods/adaptive/adaptive_solve.hpp"
+#include "methods/adaptive/error_estimate.hpp"
+#include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/elements/families.hpp"
+#include "methods/transcription/motions/moved_to_ends.hpp"
+#include "methods/transcription/start.hpp"
+
+namespace dmocbench::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// What is solved and how, as Python gives it.
+struct Asked {
+  std::string method = "dmoc";
+  std::string tableau = "gauss";
+  int stages = 1;
+  long long intervals = 128;
+  Eigen::VectorXd nodes;  ///< relative times; none for a uniform grid
+  std::string solver = "auto";
+  std::string derivatives = "tape";
+  std::string form = "bolza";
+  double tolerance = SolverOptions{}.tolerance;
+  int most_iterations = SolverOptions{}.most_iterations;
+  double most_seconds = 0.0;
+  bool verbose = false;
+  NamedOptions options;
+  std::optional<double> accuracy;
+  std::string refinement = "h";
+};
+
+/// An answer, with what is found out of it when it is asked for.
+struct Answer {
+  SolvedCase solved;
+  std::optional<IndependentChecks> checks;
+};
+
+/// The motion of an answer to start from, moved to the ends of the problem. Throws `Error` if it has none, or not of a
+/// problem like this one.
+Start start_from(const Answer& answer, const Problem& problem) {
+  const std::optional<Trajectory>& motion = answer.solved.trajectory;
+  if (!motion) throw Error("the solution to start from has no motion");
+  const bool fits =
+      motion->q.cols() == problem.configuration_size() && motion->stage_u.cols() == problem.control_size();
+  if (!fits) throw Error("the solution to start from is of a problem with other numbers of coordinates or controls");
+  Start start{.motion = moved_to_ends(smooth_motion(*motion), problem.bounds())};
+  if (motion->has_costates()) start.with_costates = motion;
+  return start;
+}
+
+Case case_of(const ProblemHandle& handle, const Asked& asked) {
+  return {.problem = handle.problem,
+          .method = asked.method,
+          .tableau = asked.tableau,
+          .stages = asked.stages,
+          .solver = asked.solver,
+          .derivatives = asked.derivatives,
+          .grid = asked.nodes.size() > 0 ? Grid::from_nodes(asked.nodes) : Grid::uniform(asked.intervals),
+          .form = cost_form_named(asked.form)};
+}
+
+SolverOptions solver_options(const Asked& asked, Call& call) {
+  SolverOptions options;
+  options.tolerance = asked.tolerance;
+  options.most_iterations = asked.most_iterations;
+  options.most_seconds = asked.most_seconds;
+  options.verbose = asked.verbose;
+  options.stop_requested = [&call] { return call.is_interrupted(); };
+  return options;
+}
+
+/// On grids that are refined until the estimated error is small enough; the case is then the one on the last grid.
+SolvedCase solve_accurately(Case the_case, const Start& start, const Asked& asked, SolverOptions options) {
+  AdaptiveOptions adaptive;
+  adaptive.accuracy = *asked.accuracy;
+  adaptive.refinement = refinement_named(asked.refinement);
+  adaptive.solver = asked.solver;
+  adaptive.solver_options = options;
+  adaptive.named_options = asked.options;
+  adaptive.validate();
+  if (the_case.form != CostForm::bolza || the_case.derivatives != "tape") {
+    throw Error("accuracy= refines with form=\"bolza\" and derivatives=\"tape\"");
+  }
+  AdaptiveAnswer answer = solve_adaptively({.problem = the_case.problem.get(),
+                                            .method = the_case.method,
+                                            .tableau = the_case.tableau,
+                                            .stages = the_case.stages,
+                                            .first = the_case.grid,
+                                            .start = start.motion},
+                                           adaptive);
+  if (!answer.program) throw Error(answer.message);
+  the_case.grid = answer.program->grid();
+  the_case.stages = static_cast<int>(answer.program->tableau().stages());
+  SolvedCase solved{.the_case = std::move(the_case), .program = std::move(answer.program)};
+  solved.solution = std::move(answer.solution);
+  solved.tolerance = adaptive.solver_tolerance(options.tolerance);
+  judge_case(solved, {.motion = start.motion}, options);
+  if (answer.outcome == AdaptiveOutcome::reached) {
+    solved.estimated_error = answer.estimate.relative;
+  } else {
+    if (is_solved(solved.solution.status)) solved.solution.status = Status::not_confirmed;
+    solved.solution.message = answer.message;
+  }
+  return solved;
+}
+
+std::unique_ptr<Answer> solve(const ProblemHandle& handle, const Asked& asked, const Answer* from) {
+  return without_gil([&](Call& call) {
+    const Case the_case = case_of(handle, asked);
+    const SolverOptions options = solver_options(asked, call);
+    const auto solver = make_solver(asked.solver, options, asked.options);
+    const StopScope scope(options.stop_requested, 0.0);
+    const Start start =
+        from == nullptr ? Start{.motion = guessed_motion(*handle.problem)} : start_from(*from, *handle.problem);
+    auto answer = std::make_unique<Answer>();
+    answer->solved = asked.accuracy ? solve_accurately(the_case, start, asked, options)
+                                    : solve_case(the_case, start, *solver, asked.tolerance, 1);
+    return answer;
+  });
+}
+
+const IndependentChecks& checks_of(Answer& answer) {
+  if (!answer.checks) {
+    answer.checks = without_gil([&](Call& call) {
+      const StopScope scope([&call] { return call.is_interrupted(); }, 0.0);
+      return check_independently(answer.solved);
+    });
+  }
+  return *answer.checks;
+}
+
+double estimated_error(Answer& answer) {
+  SolvedCase& solved = answer.solved;
+  if (!solved.estimated_error) {
+    solved.estimated_error = without_gil([&](Call& call) {
+      if (!is_solved(solved.solution.status) || !solved.trajectory) throw Error("the solution is not solved");
+      if (!solved.trajectory->has_costates()) throw Error("the solution has no costates");
+      const StopScope scope([&call] { return call.is_interrupted(); }, 0.0);
+      ErrorEstimator estimator(*solved.program);
+      return estimator
+          .estimate(*solved.program, solved.solution.primal, solved.solution.multipliers, *solved.trajectory)
+          .relative;
+    });
+  }
+  return *solved.estimated_error;
+}
+
+void bind_options(py::module_& module) {
+  py::class_<Asked>(module, "Asked")
+      .def(py::init<>())
+      .def_readwrite("method", &Asked::method)
+      .def_readwrite("tableau", &Asked::tableau)
+      .def_readwrite("stages", &Asked::stages)
+      .def_readwrite("intervals", &Asked::intervals)
+      .def_readwrite("nodes", &Asked::nodes)
+      .def_readwrite("solver", &Asked::solver)
+      .def_readwrite("derivatives", &Asked::derivatives)
+      .def_readwrite("form", &Asked::form)
+      .def_readwrite("tolerance", &Asked::tolerance)
+      .def_readwrite("most_iterations", &Asked::most_iterations)
+      .def_readwrite("most_seconds", &Asked::most_seconds)
+      .def_readwrite("verbose", &Asked::verbose)
+      .def_readwrite("options", &Asked::options)
+      .def_readwrite("accuracy", &Asked::accuracy)
+      .def_readwrite("refinement", &Asked::refinement);
+}
+
+void bind_numbers(py::class_<Answer>& answer) {
+  const auto number = [&](const char* name, auto read) {
+    answer.def_property_readonly(name, [read](const Answer& one) { return read(one.solved); });
+  };
+  number("problem", [](const SolvedCase& solved) { return solved.the_case.problem->name(); });
+  number("method", [](const SolvedCase& solved) { return solved.the_case.method; });
+  number("tableau", [](const SolvedCase& solved) { return solved.the_case.tableau; });
+  number("stage_count", [](const SolvedCase& solved) { return solved.the_case.stages; });
+  number("intervals", [](const SolvedCase& solved) { return solved.the_case.intervals(); });
+  number("solver", [](const SolvedCase& solved) { return solved.solution.solver; });
+  number("status", [](const SolvedCase& solved) { return std::string(name_of(solved.solution.status)); });
+  number("message", [](const SolvedCase& solved) { return solved.solution.message; });
+  number("is_solved", [](const SolvedCase& solved) { return is_solved(solved.solution.status); });
+  number("cost", [](const SolvedCase& solved) {
+    return solved.trajectory ? std::optional(solved.trajectory->cost) : std::nullopt;
+  });
+  number("iterations", [](const SolvedCase& solved) { return solved.solution.major_iterations; });
+  number("kkt_residual", [](const SolvedCase& solved) { return solved.solution.kkt_residual; });
+  number("constraint_violation", [](const SolvedCase& solved) { return solved.solution.constraint_violation; });
+  number("seconds", [](const SolvedCase& solved) { return solved.solution.seconds; });
+  number("setup_seconds", [](const SolvedCase& solved) { return solved.setup_seconds; });
+  number("relative_jump", [](const SolvedCase& solved) {
+    return solved.accuracy ? std::optional(solved.accuracy->relative_jump) : std::nullopt;
+  });
+  number("coordinates", [](const SolvedCase& solved) { return solved.the_case.problem->configuration_names(); });
+  number("controls", [](const SolvedCase& solved) { return solved.the_case.problem->control_names(); });
+}
+
+/// Arrays of a motion are views: they keep the answer.
+void bind_arrays(py::class_<Answer>& answer) {
+  const auto array = [&](const char* name, auto member) {
+    answer.def_property_readonly(name, [member](const py::object& self) -> py::object {
+      const std::optional<Trajectory>& motion = self.cast<const Answer&>().solved.trajectory;
+      if (!motion || ((*motion).*member).size() == 0) return py::none();
+      const auto& values = (*motion).*member;
+      using Values = std::remove_cvref_t<decltype(values)>;
+      const auto size = static_cast<py::ssize_t>(sizeof(double));
+      py::array_t<double> view =
+          Values::ColsAtCompileTime == 1
+              ? py::array_t<double>({values.rows()}, {size}, values.data(), self)
+              : py::array_t<double>({values.rows(), values.cols()}, {size, size * values.rows()}, values.data(), self);
+      view.attr("setflags")(py::arg("write") = false);
+      return view;
+    });
+  };
+  array("t", &Trajectory::node_times);
+  array("q", &Trajectory::q);
+  array("v", &Trajectory::v);
+  array("p", &Trajectory::p);
+  array("psi_q", &Trajectory::psi_q);
+  array("psi_p", &Trajectory::psi_p);
+  array("stage_t", &Trajectory::stage_times);
+  array("stage_q", &Trajectory::stage_q);
+  array("stage_v", &Trajectory::stage_v);
+  array("stage_u", &Trajectory::stage_u);
+  array("stage_p", &Trajectory::stage_p);
+  array("stage_psi_q", &Trajectory::stage_psi_q);
+  array("stage_psi_p", &Trajectory::stage_psi_p);
+}
+
+}  // namespace
+
+void bind_solve(py::module_& module) {
+  bind_options(module);
+  py::class_<Answer> answer(module, "Answer");
+  bind_numbers(answer);
+  bind_arrays(answer);
+  answer.def_property_readonly("replay_error", [](Answer& one) {
+    const IndependentChecks& checks = checks_of(one);
+    return checks.replay ? std::optional(checks.replay->norm()) : std::nullopt;
+  });
+  answer.def_property_readonly("largest_violation", [](Answer& one) { return checks_of(one).violation_between_nodes; });
+  answer.def("estimated_error", &estimated_error);
+  module.def("solve", &solve, py::arg("problem"), py::arg("asked"), py::arg("start"));
+  module.def("methods", &all_methods, "Names of all methods.");
+  module.def("solvers", &solver_names, "Names of all solvers.");
+}
+
+}  // namespace dmocbench::python

@@ -1,0 +1,21 @@
+"""The Python package, for pip: CMake builds its module. Needs the packages that bench/install lists."""
+
+import re
+from pathlib import Path
+
+from skbuild import setup
+
+version = re.search(r"\n  VERSION (\S+)", Path("CMakeLists.txt").read_text()).group(1)
+setup(
+    name="dmocbench",
+    version=version,
+    description="State optimal control problems of mechanical systems, solve them by DMOC and collocation, compare",
+    license="BSD-3-Clause",
+    python_requires=">=3.9",
+    install_requires=["numpy"],
+    packages=["dmocbench"],
+    package_dir={"": "bench/extensions/python"},
+    package_data={"dmocbench": ["py.typed", "*.pyi"]},
+    cmake_args=["-DDMOCBENCH_TESTS=OFF", "-DDMOCBENCH_PYTHON_DIR=bench/extensions/python"],
+    cmake_install_target="install-python",
+)

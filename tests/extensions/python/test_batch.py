@@ -1,0 +1,42 @@
+"""Batches from and to numpy arrays have the answers of single solves."""
+
+import unittest
+
+import numpy as np
+
+import dmocbench as db
+from pendulum import PendulumSwingUp
+
+
+class Batches(unittest.TestCase):
+    def test_over_states_have_the_answers_of_single_solves(self):
+        start = np.column_stack([np.linspace(-0.2, 0.2, 17), np.zeros(17)])
+        batch = db.solve_batch(PendulumSwingUp(), start=start, intervals=32, motions=True)
+        self.assertTrue(batch.is_solved.all(), batch.status)
+        for i in (0, 5, 16):
+            problem = type("PendulumSwingUp", (PendulumSwingUp,), {"start": db.at_rest([start[i, 0]])})
+            single = db.solve(problem, intervals=32, solver="interior_point")
+            self.assertAlmostEqual(batch.cost[i], single.cost, delta=1e-8 * single.cost)
+            self.assertTrue(np.allclose(batch.q[i], single.q, atol=1e-6))
+            self.assertTrue(np.allclose(batch.u[i], single.stages.u, atol=1e-5))
+
+    def test_over_parameters_have_the_answers_of_single_solves(self):
+        length = np.linspace(0.8, 1.2, 9)
+        batch = db.solve_batch(PendulumSwingUp(), parameters={"length": length}, intervals=32)
+        self.assertTrue(batch.is_solved.all(), batch.status)
+        for i in (0, 4, 8):
+            single = db.solve(PendulumSwingUp(length=length[i]), intervals=32, solver="interior_point")
+            self.assertAlmostEqual(batch.cost[i], single.cost, delta=1e-8 * single.cost)
+
+    def test_do_not_depend_on_the_number_of_threads(self):
+        start = np.column_stack([np.linspace(-0.2, 0.2, 40), np.zeros(40)])
+        one, two = (db.solve_batch(PendulumSwingUp(), start=start, intervals=32, threads=threads) for threads in (1, 2))
+        self.assertTrue(np.array_equal(one.cost, two.cost))
+
+    def test_take_built_in_problems(self):
+        batch = db.solve_batch("cart_pole", parameters={"length": [0.45, 0.5, 0.55]}, intervals=48)
+        self.assertAlmostEqual(batch.cost[1], db.solve("cart_pole", intervals=48).cost, places=6)
+
+
+if __name__ == "__main__":
+    unittest.main()

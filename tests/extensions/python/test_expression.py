@@ -1,0 +1,107 @@
+"""Traced numbers in Python: operators, functions, numpy, and what they refuse with which advice."""
+
+import math
+import unittest
+
+import numpy as np
+
+import dmocbench as db
+from pendulum import PendulumSwingUp
+
+
+class Seen(PendulumSwingUp):
+    """Hands the point of its Lagrangian to a function."""
+
+    def __init__(self, look):
+        super().__init__()
+        self.look = look
+
+    def lagrangian(self, x):
+        self.look(x)
+        return super().lagrangian(x)
+
+
+def at_point(look):
+    Seen(look).handle()
+
+
+class Expressions(unittest.TestCase):
+    def test_have_the_operators_of_numbers(self):
+        def look(x):
+            a, b = x.q.theta, x.v.theta
+            for formula in (a + b, a - b, a * b, a / b, -a, +a, 2 - a, 2.0 / a, np.float64(2.0) * a, a * np.int64(3), a**3,
+                            a**-0.5, 1 + a):
+                self.assertIsInstance(formula, db.Expression)
+
+        at_point(look)
+
+    def test_have_the_functions_of_numbers_and_of_numpy(self):
+        def look(x):
+            a = x.q.theta
+            for function in (db.sqrt, db.exp, db.log, db.sin, db.cos, db.tan, db.asin, db.acos, db.atan, db.sinh, db.cosh,
+                             db.tanh, db.asinh, db.erf, np.sqrt, np.exp, np.log, np.sin, np.cos, np.tan, np.arcsin,
+                             np.arccos, np.arctan, np.sinh, np.cosh, np.tanh, np.arcsinh):
+                self.assertIsInstance(function(a), db.Expression, function)
+            for function in (db.atan2, db.hypot, np.arctan2, np.hypot):
+                self.assertIsInstance(function(a, 2.0), db.Expression, function)
+            self.assertEqual(repr(np.cos(a) + np.sin(a)), repr(db.cos(a) + db.sin(a)))
+
+        at_point(look)
+
+    def test_fill_arrays(self):
+        def look(x):
+            vector = np.array([x.q.theta, x.v.theta, 1.0], dtype=object)
+            matrix = np.array([[1.0, 2.0, 0.0], [0.0, x.q.theta, 1.0]], dtype=object)
+            self.assertEqual((matrix @ vector).shape, (2,))
+            self.assertIsInstance(vector @ vector, db.Expression)
+            self.assertIsInstance((db.cos(vector) * np.array([1.0, 2.0, 3.0])).sum(), db.Expression)
+            self.assertIsInstance(x.q.theta * np.array([2.0]), np.ndarray)
+            self.assertEqual((x.q - 2.0 * x.v).shape, (1,))
+            self.assertEqual(np.sin(x.q).shape, (1,))
+
+        at_point(look)
+
+    def test_give_functions_of_numbers_where_numbers_are(self):
+        self.assertEqual(db.cos(1.0), math.cos(1.0))
+        self.assertEqual(db.atan2(1.0, 2.0), math.atan2(1.0, 2.0))
+        self.assertEqual(list(db.sin(np.array([1.0, 2.0]))), [math.sin(1.0), math.sin(2.0)])
+        self.assertEqual(list(db.sin([1.0, 2.0])), [math.sin(1.0), math.sin(2.0)])
+
+    def refuses(self, kind, advice, use):
+        def look(x):
+            with self.assertRaisesRegex(kind, advice):
+                use(x.q.theta)
+
+        at_point(look)
+
+    def test_refuse_to_branch_and_name_smooth_if_else(self):
+        for use in (bool, lambda a: a > 0.0, lambda a: a == 0.0, lambda a: max(a, 1.0), lambda a: not a):
+            self.refuses(TypeError, "smooth_if_else", use)
+
+    def test_refuse_to_be_numbers_and_name_the_right_function(self):
+        for use in (math.cos, float, int):
+            self.refuses(TypeError, "dmocbench.cos or numpy.cos", use)
+
+    def test_refuse_kinks_and_formulas_as_exponents(self):
+        self.refuses(TypeError, "smooth_abs", abs)
+        self.refuses(TypeError, r"exp\(y \* log\(x\)\)", lambda a: a**a)
+        self.refuses(TypeError, r"exp\(y \* log\(x\)\)", lambda a: 2.0**a)
+        self.refuses(TypeError, "jumps", lambda a: a % 2.0)
+        self.refuses(TypeError, "takes a number, a formula", lambda a: db.atan2(a, "x"))
+        self.refuses(TypeError, "unsupported operand", lambda a: a + "x")
+
+    def test_have_entries_by_name_and_by_number(self):
+        def look(x):
+            self.assertEqual(repr(x.q.theta), repr(x.q[0]))
+            with self.assertRaisesRegex(AttributeError, "q has no entry phi; it has theta"):
+                x.q.phi
+            with self.assertRaisesRegex(IndexError, "out of bounds"):
+                x.q[1]
+            with self.assertRaisesRegex(AttributeError, "the Lagrangian"):
+                x.u
+
+        at_point(look)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,134 @@
+"""Experiments in process write what the program writes, on problems of Python, of libraries and built-in ones."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import dmocbench as db
+from pendulum import PendulumSwingUp
+
+program = os.environ.get("DMOCBENCH_TEST_PROGRAM")
+library = os.environ.get("DMOCBENCH_TEST_LIBRARY")
+here = os.path.dirname(os.path.abspath(__file__))
+
+
+def without_times(table):
+    return [{name: value for name, value in row.items() if "second" not in name and name not in ("library",)}
+            for row in table]
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.out = folder.name
+
+    def test_of_convergence_return_rows_and_orders(self):
+        table = db.convergence(PendulumSwingUp(), out=self.out, intervals=[16, 32, 64, 128, 256, 512],
+                               solver="interior_point")
+        self.assertEqual(len(table), 18)
+        self.assertTrue(table.is_complete)
+        orders = [row["slope"] for row in table.orders if row["quantity"] == "state" and row["slope"] is not None]
+        self.assertEqual(len(orders), 3)
+        for order in orders:
+            self.assertAlmostEqual(order, 2.0, delta=0.2)
+        with open(os.path.join(self.out, "convergence.json")) as file:
+            metadata = json.load(file)
+        self.assertTrue(metadata["complete"])
+        self.assertIn("pendulum.py", json.dumps(metadata))
+
+    @unittest.skipIf(program is None or library is None, "no program is given")
+    def test_write_the_rows_of_the_program(self):
+        other = os.path.join(self.out, "program")
+        words = ["--problem", "pendulum_swing_up", "--intervals", "16,32", "--solver", "interior_point"]
+        subprocess.run([program, "objective", "--library", library, "--out", other, *words], check=False, capture_output=True)
+        ours = db.run("objective", PendulumSwingUp(), out=self.out, intervals=[16, 32], solver="interior_point")
+        theirs = db.read_table(os.path.join(other, "objective.csv"))
+        self.assertEqual(without_times(ours), without_times(theirs))
+
+    def test_run_every_kind_of_experiment(self):
+        class WithSymmetry(PendulumSwingUp):
+            def symmetry(self, q):
+                return [1.0]
+
+        grid = {"intervals": [16, 32], "solver": "interior_point"}
+        for experiment, options in (("solve", grid), ("structure", {}), ("objective", grid), ("iterations", grid),
+                                    ("consistency", grid), ("equivalence", grid), ("local_minima", {**grid, "starts": 3}),
+                                    ("derivatives", {}), ("adaptive", {}), ("coercivity", {}), ("certify", {}),
+                                    ("consistency_order", {})):
+            with self.subTest(experiment):
+                table = db.run(experiment, WithSymmetry(), out=self.out, **options)
+                self.assertGreater(len(table) + sum(map(len, table.further.values())), 0)
+
+    def test_vary_parameters_in_a_sweep(self):
+        table = db.run("sweep", PendulumSwingUp(), out=self.out, method="dmoc", intervals=16, over="length=0.9:1.1:3")
+        self.assertEqual(len(table), 3)
+        self.assertEqual(len({row["objective"] for row in table}), 3)
+
+    def test_use_several_processes(self):
+        class Second(PendulumSwingUp):
+            """the same by another name"""
+
+        table = db.run("profile", [PendulumSwingUp(), Second()], out=self.out, intervals=[16], jobs=2)
+        self.assertEqual({row["problem"] for row in table}, {"pendulum_swing_up", "second"})
+
+    def test_take_the_newest_class_of_a_name(self):
+        def cost(factor):
+            class Changed(PendulumSwingUp):
+                def running_cost(self, x):
+                    return factor * x.u[0] ** 2
+
+            return db.run("solve", Changed(), out=self.out, method="dmoc", intervals=16)["objective"][0]
+
+        self.assertAlmostEqual(cost(1.0), 2.0 * cost(0.5), places=8)
+
+    def test_keep_values_of_parameters(self):
+        a = db.run("solve", PendulumSwingUp(length=1.2), out=self.out, method="dmoc", intervals=16)
+        self.assertAlmostEqual(a["objective"][0], db.solve(PendulumSwingUp(length=1.2), intervals=16).cost, places=8)
+        b = db.run("solve", db.problem("cart_pole", length=0.6), out=self.out, method="dmoc", intervals=32)
+        self.assertAlmostEqual(b["objective"][0], db.solve(db.problem("cart_pole", length=0.6), intervals=32).cost, places=7)
+
+    def test_raise_what_the_program_would_print(self):
+        with self.assertRaisesRegex(db.Error, "--intervals"):
+            db.run("solve", PendulumSwingUp(), out=self.out, intervals="x")
+        with self.assertRaisesRegex(db.Error, "not expected.*--colour"):
+            db.run("solve", PendulumSwingUp(), out=self.out, colour="red")
+
+    def test_give_data_frames(self):
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            self.skipTest("pandas is not installed")
+        frame = db.run("solve", PendulumSwingUp(), out=self.out, method="dmoc", intervals=16).to_pandas()
+        self.assertEqual(list(frame["problem"]), ["pendulum_swing_up"])
+        self.assertEqual(len(db.solve(PendulumSwingUp(), intervals=16).to_pandas()), 17)
+
+    def command(self, *words):
+        return subprocess.run([sys.executable, "-m", "dmocbench", *words], cwd=self.out, capture_output=True, text=True,
+                              env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [os.environ.get("PYTHONPATH"), here]))})
+
+    def test_are_commands_too(self):
+        done = self.command("convergence", os.path.join(here, "pendulum.py"), "--intervals", "16:64", "--method", "dmoc")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(os.path.exists(os.path.join(self.out, "results", "convergence_slopes.csv")))
+        wrong = self.command("convergence", "missing.py")
+        self.assertEqual((wrong.returncode, wrong.stderr), (2, "dmocbench: there is no file missing.py\n"))
+        wrong = self.command("convergenze")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("there is no experiment", wrong.stderr)
+        self.assertEqual(self.command("--help").returncode, 0)
+
+    def test_of_commands_show_the_traceback_of_the_user(self):
+        with open(os.path.join(self.out, "broken.py"), "w") as file:
+            file.write("from pendulum import PendulumSwingUp\n\n\nclass Broken(PendulumSwingUp):\n"
+                       "    def force(self, x):\n        return [1 / 0]\n")
+        done = self.command("solve", "broken.py")
+        self.assertIn("ZeroDivisionError", done.stderr)
+        self.assertIn("in force", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,165 @@
+"""Solves of problems stated in Python: the same as those of C++, for every method, tableau and solver."""
+
+import os
+import sys
+import threading
+import unittest
+
+import numpy as np
+
+import dmocbench as db
+import restated
+from pendulum import PendulumSwingUp
+
+library = os.environ.get("DMOCBENCH_TEST_LIBRARY")
+
+
+class Pendulum(unittest.TestCase):
+    @unittest.skipIf(library is None, "no library of problems is given")
+    def test_has_the_formulas_and_the_bits_of_the_one_in_cpp(self):
+        db.load_library(library)
+        in_cpp = db.problem("pendulum_swing_up")
+        self.assertEqual(PendulumSwingUp().handle().operation_count(), in_cpp.handle().operation_count())
+        for method in ("dmoc", "hamiltonian", "tangent", "multiple_shooting_rk4_1"):
+            for solver in ("interior_point", "ipopt"):
+                a = db.solve(PendulumSwingUp(), method, intervals=48, solver=solver)
+                b = db.solve(in_cpp, method, intervals=48, solver=solver)
+                self.assertTrue(a.is_solved, a)
+                self.assertEqual(a.cost, b.cost)
+                for one, other in ((a.q, b.q), (a.p, b.p), (a.stages.u, b.stages.u)):
+                    self.assertTrue(np.array_equal(one, other))
+
+    @unittest.skipIf(library is None, "no library of problems is given")
+    def test_has_the_parameters_of_the_one_in_cpp(self):
+        db.load_library(library)
+        a = db.solve(PendulumSwingUp(length=1.3), intervals=32)
+        b = db.solve(db.problem("pendulum_swing_up", length=1.3), intervals=32)
+        self.assertEqual(a.cost, b.cost)
+        self.assertNotEqual(a.cost, db.solve(PendulumSwingUp(), intervals=32).cost)
+
+    def test_is_solved_by_every_method_tableau_and_solver(self):
+        near = db.solve(PendulumSwingUp(), intervals=64, stages=2)  # one of several minima
+        costs = [db.solve(PendulumSwingUp(), method, intervals=64, tableau=tableau, stages=stages, solver=solver, start=near)
+                 for method in db.methods() if "midpoint" not in method for tableau, stages in (("gauss", 2), ("lobatto", 3))
+                 for solver in ("interior_point", "ipopt", "auto", "sqp")
+                 if not (method.startswith(("single", "multiple")) and tableau == "lobatto")]
+        self.assertGreater(len(costs), 20)
+        solved = [solution.cost for solution in costs if solution.is_solved]
+        self.assertGreater(len(solved), 0.8 * len(costs))
+        self.assertLess(np.ptp(solved), 1e-3 * min(solved))
+
+    def test_has_arrays_of_the_motion(self):
+        solution = db.solve(PendulumSwingUp(), intervals=10, stages=2)
+        self.assertEqual([part.shape for part in (solution.t, solution.q, solution.v, solution.p, solution.psi)],
+                         [(11,), (11, 1), (11, 1), (11, 1), (11, 2)])
+        self.assertEqual([part.shape for part in (solution.stages.t, solution.stages.u, solution.stages.q)],
+                         [(20,), (20, 1), (20, 1)])
+        self.assertAlmostEqual(solution.q[-1, 0], np.pi, places=12)
+        self.assertTrue(np.array_equal(solution.column("theta"), solution.q[:, 0]))
+        self.assertRegex(repr(solution), "(?s)solved.*cost.*iterations.*replay error.*largest violation")
+
+    def test_reaches_an_accuracy(self):
+        solution = db.solve(PendulumSwingUp(), accuracy=1e-6, refinement="hp", intervals=16)
+        self.assertTrue(solution.is_solved, solution)
+        self.assertLess(solution.estimated_error(), 1e-6)
+        fine = db.solve(PendulumSwingUp(), intervals=512, stages=2)
+        self.assertLess(abs(solution.cost - fine.cost), 1e-5 * fine.cost)
+
+    def test_starts_from_a_solution(self):
+        first = db.solve(PendulumSwingUp(), intervals=32)
+        again = db.solve(PendulumSwingUp(length=1.01), intervals=64, start=first)
+        self.assertTrue(again.is_solved)
+        self.assertLess(again.iterations, first.iterations)
+
+    def test_starts_from_arrays(self):
+        class Guessed(PendulumSwingUp):
+            guess = db.motion([0.0, 1.0, 2.0], [[0.0], [0.5 * np.pi], [np.pi]])
+
+        a, b = db.solve(Guessed(), intervals=32), db.solve(PendulumSwingUp(), intervals=32)
+        self.assertAlmostEqual(a.cost, b.cost, places=8)
+
+    def test_reports_a_solve_that_fails_by_its_status(self):
+        solution = db.solve(PendulumSwingUp(), most_iterations=2)
+        self.assertFalse(solution.is_solved)
+        self.assertEqual(solution.status, "iteration limit")
+        self.assertIn("iteration limit", repr(solution))
+
+    def test_arrays_outlive_solution_and_problem(self):
+        problem = PendulumSwingUp()
+        solution = db.solve(problem, intervals=16)
+        q, u = solution.q, solution.stages.u
+        expected = q.copy(), u.copy()
+        del problem, solution
+        self.assertTrue(np.array_equal(q, expected[0]) and np.array_equal(u, expected[1]))
+        with self.assertRaises(ValueError):
+            q[0, 0] = 1.0
+
+    def test_does_not_leak(self):
+        def resident():
+            with open("/proc/self/statm") as file:
+                return int(file.read().split()[1]) * 4096
+
+        def work(count):
+            for _ in range(count):
+                db.solve(PendulumSwingUp(), intervals=16, solver="interior_point")
+
+        work(50)
+        before = resident()
+        references = sys.getrefcount(PendulumSwingUp)
+        work(200)
+        self.assertLess(resident() - before, 8 * 2**20)
+        self.assertLessEqual(sys.getrefcount(PendulumSwingUp), references + 2)
+
+    def test_lets_other_threads_run_while_it_solves(self):
+        count = 0
+        done = threading.Event()
+
+        def solve():
+            db.solve(PendulumSwingUp(), intervals=4096, solver="interior_point")
+            done.set()
+
+        thread = threading.Thread(target=solve)
+        thread.start()
+        while not done.wait(0.001):
+            count += 1
+        thread.join()
+        self.assertGreater(count, 3)
+
+    def test_is_solved_in_several_threads_alike(self):
+        costs = []
+        threads = [threading.Thread(target=lambda: costs.append(db.solve(PendulumSwingUp(), intervals=128).cost))
+                   for _ in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(costs), 6)
+        self.assertEqual(len(set(costs)), 1)
+
+
+class RestatedProblems(unittest.TestCase):
+    def test_of_the_library_have_its_costs(self):
+        for cls, name in ((restated.CartPole, "cart_pole"), (restated.DoubleIntegrator, "double_integrator"),
+                          (restated.Hovercraft, "hovercraft"), (restated.SphericalPendulum, "spherical_pendulum"),
+                          (restated.TwoLinkManipulator, "two_link_manipulator")):
+            with self.subTest(name):
+                a, b = (db.solve(problem, intervals=64, solver="interior_point") for problem in (cls(), name))
+                self.assertTrue(a.is_solved, a)
+                self.assertLess(abs(a.cost - b.cost), 1e-10 * abs(b.cost))
+
+    def test_of_textbooks_have_the_published_costs(self):
+        for cls, cost, places, options in (
+            (restated.ControlRate, 24.0 / 13.0, 3, {"intervals": 200}),
+            (restated.HangingChain, 5.06848011099341, 3, {"intervals": 128}),
+            (restated.MoonLanding, 1.4203126, 3, {"intervals": 128, "method": "tangent"}),
+            (restated.Cannonball, -3.21336476, 5, {"intervals": 128, "stages": 2}),
+            (restated.SlidingMass, 0.4, 4, {"intervals": 50, "solver": "ipopt"}),
+        ):
+            with self.subTest(cls.__name__):
+                solution = db.solve(cls(), **options)
+                self.assertIsNotNone(solution.cost, solution)
+                self.assertAlmostEqual(solution.cost, cost, places=places, msg=str(solution))
+
+
+if __name__ == "__main__":
+    unittest.main()
