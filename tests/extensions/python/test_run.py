@@ -2,9 +2,11 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 import dmocbench as db
@@ -105,6 +107,14 @@ class Runs(unittest.TestCase):
         frame = db.run("solve", PendulumSwingUp(), out=self.out, method="dmoc", intervals=16).to_pandas()
         self.assertEqual(list(frame["problem"]), ["pendulum_swing_up"])
         self.assertEqual(len(db.solve(PendulumSwingUp(), intervals=16).to_pandas()), 17)
+
+    def test_end_by_an_interrupt_and_leave_nothing_behind(self):
+        timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            db.convergence(PendulumSwingUp(), out=self.out, intervals="16:262144", solver="ipopt")
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        self.assertEqual(len(db.run("solve", PendulumSwingUp(), out=self.out, method="dmoc", intervals=16)), 1)
 
     def command(self, *words):
         return subprocess.run([sys.executable, "-m", "dmocbench", *words], cwd=self.out, capture_output=True, text=True,

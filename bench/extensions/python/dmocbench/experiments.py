@@ -7,27 +7,28 @@ import inspect
 import json
 import os
 import sys
+from typing import Any, Iterator, Sequence
 
 from . import _core
 from ._core import Error
 from .problem import Problem
-from .solving import handle_of
+from .solving import AnyProblem, handle_of
 
 
 class Table:
     """Rows of a table: iteration gives a dict for each, with numbers as float or int, and None for empty entries."""
 
-    def __init__(self, columns, rows):
+    def __init__(self, columns: list[str], rows: list[dict[str, Any]]):
         self.columns = columns
         self.rows = rows
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.rows)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[dict[str, Any]]:
         return iter(self.rows)
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: int | str) -> Any:
         """A row by its number, or a column by its name."""
         if isinstance(key, str):
             if key not in self.columns:
@@ -35,7 +36,7 @@ class Table:
             return [row[key] for row in self.rows]
         return self.rows[key]
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """The same as a DataFrame of pandas."""
         import pandas
 
@@ -50,7 +51,12 @@ class Results(Table):
     orders: the fitted orders, where there are any; files: how the names of all files begin; is_complete: whether all is
     solved. Experiments of several tables, such as structure, have further ones only."""
 
-    def __init__(self, table, further, files, is_complete):
+    further: dict[str, Table]
+    orders: Table | None
+    files: str
+    is_complete: bool
+
+    def __init__(self, table: Table, further: dict[str, Table], files: str, is_complete: bool):
         super().__init__(table.columns, table.rows)
         self.further = further
         self.orders = further.get("slopes")
@@ -69,7 +75,7 @@ def _value(text):
     return text
 
 
-def read_table(file, problems=None):
+def read_table(file: str | os.PathLike[str], problems: Sequence[str] | None = None) -> Table:
     """A table that dmocbench has written; with `problems` only the rows of these."""
     with open(file, newline="") as stream:
         reader = csv.DictReader(stream)
@@ -80,12 +86,12 @@ def read_table(file, problems=None):
     return Table(columns, rows)
 
 
-def load_library(*files):
+def load_library(*files: str | os.PathLike[str]) -> None:
     """Loads libraries of problems that dmocbench_add_problems has made in CMake; their problems are then known by name."""
     _core.load_problem_libraries([os.fspath(file) for file in files])
 
 
-def register(problem):
+def register(problem: AnyProblem) -> _core.ProblemHandle:
     """Makes a problem known by its name to all experiments of this process. Returns what C++ takes for it."""
     handle = handle_of(problem)
     if not isinstance(handle.original, Problem):
@@ -114,7 +120,9 @@ def _arguments(options):
     return arguments
 
 
-def run(experiment, problem=None, *, out="results", name=None, arguments=(), **options):
+def run(experiment: str, problem: AnyProblem | Sequence[AnyProblem] | None = None, *,
+        out: str | os.PathLike[str] = "results", name: str | None = None, arguments: Sequence[Any] = (),
+        **options: Any) -> Results | None:
     """Runs an experiment as the program does, on a problem, a name or a list of them, and returns its `Results`.
 
     options are those of the program: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False.
@@ -152,6 +160,6 @@ def _results(out, name, problems, is_complete):
     return Results(main, further, os.path.join(out, name), is_complete)
 
 
-def convergence(problem, **options):
+def convergence(problem: AnyProblem | Sequence[AnyProblem], **options: Any) -> Results | None:
     """Errors over the step and fitted orders: run("convergence", problem, ...)."""
     return run("convergence", problem, **options)

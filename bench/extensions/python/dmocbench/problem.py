@@ -7,6 +7,7 @@ import difflib
 import inspect
 import math
 import re
+from typing import Any, Callable, Mapping, Sequence, Union
 
 import numpy as np
 
@@ -15,6 +16,21 @@ from ._core import Error
 from .points import Named, Point, named
 
 _infinity = math.inf
+
+Numbers = Union[float, Sequence[float], Mapping[str, float], None]
+"""A number for every entry, a list of them, or a dict by the names of entries."""
+
+# What sentences of C++ call otherwise.
+_words = {"initial_state": "start", "final_state": "end", "bounds().first": "start", "bounds().last": "end",
+          "bounds().horizon": "horizon", "configuration_names": "q", "control_names": "u", "varying()": "a formula",
+          "parameter()": "its number"}
+
+
+def in_words_of_python(sentence: str) -> str:
+    """A sentence of C++ with the names that functions have here."""
+    for word, ours in _words.items():
+        sentence = sentence.replace(word, ours)
+    return sentence
 
 
 class _Vector:
@@ -83,7 +99,8 @@ def _number(value, what):
     return float(value)
 
 
-def coordinates(*names, unit="", lower=None, upper=None, rate_lower=None, rate_upper=None):
+def coordinates(*names: str, unit: str | Sequence[str] | Mapping[str, str] = "", lower: Numbers = None,
+                upper: Numbers = None, rate_lower: Numbers = None, rate_upper: Numbers = None) -> Any:
     """Declares the configuration q by the names of its entries.
 
     unit: of each (for pictures and tables). lower, upper: bounds on q at every node; rate_lower, rate_upper: on q' at
@@ -92,7 +109,8 @@ def coordinates(*names, unit="", lower=None, upper=None, rate_lower=None, rate_u
     return _Vector("coordinates", names, unit, {"q": (lower, upper), "v": (rate_lower, rate_upper)})
 
 
-def controls(*names, unit="", lower=None, upper=None):
+def controls(*names: str, unit: str | Sequence[str] | Mapping[str, str] = "", lower: Numbers = None,
+             upper: Numbers = None) -> Any:
     """Declares the control u by the names of its entries, with bounds at every stage, as for `coordinates`."""
     return _Vector("controls", names, unit, {"u": (lower, upper)})
 
@@ -103,7 +121,8 @@ class parameter:
     In formulas self.length is a number, or a formula where the parameter is kept open (`solve_batch`, sweeps).
     """
 
-    def __init__(self, value, unit="", meaning="", lower=-_infinity, upper=_infinity, whole=False):
+    def __init__(self, value: float, unit: str = "", meaning: str = "", lower: float = -_infinity,
+                 upper: float = _infinity, whole: bool = False):
         self.value = _number(value, "the value of a parameter")
         self.unit = unit
         self.meaning = meaning
@@ -120,7 +139,7 @@ class parameter:
         _core.check_parameter(self.name, value, self.lower, self.upper, self.whole)
         return value
 
-    def __get__(self, instance, owner=None):
+    def __get__(self, instance: Any, owner: Any = None) -> Any:
         if instance is None:
             return self
         reader = instance.__dict__.get("_reader")
@@ -129,7 +148,7 @@ class parameter:
         value = instance._values.get(self.name, self.value)
         return int(value) if self.whole else value
 
-    def __set__(self, instance, value):
+    def __set__(self, instance: Any, value: float) -> None:
         if instance.__dict__.get("_reader") is not None:
             raise Error(f"parameter {self.name} cannot be set while the problem is solved")
         instance._values[self.name] = self.check(value)
@@ -138,7 +157,7 @@ class parameter:
 class between:
     """A number that is left open between two bounds. guess: where solves start, by default the middle."""
 
-    def __init__(self, lower, upper, guess=None):
+    def __init__(self, lower: float, upper: float, guess: float | None = None):
         self.lower = _number(lower, "between")
         self.upper = _number(upper, "between")
         if guess is None:
@@ -151,7 +170,7 @@ class between:
 class free(between):
     """A number that is left open. guess: where solves start."""
 
-    def __init__(self, guess=0.0):
+    def __init__(self, guess: float = 0.0):
         super().__init__(-_infinity, _infinity, guess)
 
 
@@ -162,7 +181,7 @@ class state:
     names, at rest.
     """
 
-    def __init__(self, q=None, v=None, **by_name):
+    def __init__(self, q: Any = None, v: Any = None, **by_name: Any):
         if q is not None and by_name:
             raise Error("state takes either q= or coordinates by their names")
         self.q = by_name if q is None else q
@@ -173,7 +192,7 @@ class state:
         return _end_part(self.q, names, f"{where}: q"), _end_part(self.v, names, f"{where}: v", is_rate=True)
 
 
-def at_rest(*q, **by_name):
+def at_rest(*q: Any, **by_name: Any) -> state:
     """A state at rest: at_rest(theta=0.0), or at_rest([0.0, 1.0])."""
     if len(q) > 1 or (q and by_name):
         raise Error("at_rest takes coordinates by their names, or one list of them")
@@ -213,7 +232,7 @@ class motion:
     """A guess from arrays: between the times t it is linear. q: len(t) x n; v: by default the slopes of q; u: by
     default 0. Times are those of the problem; where its horizon is another one, the motion is stretched."""
 
-    def __init__(self, t, q, v=None, u=None):
+    def __init__(self, t: Any, q: Any, v: Any = None, u: Any = None):
         self.t = np.asarray(t, dtype=float)
         self.q = _table(q, self.t, "q")
         self.v = np.gradient(self.q, self.t, axis=0) if v is None else _table(v, self.t, "v")
@@ -262,7 +281,13 @@ class Problem:
     is the description. Formulas are traced once: they may loop and call functions, but not branch on x.
     """
 
-    def __init__(self, **values):
+    q: Any
+    horizon: Any
+    start: Any
+    end: Any
+    lagrangian: Callable[..., Any]
+
+    def __init__(self, **values: float):
         for name, value in values.items():
             self._require_parameter(name)
             setattr(self, name, value)
@@ -276,11 +301,14 @@ class Problem:
         values = ", ".join(f"{name}={value:g}" for name, value in self._values.items())
         return f"{type(self).__name__}({values})"
 
-    def handle(self):
+    def handle(self) -> _core.ProblemHandle:
         """The problem as C++ sees it, checked. Throws Error with a sentence if something is missing or does not fit."""
-        return _core.ProblemHandle(self)
+        try:
+            return _core.ProblemHandle(self)
+        except Error as error:
+            raise Error(in_words_of_python(str(error))) from None
 
-    def parameters(self):
+    def parameters(self) -> dict[str, float]:
         """The values of all parameters by name."""
         return {name: getattr(self, name) for name in _parameters_of(type(self))}
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import inspect
+from typing import Any, Mapping, Union
 
 import numpy as np
 
 from . import _core
 from ._core import Error
-from .problem import Problem
+from .problem import Problem, in_words_of_python
 
 
 class NamedProblem:
@@ -36,12 +37,15 @@ class NamedProblem:
         return f"<problem {self.name}{' ' if self._handle.settings else ''}{self._handle.settings}>"
 
 
-def problem(name, **values):
+def problem(name: str, **values: float) -> NamedProblem:
     """The problem of that name, built in or from a library, with these values of its parameters."""
     return NamedProblem(name, **values)
 
 
-def handle_of(problem):
+AnyProblem = Union[Problem, type, NamedProblem, str]
+
+
+def handle_of(problem: AnyProblem) -> _core.ProblemHandle:
     """What C++ takes for a problem: an instance or subclass of Problem, a named problem, or a name."""
     if isinstance(problem, str):
         problem = NamedProblem(problem)
@@ -82,34 +86,71 @@ class Solution:
     None where the solve ended without it. Arrays are views of what C++ has found; they may outlive the solution.
     """
 
-    def __init__(self, answer):
+    problem: str
+    method: str
+    tableau: str
+    stage_count: int
+    intervals: int
+    solver: str
+    status: str
+    is_solved: bool
+    cost: float | None
+    iterations: int | None
+    seconds: float
+    setup_seconds: float | None
+    kkt_residual: float | None
+    constraint_violation: float | None
+    relative_jump: float | None
+    replay_error: float | None
+    largest_violation: float | None
+    coordinates: list[str]
+    controls: list[str]
+    t: np.ndarray | None
+    q: np.ndarray | None
+    v: np.ndarray | None
+    p: np.ndarray | None
+    psi_q: np.ndarray | None
+    psi_p: np.ndarray | None
+
+    def __init__(self, answer: _core.Answer):
         self._answer = answer
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
         return getattr(self._answer, name)
+
+    @property
+    def message(self) -> str:
+        """What happened, in a sentence."""
+        return in_words_of_python(self._answer.message)
+
+    def estimated_error(self) -> float:
+        """The estimated relative error of q, p and cost, from this answer alone. Throws Error if the solve failed, the
+        horizon is free, or bounds or path constraints are active."""
+        return self._answer.estimated_error()
 
     def __dir__(self):
         return sorted({*super().__dir__(), *(name for name in dir(self._answer) if not name.startswith("_"))})
 
     @property
-    def stages(self):
+    def stages(self) -> Stages:
+        """Values at the stages."""
         return Stages(self._answer)
 
     @property
-    def psi(self):
+    def psi(self) -> np.ndarray | None:
         """The costates, (psi_q, psi_p) side by side: (N + 1) x 2n."""
         return None if self.psi_q is None else np.hstack([self.psi_q, self.psi_p])
 
-    def column(self, name):
+    def column(self, name: str) -> np.ndarray | None:
         """A coordinate at the nodes, or a control at the stages, by its name."""
         for names, table in ((self.coordinates, self.q), (self.controls, self._answer.stage_u)):
             if name in names:
                 return None if table is None else table[:, names.index(name)]
         raise Error(f"there is no {name}; there are {', '.join(self.coordinates + self.controls)}")
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """The nodes as a DataFrame of pandas: t, q, v and p by names."""
         import pandas
 
@@ -135,9 +176,11 @@ class Solution:
         return "\n".join(lines)
 
 
-def solve(problem, method="dmoc", *, intervals=128, tableau="gauss", stages=1, solver="auto", start=None, accuracy=None,
-          refinement="h", nodes=None, tolerance=None, most_iterations=None, most_seconds=0.0, derivatives="tape",
-          form="bolza", verbose=False, options=None):
+def solve(problem: AnyProblem, method: str = "dmoc", *, intervals: int = 128, tableau: str = "gauss", stages: int = 1,
+          solver: str = "auto", start: Solution | None = None, accuracy: float | None = None, refinement: str = "h",
+          nodes: Any = None, tolerance: float | None = None, most_iterations: int | None = None,
+          most_seconds: float = 0.0, derivatives: str = "tape", form: str = "bolza", verbose: bool = False,
+          options: Mapping[str, Any] | None = None) -> Solution:
     """Solves a problem and returns a `Solution`; one that does not converge says so in its status.
 
     problem: an instance of a class derived from Problem, or the name of a built-in problem. method: one of `methods()`.
@@ -161,7 +204,14 @@ class Batch:
     """Answers to many instances, a row each: cost, status, is_solved, iterations; with motions=True also q (instances x
     nodes x n) and u (instances x stages of all intervals x m), NaN where there is none."""
 
-    def __init__(self, arrays, n, m):
+    cost: np.ndarray
+    status: np.ndarray
+    is_solved: np.ndarray
+    iterations: np.ndarray
+    q: np.ndarray | None
+    u: np.ndarray | None
+
+    def __init__(self, arrays: Mapping[str, Any], n: int, m: int):
         self.cost = arrays["cost"]
         self.status = np.array(arrays["status"])
         self.is_solved = np.array(arrays["is_solved"], dtype=bool)
@@ -176,8 +226,10 @@ class Batch:
         return f"<{len(self)} instances, {int(self.is_solved.sum())} solved>"
 
 
-def solve_batch(problem, *, parameters=None, start=None, end=None, method="dmoc", intervals=64, tableau="gauss", stages=1,
-                tolerance=None, most_iterations=None, threads=0, motions=False):
+def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = None, start: Any = None, end: Any = None,
+                method: str = "dmoc", intervals: int = 64, tableau: str = "gauss", stages: int = 1,
+                tolerance: float | None = None, most_iterations: int | None = None, threads: int = 0,
+                motions: bool = False) -> Batch:
     """Solves many instances of one problem, eight side by side in vector registers, on all processors.
 
     parameters: a dict of names to arrays, one number per instance; start, end: arrays of states (q, v), a row of 2n
