@@ -16,6 +16,6 @@ setup(
     packages=["dmocbench"],
     package_dir={"": "bench/extensions/python"},
     package_data={"dmocbench": ["py.typed", "*.pyi"]},
-    cmake_args=["-DDMOCBENCH_TESTS=OFF", "-DDMOCBENCH_PYTHON_DIR=bench/extensions/python"],
+    cmake_args=["-DDMOCBENCH_TESTS=OFF", "-DDMOCBENCH_ADOLC=OFF", "-DDMOCBENCH_PYTHON_DIR=bench/extensions/python"],
     cmake_install_target="install-python",
 )
