@@ -9,6 +9,17 @@
 
 namespace dmocbench {
 
+/// Advice that compilers print with the deleted functions whose types these are.
+namespace instead {
+struct write_smooth_abs;
+struct write_smooth_max;
+struct write_smooth_min;
+struct write_smooth_sign;
+struct write_smooth_if_else;
+struct write_smooth_if_else_max_or_min;
+struct write_exp_of_y_times_log_x;
+}  // namespace instead
+
 /// A traced real number: a value type that records its computation instead of its value.
 ///
 /// Arithmetic on expressions builds a graph. Equal nodes are shared (an operation on the same operands is the same
@@ -20,7 +31,7 @@ namespace dmocbench {
 /// threads throws `Error`. A node is freed when the last expression that reads it is gone.
 ///
 /// Expressions cannot be compared: a traced formula that branches on a value would be traced on one side only.
-/// Functions with a kink or a jump are deleted for the same reason; the line of each names the smooth one
+/// Functions with a kink or a jump do not compile for the same reason; the compiler's message names the smooth one
 /// (`smooth.hpp`).
 class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one assignment copies or moves
  public:
@@ -67,17 +78,18 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
   /// Stands for the quotient from now on.
   Expression& operator/=(const Expression& right);
 
-  // Compilers show the line that deletes a function, and with it the replacement.
-  friend Expression abs(const Expression& x) = delete;                        // not smooth: write smooth_abs(x, eps)
-  friend Expression fabs(const Expression& x) = delete;                       // not smooth: write smooth_abs(x, eps)
-  friend Expression max(const Expression& x, const Expression& y) = delete;   // not smooth: write smooth_max(x, y, eps)
-  friend Expression fmax(const Expression& x, const Expression& y) = delete;  // not smooth: write smooth_max(x, y, eps)
-  friend Expression min(const Expression& x, const Expression& y) = delete;   // not smooth: write smooth_min(x, y, eps)
-  friend Expression fmin(const Expression& x, const Expression& y) = delete;  // not smooth: write smooth_min(x, y, eps)
-  friend Expression sign(const Expression& x) = delete;                       // not smooth: write smooth_sign(x, eps)
+  // Compilers print the type and the line of a deleted function: the type says what to write instead.
+  friend instead::write_smooth_abs abs(const Expression& x) = delete;
+  friend instead::write_smooth_abs fabs(const Expression& x) = delete;
+  friend instead::write_smooth_max max(const Expression& x, const Expression& y) = delete;
+  friend instead::write_smooth_max fmax(const Expression& x, const Expression& y) = delete;
+  friend instead::write_smooth_min min(const Expression& x, const Expression& y) = delete;
+  friend instead::write_smooth_min fmin(const Expression& x, const Expression& y) = delete;
+  friend instead::write_smooth_sign sign(const Expression& x) = delete;
   template <class C>
-  friend Expression if_else(C, const Expression&, const Expression&) = delete;  // write smooth_if_else(x, a, b, eps)
-  friend Expression pow(const Expression& x, const Expression& y) = delete;     // write exp(y * log(x)), where x > 0
+  friend instead::write_smooth_if_else if_else(C, const Expression&, const Expression&) = delete;
+  friend instead::write_exp_of_y_times_log_x pow(const Expression& x, const Expression& y) = delete;
+  explicit operator bool() const = delete;  // a formula cannot branch on a value: write smooth_if_else(x, a, b, eps)
 
   /// The graph's node; for the algorithms of this folder.
   [[nodiscard]] detail::Node* node() const noexcept { return node_; }
@@ -139,12 +151,12 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
 
 // A traced formula cannot branch on a value: comparisons do not compile. smooth_if_else, smooth_max and smooth_min do
 // not need them.
-bool operator==(const Expression&, const Expression&) = delete;
-bool operator!=(const Expression&, const Expression&) = delete;
-bool operator<(const Expression&, const Expression&) = delete;
-bool operator<=(const Expression&, const Expression&) = delete;
-bool operator>(const Expression&, const Expression&) = delete;
-bool operator>=(const Expression&, const Expression&) = delete;
+instead::write_smooth_if_else_max_or_min operator==(const Expression&, const Expression&) = delete;
+instead::write_smooth_if_else_max_or_min operator!=(const Expression&, const Expression&) = delete;
+instead::write_smooth_if_else_max_or_min operator<(const Expression&, const Expression&) = delete;
+instead::write_smooth_if_else_max_or_min operator<=(const Expression&, const Expression&) = delete;
+instead::write_smooth_if_else_max_or_min operator>(const Expression&, const Expression&) = delete;
+instead::write_smooth_if_else_max_or_min operator>=(const Expression&, const Expression&) = delete;
 
 namespace detail {
 /// `Operation::unit_step`: a product with it is a formula that holds on one side of x = 0 only. Its derivative is 0, so
@@ -156,3 +168,30 @@ namespace detail {
 [[nodiscard]] std::size_t live_nodes() noexcept;
 
 }  // namespace dmocbench
+
+/// Formulas may also write `std::cos(x)`: without these names the compiler answers with a page of candidates.
+namespace std {  // NOLINT(cert-dcl58-cpp)
+using dmocbench::acos;
+using dmocbench::asin;
+using dmocbench::asinh;
+using dmocbench::atan;
+using dmocbench::atan2;
+using dmocbench::cos;
+using dmocbench::cosh;
+using dmocbench::erf;
+using dmocbench::exp;
+using dmocbench::hypot;
+using dmocbench::log;
+using dmocbench::pow;
+using dmocbench::sin;
+using dmocbench::sinh;
+using dmocbench::sqrt;
+using dmocbench::tan;
+using dmocbench::tanh;
+dmocbench::instead::write_smooth_abs abs(const dmocbench::Expression&) = delete;
+dmocbench::instead::write_smooth_abs fabs(const dmocbench::Expression&) = delete;
+dmocbench::instead::write_smooth_max max(const dmocbench::Expression&, const dmocbench::Expression&) = delete;
+dmocbench::instead::write_smooth_max fmax(const dmocbench::Expression&, const dmocbench::Expression&) = delete;
+dmocbench::instead::write_smooth_min min(const dmocbench::Expression&, const dmocbench::Expression&) = delete;
+dmocbench::instead::write_smooth_min fmin(const dmocbench::Expression&, const dmocbench::Expression&) = delete;
+}  // namespace std
