@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <numeric>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "methods/error.hpp"
@@ -20,19 +23,48 @@ template <class Table, class NameOf>
   return names;
 }
 
+/// The candidate that a mistyped name most likely stands for: at most a third of its letters are added, left out,
+/// replaced or swapped with the next one. Empty if there is none.
+[[nodiscard]] inline std::string likely_meant(std::string_view name, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t least = name.size() / 3 + 1;
+  for (const std::string& candidate : candidates) {
+    // Distances between the first i letters of the name, of i - 1, of i - 2, and every beginning of the candidate.
+    std::vector<std::size_t> two_before;
+    std::vector<std::size_t> before;
+    std::vector<std::size_t> distance(candidate.size() + 1);
+    std::iota(distance.begin(), distance.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= name.size(); ++i) {
+      two_before = std::exchange(before, distance);
+      distance[0] = i;
+      for (std::size_t j = 1; j <= candidate.size(); ++j) {
+        const bool is_equal = name[i - 1] == candidate[j - 1];
+        distance[j] = std::min({before[j] + 1, distance[j - 1] + 1, before[j - 1] + (is_equal ? 0 : 1)});
+        const bool is_swapped = i > 1 && j > 1 && name[i - 1] == candidate[j - 2] && name[i - 2] == candidate[j - 1];
+        if (is_swapped) distance[j] = std::min(distance[j], two_before[j - 2] + 1);
+      }
+    }
+    if (distance.back() < least) {
+      least = distance.back();
+      best = candidate;
+    }
+  }
+  return best;
+}
+
 /// The position in `table` of the entry with that name. Throws `Error` if there is none: "`refusal` "name"; choose one
-/// of a, b", where `refusal` is such as "there is no method".
+/// of a, b", with "(did you mean a?)" where one name is close; `refusal` is such as "there is no method".
 template <class Table, class NameOf>
 [[nodiscard]] std::size_t position_of(const Table& table, const NameOf& name_of, std::string_view name,
                                       const std::string& refusal) {
+  const std::vector<std::string> names = names_of(table, name_of);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   std::string known;
-  std::size_t position = 0;
-  for (const auto& entry : table) {
-    const std::string candidate(std::invoke(name_of, entry));
-    if (candidate == name) return position;
-    known += (position++ == 0 ? "; choose one of " : ", ") + candidate;
-  }
-  throw Error(refusal + " \"" + std::string(name) + "\"" + (known.empty() ? "; there are none" : known));
+  for (const std::string& candidate : names) known += (known.empty() ? "; choose one of " : ", ") + candidate;
+  const std::string meant = likely_meant(name, names);
+  throw Error(refusal + " \"" + std::string(name) + "\"" + (meant.empty() ? "" : " (did you mean " + meant + "?)") +
+              (known.empty() ? "; there are none" : known));
 }
 
 /// The entry of `table` with that name; throws as `position_of`.

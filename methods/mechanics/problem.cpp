@@ -198,16 +198,18 @@ bool Problem::has_default_parameters(std::initializer_list<std::string_view> exc
 }
 
 Picture pictured_quantities(const Problem& problem, const ControlledState& x) {
-  if (const auto picture = problem.card().picture) return picture(x);
+  const ProblemCard card = problem.card();
+  if (card.picture) return card.picture(x);
   Picture quantities;
-  const auto add = [&](const std::vector<std::string>& names, const ExpressionVector& values) {
+  const auto add = [&](const std::vector<std::string>& names, const std::vector<std::string>& units,
+                       const ExpressionVector& values) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      quantities.push_back({names[i], "", values[static_cast<Eigen::Index>(i)]});
+      quantities.push_back({names[i], i < units.size() ? units[i] : "", values[static_cast<Eigen::Index>(i)]});
     }
   };
-  add(problem.configuration_names(), x.q);
-  add(problem.first_order_names(), x.y);
-  add(problem.control_names(), x.u);
+  add(problem.configuration_names(), card.configuration_units, x.q);
+  add(problem.first_order_names(), {}, x.y);
+  add(problem.control_names(), card.control_units, x.u);
   return quantities;
 }
 

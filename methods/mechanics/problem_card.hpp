@@ -51,6 +51,11 @@ struct ProblemCard {
   std::string guess = "q on the straight line from q(0) to q(T), v its slope, u = 0";
   /// The unit of time that tables use for the step and figures for the time axis.
   Unit time_unit = {"s", 1.0};
+  /// The units of q_1 .. q_n, "m" or "rad"; empty where none are stated. Figures show quantities of one unit in one
+  /// panel, and their velocities per unit of the problem's time.
+  std::vector<std::string> configuration_units = {};
+  /// The units of u_1 .. u_m; empty where none are stated.
+  std::vector<std::string> control_units = {};
   /// The least cost as far as it is known, for the parameters as they are set.
   std::optional<ReferenceOptimum> reference = {};
   /// What failed solves call the entries of `Problem::path_constraints`; by their numbers where there are no names.

@@ -67,6 +67,14 @@ void check_reference(const Problem& problem, const ReferenceOptimum& reference) 
   }
 }
 
+/// Units are stated of all entries, or of none.
+void check_units(const Problem& problem, const char* of, const std::vector<std::string>& units, Eigen::Index entries) {
+  const std::string owner = fmt::format("card().{}", of);
+  for (const std::string& unit : units) require_one_line(problem, owner, unit);
+  if (units.empty() || std::ssize(units) == entries) return;
+  throw Error(fmt::format("{}: {} has {} entries, expected {}, or none", problem.name(), owner, units.size(), entries));
+}
+
 void check_card(const Problem& problem, const ProblemCard& card) {
   require_one_line(problem, "card().description", card.description);
   require_one_line(problem, "card().source", card.source);
@@ -82,6 +90,8 @@ void check_card(const Problem& problem, const ProblemCard& card) {
     throw Error(fmt::format("{}: card().time_unit.factor must be a positive number, got {:g}", problem.name(),
                             card.time_unit.factor));
   }
+  check_units(problem, "configuration_units", card.configuration_units, problem.configuration_size());
+  check_units(problem, "control_units", card.control_units, problem.control_size());
   if (card.reference) check_reference(problem, *card.reference);
 }
 

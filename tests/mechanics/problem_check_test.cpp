@@ -155,6 +155,9 @@ TEST(ProblemCheck, RefusesBoundsThatLeaveNoValueAndNumbersThatAreNone) {
     expect_refused({"time_unit"}, [&](Words& words) { words.card.time_unit.factor = scale; });
   }
   expect_refused({"initial_state", "finite"}, [](Words& words) { words.first.q[1] = nan; });
+  expect_refused({"configuration_units", "3 entries, expected 2"}, [](Words& words) {
+    words.card.configuration_units = {"m", "m", "rad"};
+  });
 }
 
 TEST(ProblemCheck, RefusesColumnsThatWouldShareAName) {
@@ -201,6 +204,11 @@ TEST(ProblemCheck, RefusesTextsThatATerminalWouldObey) {
       {"source", [](Words& words) -> std::string& { return words.card.source; }},
       {"guess", [](Words& words) -> std::string& { return words.card.guess; }},
       {"time_unit", [](Words& words) -> std::string& { return words.card.time_unit.name; }},
+      {"control_units",
+       [](Words& words) -> std::string& {
+         words.card.control_units.resize(2);
+         return words.card.control_units[1];
+       }},
       {"certificate", [](Words& words) -> std::string& { return words.card.reference.emplace().certificate; }},
       {"remark", [](Words& words) -> std::string& { return words.card.reference.emplace().remark; }},
       {"published",
