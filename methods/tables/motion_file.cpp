@@ -93,6 +93,20 @@ Table series_table(const std::string& time, const Eigen::VectorXd& times, const 
   return table;
 }
 
+/// The controls of a table that has them next to q and v; those of the guess, at the same share of the horizon, where
+/// it has no column of them.
+Eigen::MatrixXd controls_at_nodes(const Problem& problem, const Table& nodes, const Eigen::VectorXd& times,
+                                  const std::filesystem::path& file) {
+  const std::vector<std::string> names = problem.control_names();
+  const auto has_column = [&](const std::string& name) { return std::ranges::count(nodes.columns(), name) > 0; };
+  if (std::ranges::any_of(names, has_column)) return columns(nodes, names, "", file);
+  Eigen::MatrixXd controls(times.size(), problem.control_size());
+  for (Eigen::Index k = 0; k < times.size(); ++k) {
+    controls.row(k) = problem.guess(problem.horizon() * times[k] / times[times.size() - 1]).u.transpose();
+  }
+  return controls;
+}
+
 /// Throws `Error` unless the stages lie in the intervals of the nodes from the first to the last: a file may have been
 /// cut, or be another motion's.
 void require_one_motion(const Trajectory& motion, const std::filesystem::path& nodes,
@@ -101,7 +115,6 @@ void require_one_motion(const Trajectory& motion, const std::filesystem::path& n
   const double first_stage = motion.stage_times[0];
   const double last_stage = motion.stage_times[motion.stage_times.size() - 1];
   const double rounding = 1e-9 * motion.node_times[last];
-  if (std::abs(motion.node_times[0]) > rounding) throw Error(fmt::format("{}: t must begin at 0", nodes.string()));
   if (first_stage >= -rounding && first_stage <= motion.node_times[1] + rounding &&
       last_stage >= motion.node_times[last - 1] - rounding && last_stage <= motion.node_times[last] + rounding) {
     return;
@@ -186,6 +199,71 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
                       {{"", names, values, "a quantity of the picture", units}}, time.name);
 }
 
+namespace {
+
+std::vector<std::string> constraint_names(const Problem& problem, Eigen::Index count) {
+  std::vector<std::string> names = problem.card().path_constraint_names;
+  while (std::ssize(names) < count) names.push_back(fmt::format("h_{}", names.size() + 1));
+  names.resize(static_cast<std::size_t>(count));
+  return names;
+}
+
+}  // namespace
+
+Table constraint_table(const Problem& problem, const Trajectory& trajectory) {
+  PointFunction constraints(problem.configuration_size(), problem.control_size(),
+                            [&](const ControlledState& x) { return problem.path_constraints(x); });
+  const Eigen::Index count = constraints.output_count();
+  if (count == 0) return {};
+  Eigen::MatrixXd values(trajectory.node_times.size(), count);
+  Eigen::VectorXd at_node(count);
+  for (Eigen::Index k = 0; k < trajectory.node_times.size(); ++k) {
+    const double t = trajectory.node_times[k];
+    constraints.evaluate(trajectory.q.row(k).transpose(), trajectory.v.row(k).transpose(), control_at(trajectory, t), t,
+                         at_node);
+    values.row(k) = at_node.transpose();
+  }
+  return series_table("t", trajectory.node_times,
+                      {{"", constraint_names(problem, count), values, "a path constraint, which is not negative"}});
+}
+
+Table quantity_table(const Problem& problem) {
+  const ProblemCard card = problem.card();
+  const ProblemBounds bounds = problem.bounds();
+  Table table({"kind", "quantity", "unit", "lower", "upper"});
+  table.explain({{"kind", "t, q, u or h, a path constraint"},
+                 {"quantity", "the column of that name in the tables of the motion"},
+                 {"unit", "as the problem states it; empty where it states none"},
+                 {"lower", "its lower bound; empty for none"},
+                 {"upper", "its upper bound; empty for none"}});
+  table.set_key({"kind", "quantity"});
+  Row time;
+  time.set("kind", "t");
+  time.set("quantity", "t");
+  if (card.time_unit.factor == 1.0) time.set("unit", card.time_unit.name);
+  table.append(std::move(time));
+  const auto add = [&](const char* kind, const std::vector<std::string>& names, const std::vector<std::string>& units,
+                       const Bounds& of) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto entry = static_cast<Eigen::Index>(i);
+      Row row;
+      row.set("kind", kind);
+      row.set("quantity", names[i]);
+      row.set("unit", i < units.size() ? units[i] : "");
+      if (entry < of.lower.size() && std::isfinite(of.lower[entry])) row.set("lower", of.lower[entry]);
+      if (entry < of.upper.size() && std::isfinite(of.upper[entry])) row.set("upper", of.upper[entry]);
+      table.append(std::move(row));
+    }
+  };
+  add("q", problem.configuration_names(), card.configuration_units, bounds.q);
+  add("u", problem.control_names(), card.control_units, bounds.u);
+  const PointFunction constraints(problem.configuration_size(), problem.control_size(),
+                                  [&](const ControlledState& x) { return problem.path_constraints(x); });
+  const Eigen::Index count = constraints.output_count();
+  add("h", constraint_names(problem, count), {}, {Eigen::VectorXd::Zero(count), {}});
+  return table;
+}
+
 void write_motion(const Problem& problem, const Trajectory& trajectory, const std::filesystem::path& nodes_file) {
   const std::filesystem::path stages_file = stages_file_of(nodes_file);
   const std::string nodes = node_table(problem, trajectory).csv();
@@ -201,7 +279,7 @@ std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {
   constexpr std::string_view ending = "_nodes.csv";
   const std::string name = nodes_file.string();
   if (name.size() <= ending.size() || !name.ends_with(ending)) {
-    throw Error(fmt::format("--start {} is none of: common, guess, a file X_nodes.csv written by solve", name));
+    throw Error(fmt::format("the name of a node table ends with {}, unlike {}", ending, name));
   }
   return name.substr(0, name.size() - ending.size()) + "_stages.csv";
 }
@@ -209,41 +287,50 @@ std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {
 bool is_file_of_motion(const std::filesystem::path& file, const std::string& nodes_file) {
   const std::string name = nodes_file.substr(0, nodes_file.rfind("_nodes.csv"));
   std::error_code none;  // they need not exist
-  return std::filesystem::equivalent(file, name + "_nodes.csv", none) ||
+  return std::filesystem::equivalent(file, nodes_file, none) ||
          std::filesystem::equivalent(file, name + "_stages.csv", none);
 }
 
-MotionTexts read_motion_texts(const std::filesystem::path& nodes_file) {
-  const std::filesystem::path stages_file = stages_file_of(nodes_file);
-  std::string nodes = read_file(nodes_file);
-  return {.nodes = std::move(nodes), .stages = read_file(stages_file)};
+MotionTexts read_motion_texts(const std::filesystem::path& file) {
+  std::error_code none;  // what is not there has no stages next to it
+  if (!std::filesystem::exists(file, none)) throw Error(fmt::format("there is no file {}", file.string()));
+  MotionTexts texts{.nodes = read_file(file), .stages = {}};
+  if (!file.string().ends_with("_nodes.csv")) return texts;
+  const std::filesystem::path stages_file = stages_file_of(file);
+  if (std::filesystem::exists(stages_file, none)) texts.stages = read_file(stages_file);
+  return texts;
 }
 
 Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& nodes_file) {
   return motion_in_texts(problem, read_motion_texts(nodes_file), nodes_file);
 }
 
-Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, const std::filesystem::path& nodes_file) {
-  const std::filesystem::path stages_file = stages_file_of(nodes_file);
-  const Table nodes = table_in(texts.nodes, nodes_file);
-  const Table stages = table_in(texts.stages, stages_file);
-
+Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, const std::filesystem::path& file) {
+  const Table nodes = table_in(texts.nodes, file);
   // One control per stage time, joined linearly: the trajectory of a one-stage method.
   Trajectory trajectory;
   trajectory.tableau = gauss_tableau(1);
-  trajectory.node_times = times_in(nodes, nodes_file);
-  trajectory.stage_times = times_in(stages, stages_file);
-  if (trajectory.node_times.size() < 2 || trajectory.stage_times.size() == 0) {
-    throw Error(fmt::format("{} holds no motion", nodes_file.string()));
+  trajectory.node_times = times_in(nodes, file);
+  if (trajectory.node_times.size() < 2) throw Error(fmt::format("{} holds no motion", file.string()));
+  if (std::abs(trajectory.node_times[0]) > 1e-9 * trajectory.node_times.tail<1>()[0])
+    throw Error(fmt::format("{}: t must begin at 0", file.string()));
+  require_similar_horizon(problem, trajectory.node_times.tail<1>()[0], file);
+  trajectory.q = columns(nodes, problem.configuration_names(), "", file);
+  trajectory.v = columns(nodes, problem.configuration_names(), "v_", file);
+  if (texts.stages.empty()) {
+    trajectory.stage_times = trajectory.node_times;
+    trajectory.stage_u = controls_at_nodes(problem, nodes, trajectory.node_times, file);
+  } else {
+    const std::filesystem::path stages_file = stages_file_of(file);
+    const Table stages = table_in(texts.stages, stages_file);
+    trajectory.stage_times = times_in(stages, stages_file);
+    if (trajectory.stage_times.size() == 0) throw Error(fmt::format("{} holds no motion", stages_file.string()));
+    require_one_motion(trajectory, file, stages_file);
+    trajectory.stage_u = columns(stages, problem.control_names(), "", stages_file);
   }
-  require_one_motion(trajectory, nodes_file, stages_file);
-  require_similar_horizon(problem, trajectory.node_times.tail<1>()[0], nodes_file);
-  trajectory.q = columns(nodes, problem.configuration_names(), "", nodes_file);
-  trajectory.v = columns(nodes, problem.configuration_names(), "v_", nodes_file);
-  trajectory.y = columns(nodes, problem.first_order_names(), "", nodes_file);
-  trajectory.stage_u = columns(stages, problem.control_names(), "", stages_file);
-  read_costates(nodes, problem.configuration_names(), nodes_file, trajectory);
-  read_unknowns(problem, nodes, nodes_file, trajectory);
+  trajectory.y = columns(nodes, problem.first_order_names(), "", file);
+  read_costates(nodes, problem.configuration_names(), file, trajectory);
+  read_unknowns(problem, nodes, file, trajectory);
   return trajectory;
 }
 

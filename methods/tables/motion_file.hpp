@@ -23,8 +23,17 @@ namespace dmocbench {
 /// `ProblemCard::picture`, each named by `name_with_unit`. The control at a node comes from `control_at`.
 [[nodiscard]] Table picture_table(const Problem& problem, const Trajectory& trajectory);
 
-/// Writes a motion: its nodes to X_nodes.csv, the file that is named, and its stages to X_stages.csv in the same
-/// folder. Throws `Error` if the name has another ending or a file cannot be written.
+/// The path constraints at the nodes: `t` as in `node_table` and h by the names of
+/// `ProblemCard::path_constraint_names`, h_1, h_2, ... where there are none. Without columns if there are no
+/// constraints.
+[[nodiscard]] Table constraint_table(const Problem& problem, const Trajectory& trajectory);
+
+/// The contents of a figure of the motion: a row for t and for each q, u and path constraint with `kind` (t, q, u or h),
+/// `quantity` (its column), `unit`, and its bounds `lower` and `upper`, empty where there are none.
+[[nodiscard]] Table quantity_table(const Problem& problem);
+
+/// Writes a motion: its nodes to X_nodes.csv, the file that is named, and its stages to X_stages.csv next to it. Throws
+/// `Error` if the name has another ending or a file cannot be written.
 void write_motion(const Problem& problem, const Trajectory& trajectory, const std::filesystem::path& nodes_file);
 
 /// The stage table of a node table: X_stages.csv for X_nodes.csv. Throws `Error` if the name has another ending.
@@ -33,25 +42,27 @@ void write_motion(const Problem& problem, const Trajectory& trajectory, const st
 /// Whether a file is one of the two that hold the motion of this node table.
 [[nodiscard]] bool is_file_of_motion(const std::filesystem::path& file, const std::string& nodes_file);
 
-/// Reads a motion back from FILE, a node table, and its stage table (X_nodes.csv and X_stages.csv): piecewise
-/// cubic Hermite in q and v, controls linear between stage times. Throws `Error` that names the file and what it
-/// lacks, or where the two tables are not of one motion from t = 0 on, or it lasts more than ten times as long as the
-/// problem's, or less than a tenth of it.
-[[nodiscard]] Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file);
+/// Reads a motion from a table of the columns `t`, NAME and `v_NAME` per configuration, with costates where it has them
+/// (`node_table`). The controls are those of X_stages.csv next to a file X_nodes.csv if there is one, else the columns
+/// of the file named like them, else those of the guess. The motion is piecewise cubic Hermite in q and v, with
+/// controls linear between their times. Throws `Error` that names the file and what is missing, or where the two tables
+/// are not of one motion from t = 0 on, or it lasts more than ten times as long as the problem's, or less than a tenth
+/// of it.
+[[nodiscard]] Motion read_motion(const Problem& problem, const std::filesystem::path& file);
 
-/// The texts of the two files of a motion.
+/// The texts of the files of a motion.
 struct MotionTexts {
-  std::string nodes;   ///< of X_nodes.csv
-  std::string stages;  ///< of X_stages.csv
+  std::string nodes;   ///< of the file
+  std::string stages;  ///< of X_stages.csv next to it; empty if there is none
 };
 /// Reads them. Throws `Error` that names the file that cannot be read.
-[[nodiscard]] MotionTexts read_motion_texts(const std::filesystem::path& nodes_file);
+[[nodiscard]] MotionTexts read_motion_texts(const std::filesystem::path& file);
 
-/// The tables of such a motion as a trajectory: the nodes with their costates, where the file has a number for every
-/// one of them, and the controls; no other stage table, whatever method wrote it. Throws as `read_motion`.
-[[nodiscard]] Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& nodes_file);
+/// Such tables as a trajectory: the nodes with their costates, where the file has a number for every one of them, and
+/// the controls, whatever method computed them. Throws as `read_motion`.
+[[nodiscard]] Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& file);
 /// The same of files that were read before.
 [[nodiscard]] Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts,
-                                         const std::filesystem::path& nodes_file);
+                                         const std::filesystem::path& file);
 
 }  // namespace dmocbench

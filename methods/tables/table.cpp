@@ -116,6 +116,8 @@ std::string Table::csv() const {
 }
 
 Table Table::from_csv(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // with which spreadsheets begin a file
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   Table table(take_record(text));
   for (std::size_t line = 2; !text.empty(); ++line) {
     const std::vector<std::string> fields = take_record(text);

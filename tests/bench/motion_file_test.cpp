@@ -70,6 +70,18 @@ TEST_F(MotionFile, IsRefusedWithItsNameWhereItIsNoMotion) {
   expect("t,q,v_q\n0,0,0\n500,0.5,1\n1000,1,0\n", "t,u\n250,4\n750,-4\n", {"X_nodes.csv", "1000", "double_integrator"});
 }
 
+TEST_F(MotionFile, NeedsNoStagesBesideIt) {
+  std::filesystem::remove(folder() / "X_stages.csv");
+  EXPECT_EQ(read().at(0.5).u, problem_->guess(0.5).u);
+  write_file(nodes_file(), "\xEF\xBB\xBFu,v_q,q,t\r\n4,0,0,0\r\n-4,0,1,1\r\n");
+  EXPECT_DOUBLE_EQ(read().at(0.25).u[0], 2.0);
+  EXPECT_DOUBLE_EQ(read().at(0.5).q[0], 0.5);
+  std::filesystem::rename(nodes_file(), folder() / "mine.csv");
+  EXPECT_DOUBLE_EQ(read_motion(*problem_, folder() / "mine.csv").at(1.0).q[0], 1.0);
+  write_file(nodes_file(), "t,q,v_q\n0.1,0,0\n1,1,0\n");
+  expect_error_naming({"X_nodes.csv", "begin at 0"}, [&] { static_cast<void>(read()); });
+}
+
 TEST_F(MotionFile, ServesWhateverElseLiesBesideIt) {
   for (const char* const text :
        {R"({"motions": 5})", R"({"motions": [5]})", R"({"motions": [{"nodes": 7}]})", R"({"motions": {"a": {}}})",
