@@ -78,7 +78,6 @@ class AdaptiveRun {
     answer_.program =
         std::make_unique<Transcription>(*task_.problem, *element_, make_tableau(task_.tableau, stages_), grid_);
     Transcription& program = *answer_.program;
-    if (!estimator_) estimator_.emplace(program);
     answer_.solution = solve(program);
     const Solution& solution = answer_.solution;
     const Eigen::VectorXd steps = program.guessed_horizon() * grid_.relative_widths();
@@ -91,10 +90,11 @@ class AdaptiveRun {
                        .smallest_step = steps.minCoeff(),
                        .iterations = solution.major_iterations.value_or(0)};
     if (is_solved(solution.status)) {
-      answer_.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
+      const Trajectory earlier =
+          std::exchange(answer_.trajectory, read_trajectory(program, solution.primal, solution.multipliers));
       between_ = violation_between_stages(*task_.problem, program.traced_problem(), answer_.trajectory);
       if (between_.is_motion()) {
-        answer_.estimate = estimator_->estimate(program, solution.primal, solution.multipliers, answer_.trajectory);
+        answer_.estimate = estimated(program, earlier);
         record.relative = answer_.estimate.relative;
         record.floor = answer_.estimate.floor;
       } else {
@@ -104,6 +104,23 @@ class AdaptiveRun {
     record.seconds = seconds_since(begin);
     answer_.grids.push_back(record);
     return is_solved(solution.status);
+  }
+
+  /// The estimate of `ErrorEstimator`; where that does not cover the problem, from here on by comparison with the
+  /// answer before, infinite where there is none to compare with.
+  [[nodiscard]] ErrorEstimate estimated(Transcription& program, const Trajectory& earlier) {
+    if (reason_to_compare_.empty()) {
+      try {
+        if (!estimator_) estimator_.emplace(program);
+        return estimator_->estimate(program, answer_.solution.primal, answer_.solution.multipliers, answer_.trajectory);
+      } catch (const Error& reason) {
+        reason_to_compare_ = reason.what();
+      }
+    }
+    if (is_finer_than_before_) return error_by_comparison(program, earlier, answer_.trajectory);
+    ErrorEstimate unknown{.q = {}, .p = {}, .psi_q = {}, .psi_p = {}, .defects = {}};
+    unknown.relative = std::numeric_limits<double>::infinity();
+    return unknown;
   }
 
   [[nodiscard]] Solution solve(Transcription& program) const {
@@ -125,8 +142,9 @@ class AdaptiveRun {
     const ErrorEstimate& estimate = answer_.estimate;
     if (estimate.relative <= options_.accuracy) {
       answer_.outcome = AdaptiveOutcome::reached;
-      answer_.message = fmt::format("The estimated error is {:.1e} on {} intervals with {} stage{}.", estimate.relative,
-                                    answer_.grids.back().intervals, stages_, stages_ == 1 ? "" : "s");
+      answer_.message = fmt::format("The estimated error is {:.1e} on {} intervals with {} stage{}{}.",
+                                    estimate.relative, answer_.grids.back().intervals, stages_, stages_ == 1 ? "" : "s",
+                                    reason_to_compare_.empty() ? "" : ", by comparison with the grid before");
       return true;
     }
     return stopped_by_rounding(estimate.floor);
@@ -150,10 +168,49 @@ class AdaptiveRun {
     const Eigen::Index k = between_.keeps_state() ? between_.control.interval : between_.state.interval;
     widths[k] = std::max(narrower * widths[k], Grid::narrowest);
     grid_ = graded_grid(grid_, widths, options_.largest_ratio);
+    is_finer_than_before_ = false;
+  }
+
+  /// The next grid where errors are estimated by comparison: more stages where they may grow, else every interval
+  /// halved. False if by the order of the error the accuracy takes too many intervals, on three grids in turn.
+  bool refine_everywhere() {
+    constexpr double most_predicted = 65536.0;
+    constexpr int most_slow_grids = 3;
+    const double now = answer_.estimate.relative;
+    const double before = answer_.grids.size() < 2 ? now : answer_.grids[answer_.grids.size() - 2].relative;
+    const auto present = static_cast<double>(grid_.intervals());
+    const double order = std::log2(before / now);  // not a number or infinite before there are two estimates
+    const double predicted =
+        order > 0.0 ? present * std::pow(now / options_.accuracy, 1.0 / order) : 2.0 * most_predicted;
+    const bool is_slow = std::isfinite(before) && predicted > most_predicted;
+    slow_grids_ = is_slow ? slow_grids_ + 1 : 0;
+    is_finer_than_before_ = true;
+    if (options_.refinement == Refinement::hp && stages_ < most_stages) {
+      ++stages_;
+      return true;
+    }
+    const Eigen::VectorXd coarse = grid_.relative_times();
+    const auto intervals = static_cast<Eigen::Index>(grid_.intervals());
+    if (2 * intervals > options_.most_intervals || slow_grids_ >= most_slow_grids) {
+      answer_.outcome = AdaptiveOutcome::too_many;
+      answer_.message = fmt::format(
+          "An accuracy of {:g} takes too many intervals; on {} the estimated error is {:.1e}. More stages take fewer.",
+          options_.accuracy, intervals, now);
+      return false;
+    }
+    Eigen::VectorXd fine(2 * intervals + 1);
+    for (Eigen::Index k = 0; k < intervals; ++k) {
+      fine[2 * k] = coarse[k];
+      fine[2 * k + 1] = 0.5 * (coarse[k] + coarse[k + 1]);
+    }
+    fine[2 * intervals] = coarse[intervals];
+    grid_ = Grid::from_nodes(fine);
+    return true;
   }
 
   /// The next grid and number of stages; false if there is none.
   bool choose_next() {
+    if (!reason_to_compare_.empty()) return refine_everywhere();
     const ErrorEstimate& estimate = answer_.estimate;
     const Tableau& tableau = answer_.program->tableau();
     const double share = std::isfinite(estimate.relative) ? margin * options_.accuracy / estimate.relative : margin;
@@ -187,7 +244,10 @@ class AdaptiveRun {
   Grid grid_;
   int stages_;
   std::optional<ErrorEstimator> estimator_;
-  ViolationBetweenStages between_;  // of the last grid
+  std::string reason_to_compare_;      // why `estimator_` gives no estimate; empty if it does
+  bool is_finer_than_before_ = false;  // every interval of the grid before was halved, or has more stages
+  int slow_grids_ = 0;                 // in turn whose error hardly fell
+  ViolationBetweenStages between_;     // of the last grid
   AdaptiveAnswer answer_;
 };
 

@@ -25,6 +25,12 @@ double scale_of(const Eigen::MatrixXd& nodes) {
   return size > rounding_share ? size : 1.0;
 }
 
+/// `ErrorEstimate::floor`.
+double rounding_floor(const Transcription& program, const Trajectory& motion) {
+  constexpr double safety_of_floors = 20.0;
+  return program.rounding_floors().largest / safety_of_floors / scale_of(motion.p);
+}
+
 double largest_row(const Eigen::MatrixXd& rows) { return rows.rowwise().norm().maxCoeff(); }
 
 /// The misses of the next node by the replayed intervals, row k for interval k; costates times the cost scale.
@@ -238,6 +244,27 @@ double relative_size(const Trajectory& answer, const Eigen::MatrixXd& q, const E
   return largest;
 }
 
+ErrorEstimate error_by_comparison(const Transcription& program, const Trajectory& earlier, const Trajectory& later) {
+  const Eigen::Index stride = later.intervals() / earlier.intervals();
+  const auto at_earlier_nodes = [&](const Eigen::MatrixXd& nodes) -> Eigen::MatrixXd {
+    Eigen::MatrixXd picked(earlier.q.rows(), nodes.cols());
+    for (Eigen::Index k = 0; k < picked.rows(); ++k) picked.row(k) = nodes.row(k * stride);
+    return picked;
+  };
+  ErrorEstimate estimate{.q = at_earlier_nodes(later.q) - earlier.q,
+                         .p = at_earlier_nodes(later.p) - earlier.p,
+                         .psi_q = {},
+                         .psi_p = {},
+                         .objective = later.cost - earlier.cost,
+                         .defects = {}};
+  const double horizon = later.node_times[later.intervals()];
+  const double of_horizon = std::abs(horizon - earlier.node_times[earlier.intervals()]) / horizon;
+  const double of_motion = relative_size(later, estimate.q, estimate.p, estimate.objective, program.cost_scale());
+  estimate.relative = std::max(of_motion, of_horizon);
+  estimate.floor = rounding_floor(program, later);
+  return estimate;
+}
+
 ErrorEstimator::ErrorEstimator(const Transcription& program)
     : cost_scale_(with_fixed_ends(program).cost_scale()),
       flow_(program.traced_problem(), cost_scale_),
@@ -252,9 +279,8 @@ ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::Vect
   }
   const LinearisedConditions at(program, primal, multipliers);
   require_smooth_optimum(program, at);
-  constexpr double safety_of_floors = 20.0;
   ErrorEstimate estimate{.q = {}, .p = {}, .psi_q = {}, .psi_p = {}, .defects = {}};
-  estimate.floor = program.rounding_floors().largest / safety_of_floors / scale_of(motion.p);
+  estimate.floor = rounding_floor(program, motion);
   const ReplayedIntervals replay = replayed(flow_, coordinates_, motion, cost_scale_);
   estimate.defects = defects_of(replay, motion, cost_scale_);
   if (!estimate.defects.allFinite()) {

@@ -32,6 +32,13 @@ struct ErrorEstimate {
 [[nodiscard]] double relative_size(const Trajectory& answer, const Eigen::MatrixXd& q, const Eigen::MatrixXd& p,
                                    double objective, double cost_scale);
 
+/// The error of an answer by its differences from an earlier one, on the same nodes with fewer stages or on a grid of
+/// which every interval was halved: an upper bound if the later answer is at least twice as accurate. `relative` counts
+/// the horizon too; there are differences of q and p at the nodes of the earlier answer, and no `defects`. It needs
+/// nothing of the problem: horizon, ends and active bounds are free to be what they are.
+[[nodiscard]] ErrorEstimate error_by_comparison(const Transcription& program, const Trajectory& earlier,
+                                                const Trajectory& later);
+
 /// Estimates the error of solved programs of one problem from their answer alone.
 ///
 /// 1. Local: every interval is replayed by Pontryagin's equations (`ExtremalFlow`) from the state and costate of its

@@ -95,6 +95,21 @@ TEST(AdaptiveSolve, SaysWhereAnAccuracyIsMoreThanDoublesCanGive) {
   EXPECT_NE(answer.message.find("more than doubles can give"), std::string::npos) << answer.message;
 }
 
+/// The horizon of the fastest slide is free; its least value is known.
+TEST(AdaptiveSolve, ReachesTheAccuracyAskedForWithAFreeHorizonToo) {
+  const auto problem = make_problem("brachistochrone");
+  for (const Refinement refinement : {Refinement::h, Refinement::hp}) {
+    AdaptiveOptions options;
+    options.accuracy = 1e-6;
+    options.refinement = refinement;
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 2, 16), options);
+    ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
+    EXPECT_NE(answer.message.find("comparison"), std::string::npos) << answer.message;
+    const double least = tests::value_of(problem->card().reference).objective;
+    EXPECT_NEAR(answer.trajectory.cost, least, 1e-6 * least);
+  }
+}
+
 TEST(AdaptiveSolve, EndsWhereAGridIsNotSolvedAndSaysWhich) {
   const auto problem = make_problem("two_link_manipulator");
   AdaptiveOptions options;
