@@ -1,4 +1,5 @@
 // Lists problems with their data and their known optimum, methods, tableaus, solvers, derivative back ends.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,11 +12,13 @@
 #include "bench/run/metadata.hpp"
 #include "bench/run/problem_card_json.hpp"
 #include "bench/run/problem_libraries.hpp"
+#include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/families.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
 #include "problems/problem_registry.hpp"
 #include "problems/registry.hpp"
 
@@ -44,6 +47,14 @@ std::string bounds_in_words(const Bounds& bounds, const std::vector<std::string>
   }
   std::erase(parts, "");
   return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// "x [m]" where units are stated.
+std::vector<std::string> with_units(std::vector<std::string> names, const std::vector<std::string>& units) {
+  for (std::size_t i = 0; i < std::min(names.size(), units.size()); ++i) {
+    if (!units[i].empty()) names[i] += " [" + units[i] + "]";
+  }
+  return names;
 }
 
 std::vector<std::string> velocity_names(const Problem& problem) {
@@ -119,7 +130,9 @@ void print_problem(const Problem& problem) {
   const std::string& library = known_problems().origin(problem.name());
   print_field("library", library.empty() ? "dmocbench" : library);
   print_field("source", problem.card().source);
-  print_field("q", fmt::format("({})   u  ({})", fmt::join(q_names, ", "), fmt::join(problem.control_names(), ", ")));
+  const ProblemCard card = problem.card();
+  print_field("q", fmt::format("({})   u  ({})", fmt::join(with_units(q_names, card.configuration_units), ", "),
+                               fmt::join(with_units(problem.control_names(), card.control_units), ", ")));
   if (problem.first_order_size() > 0)
     print_field("y", fmt::format("({}), first-order states", fmt::join(problem.first_order_names(), ", ")));
   print_field("start", end_in_words(problem, problem.initial_state(), problem.bounds().first));
@@ -182,11 +195,30 @@ int print_families() {
   return 0;
 }
 
+/// A line: the name, and what the card says of the problem.
+void print_briefly(const std::vector<std::shared_ptr<const Problem>>& problems) {
+  for (const auto& problem : problems) fmt::print("{:<28} {}\n", problem->name(), problem->card().description);
+}
+
+/// The names of a kind, a line each, for shells that complete them.
+int print_names(const std::string& kind) {
+  const std::vector<Named<std::vector<std::string> (*)()>> kinds{{"problem", problem_names},
+                                                                 {"method", all_families},
+                                                                 {"tableau", tableau_names},
+                                                                 {"solver", solver_names},
+                                                                 {"derivatives", derivative_back_end_names},
+                                                                 {"integrator", shooting_integrator_names}};
+  for (const std::string& name : value_named(kinds, kind, "--names: there is no kind")()) fmt::print("{}\n", name);
+  return 0;
+}
+
 int print_all(CommandLine& line) {
   std::vector<std::string> names;
   std::vector<std::string> settings;
-  line.list("--problem", names, "only these problems");
+  line.group(group_of_problem);
+  line.list("--problem", names, "all that these problems prescribe");
   line.option("--set", settings, "parameter=value of a problem; may be repeated");
+  line.group(group_of_output);
   bool as_json = false;
   std::string schema;
   line.flag("--json", as_json, "the problems as cards in JSON, for other programs");
@@ -195,19 +227,24 @@ int print_all(CommandLine& line) {
       "a JSON Schema instead: problems (of --json), metadata (NAME.json next to results), claims or claims_rows");
   bool as_gnuplot = false;
   line.flag("--families", as_gnuplot, "the families of methods with labels and line styles instead, for figures");
+  std::string kind;
+  line.option("--names", kind,
+              "names alone, a line each: of problem, method, tableau, solver, derivatives or integrator");
+  line.example("--problem cart_pole");
   parse_with_libraries(line);
+  if (!kind.empty()) return print_names(kind);
   if (as_gnuplot) return print_families();
   if (!schema.empty()) return print_schema(schema);
   const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
                                           settings);  // refuses before anything is printed
   if (as_json) return print_cards(problems);
-  fmt::print("Problems (--problem)\n\n");
-  for (const auto& problem : problems) {
-    print_problem(*problem);
-    fmt::print("\n");
+  if (!names.empty()) {
+    for (const auto& problem : problems) print_problem(*problem);
+    return 0;
   }
-  if (!names.empty()) return 0;
-  fmt::print("Methods (--method)\n\n");
+  fmt::print("Problems (--problem); list --problem NAME shows all of one\n\n");
+  print_briefly(problems);
+  fmt::print("\nMethods (--method)\n\n");
   for (const std::string& name : all_methods()) {
     fmt::print("{:<28} {}\n", name, make_element(name)->description());
   }

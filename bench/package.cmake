@@ -16,6 +16,10 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_DATADIR BASE_DIRECTORY ${CMAKE_INSTA
 install(CODE "file(CREATE_LINK ${data}/dmocbench/plots/figures
   \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/dmocbench-figures\" SYMBOLIC)"
   COMPONENT program)
+install(CODE "execute_process(COMMAND ${PROJECT_SOURCE_DIR}/bench/packages/man_pages
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\"
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\" ${PROJECT_VERSION} COMMAND_ERROR_IS_FATAL ANY)"
+  COMPONENT program)
 install(
   FILES ${PROJECT_SOURCE_DIR}/bench/packages/completion.bash
   RENAME dmocbench

@@ -37,8 +37,14 @@ do for [motion in motions] {
   solve = exists_table(motion) ? word(system(rows_awk("-v take=drawn -v branches=any -v distinct=method,intervals",\
       motion)), 1) : ""
   by_whom = strlen(solve) == 0 ? "" : " by ".method_label(entry(solve, "method")).", N = ".entry(solve, "intervals")
+  # Why the solve failed, whose last iterate is drawn with open symbols; empty if it did not.
+  status = system(sprintf("awk '/\"nodes\": \"%s_nodes.csv\"/ { found = 1 } found && /\"status\"/ {\
+      gsub(/.*: \"|\".*/, \"\"); gsub(/[^A-Za-z ]/, \"\"); print; exit }' '%s/%s.json' 2>/dev/null", motion, results,\
+      run_of(motion)))
+  failure = status eq "solved" || status eq "solved control not determined" || status eq "too coarse"\
+      || status eq "violates between stages" ? "" : strlen(status) == 0 ? "" : "not solved: ".status
   drawing = plots."/pictures/".problem.".gp"
-  if (system("test -f '".drawing."' && echo 1") eq "") { drawing = plots."/pictures/any.gp" }
+  if (strlen(failure) > 0 || system("test -f '".drawing."' && echo 1") eq "") { drawing = plots."/pictures/any.gp" }
   incomplete = incomplete_run(motion)
   do for [kind in kinds] { load drawing }
 }

@@ -40,7 +40,7 @@ struct Tables {
 
 /// Adapted grids and, if asked, uniform ones for the same accuracy.
 void compare_grids(const TableRun& run, const CertifiedProblem& certified, bool with_uniform, int rounds,
-                   Tables& tables) {
+                   const std::string& solver, Tables& tables) {
   constexpr double accuracy = 1e-8;
   const std::string name = certified.problem().name();
   const SolverOptions options = TableRun::solver_options();
@@ -52,20 +52,21 @@ void compare_grids(const TableRun& run, const CertifiedProblem& certified, bool 
       const Scheme scheme{name, method, "gauss", stages};
       run.show(fmt::format("{} {} s = {}, adapted", name, method, stages));
       tables.needed.push_back(needed_adapted(certified, scheme, accuracy, start,
-                                             !has_several_minima && method == "dmoc" ? rounds : 0, options,
+                                             !has_several_minima && method == "dmoc" ? rounds : 0, solver, options,
                                              tables.steps));
       if (!with_uniform) continue;
       run.show(fmt::format("{} {} s = {}, uniform", name, method, stages));
-      tables.needed.push_back(needed_uniform(certified, scheme, accuracy, options));
+      tables.needed.push_back(needed_uniform(certified, scheme, accuracy, solver, options));
     }
   }
 }
 
-void measure_effectivities(const TableRun& run, const CertifiedProblem& certified, Tables& tables) {
+void measure_effectivities(const TableRun& run, const CertifiedProblem& certified, const std::string& solver,
+                           Tables& tables) {
   for (const std::string& method : paper_families()) {
     for (const int stages : {1, 2}) {
       run.show(fmt::format("{} {} s = {}, effectivity", certified.problem().name(), method, stages));
-      const auto rows = measure_effectivity(certified, method, stages, TableRun::solver_options());
+      const auto rows = measure_effectivity(certified, method, stages, solver, TableRun::solver_options());
       tables.effectivity.insert(tables.effectivity.end(), rows.begin(), rows.end());
     }
   }
@@ -74,11 +75,14 @@ void measure_effectivities(const TableRun& run, const CertifiedProblem& certifie
 int measure_all(CommandLine& line) {
   int rounds = 11;
   bool is_quick = false;
+  std::string solver = "auto";
   ProblemOptions asked{.problems = all_problems};
   asked.add_to(line);
   line.number("--rounds", rounds, 0, 10000, "times that a whole way from the first grid to the last is timed");
+  line.option("--solver", solver, "solver, as `list` names them");
   line.flag("--quick", is_quick, "the uneven problems alone, unless others are asked for");
   TableRun run("adaptive", line);
+  static_cast<void>(make_solver(solver));  // refuses names of none before anything is solved
   const bool is_named = asked.problems != all_problems;
   Tables tables;
   for (const std::shared_ptr<const Problem>& problem : run.selected(asked)) {
@@ -86,13 +90,17 @@ int measure_all(CommandLine& line) {
     if (is_quick && !is_named && !is_uneven) continue;
     run.show(problem->name() + ", certified");
     const CertifiedProblem certified(problem, TableRun::solver_options());
-    measure_effectivities(run, certified, tables);
+    measure_effectivities(run, certified, solver, tables);
     const bool with_uniform = is_named || is_uneven;
     if (with_uniform || is_one_of(with_several_minima, problem->name())) {
-      compare_grids(run, certified, with_uniform, rounds, tables);
+      compare_grids(run, certified, with_uniform, rounds, solver, tables);
     }
   }
-  run.add("adaptive", needed_columns(), tables.needed);
+  const Table needed = table_of(needed_columns(), tables.needed);
+  run.findings().show("intervals for 1e-8", needed,
+                      {"problem", "method", "stages", "grid", "status", "intervals", "true_error", "estimated_error"},
+                      "adaptive.csv");
+  run.add("adaptive", needed);
   run.add("adaptive_effectivity", effectivity_columns(), tables.effectivity);
   run.add("adaptive_steps", step_columns(), tables.steps);
   return run.write();

@@ -157,6 +157,11 @@ struct Measured {
   std::string indirect_message;
 };
 
+std::string reference_in_words(const std::string& confirmed) {
+  if (confirmed.empty()) return "unknown for these parameters";
+  return confirmed == "yes" ? "confirmed" : confirmed == "no" ? "not confirmed" : "confirmed " + confirmed;
+}
+
 class Certify final : public ExperimentOf<Measured> {
  public:
   // Digits are wanted that end where the solver's tolerance begins, so answers are polished.
@@ -235,8 +240,8 @@ class Certify final : public ExperimentOf<Measured> {
     std::vector<Certificate> certificates;
     for (const ProblemToCertify& certified : problems_) {
       const Certificate& c = certificates.emplace_back(certificate_of(*certified.problem, table));
-      fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", c.problem, Cell(agreeing_digits(c)).text(),
-                 c.agreement.confirmed);
+      output.findings.say(fmt::format("certify: {}: {} digits agree; reference {}", c.problem,
+                                      Cell(agreeing_digits(c)).text(), reference_in_words(c.agreement.confirmed)));
     }
     output.write("_references.csv", table_of(certificate_columns(route_names_), certificates));
   }

@@ -12,8 +12,30 @@
 #include "bench/run/experiment.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/tables/cold_starts.hpp"
+#include "bench/tables/selection.hpp"
 
 namespace dmocbench::cold_start_program {
+
+/// The counts of each problem, method and solver; those of all problems together where that is more than a screen.
+Table summed_up(const Table& shares) {
+  constexpr std::size_t most_rows = 12;
+  ColumnNames keys{"problem", "method", "solver"};
+  if (shares.rows().size() > most_rows) keys.erase(keys.begin());
+  const ColumnNames counts{"starts", "solved", "confirmed", "best"};
+  ColumnNames columns = keys;
+  columns.insert(columns.end(), counts.begin(), counts.end());
+  Table summary(columns);
+  for (const Selection& group : Selection(shares).group_by(keys)) {
+    Row row = fields_of(group.front(), keys);
+    for (const std::string& count : counts) {
+      double sum = 0.0;
+      for (const Row& share : group) sum += share.number(count, 0.0);
+      row.set(count, static_cast<long long>(sum));
+    }
+    summary.append(std::move(row));
+  }
+  return summary;
+}
 
 class ColdStart final : public Experiment {
  public:
@@ -27,7 +49,7 @@ class ColdStart final : public Experiment {
                  "to there. NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of "
                  "evaluations alone where solves are those of a batch). A start that is lost keeps its row and counts.",
              .options = {.problems = {"all"},
-                         .solvers = {"interior_point", "ipopt", "sqp"},
+                         .solvers = {"auto"},
                          .intervals = "64",
                          .start = "guess",
                          .tolerance = 1e-8,  // all solvers reach it
@@ -47,8 +69,8 @@ class ColdStart final : public Experiment {
               }}}) {}
   void add_options(CommandLine& line) override {
     constexpr long long most = 100000;
-    line.number("--starts", starts_, 1, most, "starts per case by interior_point on the paper's problems");
-    line.number("--library-starts", library_starts_, 0, most, "by interior_point on the other problems");
+    line.number("--starts", starts_, 1, most, "starts per case by interior_point and auto on the paper's problems");
+    line.number("--library-starts", library_starts_, 0, most, "by interior_point and auto on the other problems");
     line.number("--other-starts", other_starts_, 0, most, "by other solvers on the paper's problems");
     line.number("--other-library-starts", other_library_starts_, 0, most, "by other solvers on the other problems");
     line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
@@ -78,22 +100,17 @@ class ColdStart final : public Experiment {
     metadata["seed"] = seed_;
     metadata["amplitude"] = amplitude_;
     metadata["objective_tolerance"] = objective_tolerance_;
-    for (const auto& [problem, words] : varied_) {
-      fmt::print("{}: {}\n", problem, words);
-      metadata["varied"][problem] = words;
-    }
-    for (const Row& row : shares.rows()) {
-      fmt::print("{:<22} {:<12} {:<15} {:>5} cold starts: {} solved, {} confirmed, {} on the best branch\n",
-                 row.text("problem"), row.text("method"), row.text("solver"), row.text("starts"), row.text("solved"),
-                 row.text("confirmed"), row.text("best"));
-    }
+    for (const auto& [problem, words] : varied_) metadata["varied"][problem] = words;
+    const Table summary = summed_up(shares);
+    output.findings.show("shares", summary, {}, output.prefix.string() + "_shares.csv");
   }
 
  private:
   [[nodiscard]] long long starts_of(const Case& the_case) const {
     const std::vector<std::string> paper = paper_problem_names();
     const bool is_of_paper = std::ranges::find(paper, the_case.problem->name()) != paper.end();
-    if (the_case.solver == "interior_point") return is_of_paper ? starts_ : library_starts_;
+    if (the_case.solver == "interior_point" || the_case.solver == "auto")
+      return is_of_paper ? starts_ : library_starts_;
     return is_of_paper ? other_starts_ : other_library_starts_;
   }
 

@@ -51,12 +51,13 @@ void append_rows(const CertifiedProblem& certified, const MeasuredEffectivity& r
 }  // namespace
 
 std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& certified, const std::string& method,
-                                                     int stages, const SolverOptions& options) {
+                                                     int stages, const std::string& solver_name,
+                                                     const SolverOptions& options) {
   std::vector<MeasuredEffectivity> rows;
   MeasuredEffectivity row{.scheme = {certified.problem().name(), method, "gauss", stages}};
   SolverOptions exact = options;
   exact.tolerance = 1e-12;
-  const auto solver = make_solver("interior_point", exact);
+  const auto solver = make_solver(solver_name, exact);
   for (const long long intervals : {64LL, 128LL}) {
     const auto program = certified.transcribe(row.scheme, intervals);
     const Solution solution =
@@ -80,6 +81,7 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
   }
   AdaptiveOptions adaptive;
   adaptive.accuracy = stages == 1 ? 1e-4 : 1e-6;
+  adaptive.solver = solver_name;
   adaptive.solver_options = exact;
   const AdaptiveAnswer answer = solve_adaptively({.problem = &certified.problem(),
                                                   .method = method,

@@ -32,6 +32,7 @@ struct MeasuredEffectivity {
 /// stage) or 1e-6. An answer whose intervals do not join (`accuracy`) has the status "too coarse" and no numbers.
 [[nodiscard]] std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& certified,
                                                                    const std::string& method, int stages,
+                                                                   const std::string& solver_name,
                                                                    const SolverOptions& options);
 
 /// The columns of the table.

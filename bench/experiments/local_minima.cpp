@@ -22,6 +22,28 @@ struct Measured {
   IndependentChecks checks;
 };
 
+/// How often each method finds the best minimum, and what that costs.
+Table minima_found(const Table& minima, const Table& shares) {
+  const ColumnNames group{"problem", "tableau", "stages", "solver", "derivatives", "intervals"};
+  Table found({"problem", "N", "method", "minima", "best cost", "best in", "95 % interval", "not solved"});
+  for (const Row& share : shares.rows()) {
+    const Selection of_group = Selection(minima).matching(share, group);
+    const Selection best = of_group.where("is_best", "yes");
+    Row row = fields_of(share, {"problem", "method"});
+    row.set("N", share.text("intervals"));
+    row.set("minima",
+            of_group.where([&](const Row& minimum) { return minimum.number(share.text("method"), 0.0) > 0.0; }).size());
+    row.set("not solved", share.text("unsolved"));
+    row.set("best cost", best.empty() ? "none is a motion" : fmt::format("{:.7g}", best.front().needed("objective")));
+    row.set("best in", fmt::format("{} of {}", share.text("best"), share.text("starts")));
+    constexpr double percent = 100.0;
+    row.set("95 % interval", fmt::format("{:.0f} to {:.0f} %", percent * share.number("share_lower", 0.0),
+                                         percent * share.number("share_upper", 1.0)));
+    found.append(std::move(row));
+  }
+  return found;
+}
+
 class LocalMinima final : public ExperimentOf<Measured> {
  public:
   LocalMinima()
@@ -32,7 +54,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
                  "which (NAME_minima.csv), and how often it finds the best one, with a confidence interval "
                  "(NAME_shares.csv). With --plane the starts are those of a plane, and NAME_basins.csv says where each "
                  "of them ends.",
-             .options = {.intervals = "64", .start = "guess", .jobs = 2, .batch = true},
+             .options = {.solvers = {"auto"}, .intervals = "64", .start = "guess", .jobs = 2, .batch = true},
              .further_files = {"_minima.csv", "_shares.csv", "_basins.csv"},
              .branches = BranchesTold::none,
              .problems_are_independent = true,
@@ -91,32 +113,8 @@ class LocalMinima final : public ExperimentOf<Measured> {
     } else {
       metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
     }
-    for (const auto& [problem, words] : varied_) {
-      fmt::print("{}: {}\n", problem, words);
-      metadata["starts"]["varied"][problem] = words;
-    }
-    for (const Selection& minimum :
-         Selection(minima)
-             .where("is_best", "yes")
-             .group_by({"problem", "intervals", "stages", "tableau", "solver", "derivatives"})) {
-      const Row& best = minimum.front();
-      fmt::print("{}, N = {}: the best minimum found by any method here costs {:.7g}\n", best.text("problem"),
-                 best.text("intervals"), best.needed("objective"));
-    }
-    for (const Row& row : shares.rows()) {
-      if (Selection(minima)
-              .matching(row, {"problem", "tableau", "stages", "solver", "derivatives", "intervals"})
-              .where("is_best", "yes")
-              .empty()) {
-        fmt::print(
-            "{} {}: no answer of any method is confirmed to be a motion, so that none is the best: {} of {} solved\n",
-            row.text("problem"), row.text("method"), row.text("solved"), row.text("starts"));
-        continue;
-      }
-      fmt::print("{} {}: best minimum in {} of {} ({:.0f} to {:.0f} %)\n", row.text("problem"), row.text("method"),
-                 row.text("best"), row.text("starts"), 100.0 * row.number("share_lower").value_or(0.0),
-                 100.0 * row.number("share_upper").value_or(1.0));
-    }
+    for (const auto& [problem, words] : varied_) metadata["starts"]["varied"][problem] = words;
+    output.findings.show("minima", minima_found(minima, shares), {}, output.prefix.string() + "_shares.csv");
   }
 
  private:

@@ -53,9 +53,11 @@ std::optional<double> NeededGrid::variables_at_accuracy() const {
 }
 
 NeededGrid needed_adapted(const CertifiedProblem& certified, const Scheme& scheme, double accuracy, const Motion& start,
-                          int rounds, const SolverOptions& options, std::vector<StepOfGrid>& steps) {
+                          int rounds, const std::string& solver, const SolverOptions& options,
+                          std::vector<StepOfGrid>& steps) {
   AdaptiveOptions adaptive;
   adaptive.accuracy = accuracy;
+  adaptive.solver = solver;
   adaptive.solver_options = options;
   const AdaptiveTask task{.problem = &certified.problem(),
                           .method = scheme.method,
@@ -94,12 +96,12 @@ NeededGrid needed_adapted(const CertifiedProblem& certified, const Scheme& schem
 }
 
 NeededGrid needed_uniform(const CertifiedProblem& certified, const Scheme& scheme, double accuracy,
-                          const SolverOptions& options) {
+                          const std::string& solver_name, const SolverOptions& options) {
   constexpr int most_solves = 14;
   constexpr double sharp = 1.02;
   SolverOptions exact = options;
   exact.tolerance = std::min(options.tolerance, 1e-12);
-  const auto solver = make_solver("interior_point", exact);
+  const auto solver = make_solver(solver_name, exact);
   NeededGrid found{.scheme = scheme, .grid = "uniform", .accuracy = accuracy};
   found.order = make_tableau(scheme.tableau, static_cast<int>(scheme.stages)).order;
   UniformSolve best;

@@ -36,15 +36,15 @@ struct StepOfGrid {
   double motion = 0.0;  ///< the first component of q, over its largest value
 };
 
-/// Adapts from `start` to an accuracy, `rounds` times by interior_point from the first grid on.
+/// Adapts from `start` to an accuracy, `rounds` times from the first grid on, by a solver (`make_solver`).
 [[nodiscard]] NeededGrid needed_adapted(const CertifiedProblem& certified, const Scheme& scheme, double accuracy,
-                                        const Motion& start, int rounds, const SolverOptions& options,
-                                        std::vector<StepOfGrid>& steps);
+                                        const Motion& start, int rounds, const std::string& solver,
+                                        const SolverOptions& options, std::vector<StepOfGrid>& steps);
 
 /// The smallest uniform grid, to 2 %, whose true error is at most the accuracy: solves begin at the optimum, and
 /// numbers of intervals follow from the order. None above 6000 intervals.
 [[nodiscard]] NeededGrid needed_uniform(const CertifiedProblem& certified, const Scheme& scheme, double accuracy,
-                                        const SolverOptions& options);
+                                        const std::string& solver_name, const SolverOptions& options);
 
 // The columns of their tables.
 [[nodiscard]] Columns<NeededGrid> needed_columns();

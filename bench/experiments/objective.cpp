@@ -1,13 +1,44 @@
 // The optimal cost over the number of intervals: fig:twolink_obj a) of the paper.
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include "bench/run/experiment.hpp"
+#include "bench/tables/selection.hpp"
 
 namespace dmocbench::objective_program {
 
-int run(int argc, char** argv) {
-  return run_experiment(Experiment({.name = "objective",
-                                    .description = "The optimal cost of each method over the number of intervals.",
-                                    .options = {.intervals = "16:1024"}}),
-                        argc, argv);
+/// The cost of each curve on its finest grid, and by how much the grid before differs from it.
+Table finest_costs(const Table& rows) {
+  Table costs({"problem", "method", "N", "cost", "change from", "relative change"});
+  for (const Selection& curve :
+       Selection(rows).usable().group_by({"problem", "method", "tableau", "stages", "solver", "derivatives"})) {
+    const Selection grids = curve.sorted_by("intervals");
+    const double cost = grids.back().needed("objective");
+    Row row = fields_of(curve.front(), {"problem", "method"});
+    row.set("N", grids.back().text("intervals"));
+    row.set("cost", fmt::format("{:.9g}", cost));
+    if (grids.size() > 1) {
+      const Row& before = *(grids.end() - 2);
+      row.set("change from", "N = " + before.text("intervals"));
+      row.set("relative change", fmt::format("{:.1e}", std::abs(before.needed("objective") / cost - 1.0)));
+    }
+    costs.append(std::move(row));
+  }
+  return costs;
 }
+
+class Objective final : public Experiment {
+ public:
+  Objective()
+      : Experiment({.name = "objective",
+                    .description = "The optimal cost of each method over the number of intervals.",
+                    .options = {.intervals = "16:1024"}}) {}
+  void finish(Table& table, FurtherOutput& output) override {
+    output.findings.show("costs", finest_costs(table), {}, output.prefix.string() + ".csv");
+  }
+};
+
+int run(int argc, char** argv) { return run_experiment(Objective(), argc, argv); }
 
 }  // namespace dmocbench::objective_program

@@ -80,10 +80,8 @@ class Profile final : public ExperimentOf<Measured> {
     write_file(output.prefix.string() + "_library.md", library_table_in_markdown(library));
     output.metadata["success"] = {{"objective_tolerance", objective_tolerance_},
                                   {"most_seconds", options().most_seconds}};
-    for (const Row& row : summary.rows()) {
-      fmt::print("{:<12} {} {} {:<6} {} of {} instances\n", row.text("method"), row.text("tableau"), row.text("stages"),
-                 row.text("solver"), row.text("successes"), row.text("instances"));
-    }
+    output.findings.show("successes", summary, {"method", "tableau", "stages", "solver", "successes", "instances"},
+                         output.prefix.string() + "_summary.csv");
   }
 
  private:

@@ -48,7 +48,7 @@ std::optional<SweptQuantity> homotopy_of(const SequenceOptions& options, const P
 /// The first problem of each method solved from the common start. Throws `Error` if one is not.
 std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
                                       StartProvider& starts, const SolverOptions& solver_options) {
-  const auto solver = make_solver("interior_point", solver_options);
+  const auto solver = make_solver("auto", solver_options);
   std::vector<SolvedCase> answers;
   for (const std::string& method : options.methods) {
     const Case the_case{.problem = problem,
@@ -104,18 +104,6 @@ std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std:
   return steps;
 }
 
-void print_summary(const Table& summary) {
-  for (const Row& row : summary.rows()) {
-    fmt::print(
-        "{:<22} {:<12} {:<17} {:>3} of {} solved, iterations {} {} {}, microseconds {:.0f} {:.0f} {:.0f} "
-        "(median, 99th percentile, largest); cold {} iterations\n",
-        row.text("problem"), row.text("method"), row.text("sequence"), row.text("solved"), row.text("steps"),
-        row.text("median_iterations"), row.text("p99_iterations"), row.text("largest_iterations"),
-        row.number("median_microseconds", 0.0), row.number("p99_microseconds", 0.0),
-        row.number("largest_microseconds", 0.0), row.text("median_cold_iterations"));
-  }
-}
-
 void add_options(CommandLine& line, SequenceOptions& options) {
   options.problems.add_to(line);
   line.list("--method", options.methods, fmt::format("methods: {}", fmt::join(paper_families(), ", ")));
@@ -150,7 +138,10 @@ int run_sequences(CommandLine& line) {
   const Table summary = sequence_summary(steps);
   run.add("sequence", step_table(steps));
   run.add("sequence_summary", summary);
-  print_summary(summary);
+  run.findings().show("sequences", summary,
+                      {"problem", "method", "sequence", "steps", "solved", "median_iterations",
+                       "median_cold_iterations", "median_microseconds", "p99_microseconds"},
+                      "sequence_summary.csv");
   return run.write();
 }
 

@@ -1,5 +1,6 @@
 // One or more solutions, written out as motions: nodes, stages and the quantities of a picture.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/experiments/minor_trace.hpp"
@@ -23,18 +25,82 @@ struct Measured {
   std::optional<double> estimated_error;
 };
 
+std::vector<std::string> answer_columns(bool with_horizon) {
+  std::vector<std::string> columns{"problem", "method", "N", "status", "cost"};
+  if (with_horizon) columns.emplace_back("T");
+  for (const char* const column : {"iterations", "seconds", "replay error", "worst between stages", "files"})
+    columns.emplace_back(column);
+  return columns;
+}
+
+/// "3e-05 m, 1e-06 rad, 2e-04 m/s": the largest error of the replayed end, by unit; without units the norm of all.
+std::string replay_in_words(const Problem& problem, const ReplayError& replay) {
+  const ProblemCard card = problem.card();
+  const std::vector<std::string>& units = card.configuration_units;
+  if (units.empty()) return fmt::format("{:.1e}", replay.norm());
+  std::vector<std::pair<std::string, double>> by_unit;
+  const auto add = [&](const std::string& unit, double error) {
+    const auto found = std::ranges::find(by_unit, unit, &std::pair<std::string, double>::first);
+    auto& entry = found == by_unit.end() ? by_unit.emplace_back(unit, 0.0) : *found;
+    entry.second = std::max(entry.second, std::abs(error));
+  };
+  const std::string per_time = card.time_unit.name.empty() ? "" : "/" + card.time_unit.name;
+  for (Eigen::Index i = 0; i < replay.q.size(); ++i) add(units[static_cast<std::size_t>(i)], replay.q[i]);
+  // Velocities per unit of time as shown.
+  for (Eigen::Index i = 0; i < replay.v.size(); ++i)
+    add(units[static_cast<std::size_t>(i)] + per_time, replay.v[i] / card.time_unit.factor);
+  std::vector<std::string> words;
+  for (const auto& [unit, error] : by_unit)
+    words.push_back(fmt::format("{:.1e}{}{}", error, unit.empty() ? "" : " ", unit));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// "path_constraints[0] (height) by 2e-03 at t = 0.4", the constraint that is left farthest relative to its scale.
+std::string violation_in_words(const SolvedCase& solved) {
+  if (!solved.between_stages) return "not checked";
+  const auto& [state, control, missed, largest] = *solved.between_stages;
+  const MotionViolation& worst = state.share >= control.share ? state : control;
+  if (worst.constraint.empty()) return "none";
+  return fmt::format("{} by {:.1e} at t = {:.4g}", worst.constraint, worst.size,
+                     solved.the_case.problem->card().time_unit.factor * worst.time);
+}
+
+Row row_of_answer(const SolvedCase& solved, const IndependentChecks& checks, const std::string& files) {
+  const Solution& solution = solved.solution;
+  const Problem& problem = *solved.the_case.problem;
+  const Unit time = problem.card().time_unit;
+  Row row;
+  row.set("problem", problem.name());
+  row.set("method", solved.the_case.method);
+  row.set("N", solved.the_case.intervals());
+  row.set("status", name_of(solution.status));
+  row.set("iterations", solution.major_iterations);
+  row.set("seconds", fmt::format("{:.2g}", solution.seconds));
+  if (solved.trajectory) {
+    row.set("cost", solved.trajectory->cost);
+    row.set("T", fmt::format("{:.6g}{}{}", time.factor * solved.trajectory->node_times.tail<1>()[0],
+                             time.name.empty() ? "" : " ", time.name));
+  }
+  row.set("replay error", checks.replay ? replay_in_words(problem, *checks.replay) : "none");
+  row.set("worst between stages", violation_in_words(solved));
+  row.set("files", files);
+  return row;
+}
+
 class Solve final : public ExperimentOf<Measured> {
  public:
   Solve()
-      : ExperimentOf({.name = "solve",
-                      .description =
-                          "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
-                          "NAME_picture.csv; with several cases each NAME carries the case's label. Figures are drawn "
-                          "of motions whose NAME is motion_PROBLEM.",
-                      .options = {.intervals = "128", .start = "guess"},
-                      .finishes_interrupted = true,
-                      .wants_motions = true,
-                      .takes_parts = false}) {}
+      : ExperimentOf(
+            {.name = "solve",
+             .description =
+                 "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
+                 "NAME_picture.csv; with several cases each NAME carries the case's label. The last iterate of "
+                 "a solve that fails is written, too, and can be continued with --start NAME_nodes.csv.",
+             .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
+             .finishes_interrupted = true,
+             .wants_motions = true,
+             .takes_parts = false,
+             .example = "--problem two_link_manipulator --method dmoc --intervals 64"}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return columns_through<Measured>(&Measured::checks, check_columns()) +
            Columns<Measured>{{"estimated_error", "",
@@ -72,60 +138,45 @@ class Solve final : public ExperimentOf<Measured> {
   void measure(SolvedCase& solved, Measured& measured) override {
     if (trace_.is_wanted()) trace_.write(solved);
     measured.estimated_error = solved.estimated_error;
-    if (solved.solution.status != Status::solved) {
-      failures_.push_back(
-          fmt::format("{}: {}: {}", solved.the_case.label(), name_of(solved.solution.status), solved.solution.message));
-    }
-    if (!solved.trajectory) return;
-    measured.checks = check_independently(solved);
-    if (!is_solved(solved.solution.status) && !is_no_motion(solved.solution.status)) return;
-    motions_.push_back(solved);
-    motions_.back().program.reset();  // it is large
+    if (solved.trajectory) measured.checks = check_independently(solved);
+    answers_.push_back({solved, measured.checks});
+    answers_.back().solved.program.reset();  // it is large
   }
   void finish(Table& /*table*/, FurtherOutput& output) override {
-    for (const std::string& failure : failures_) print_line(fmt::format("solve: {}", failure));
     trace_.describe(output);
-    for (const SolvedCase& solved : motions_) {
-      if (!solved.trajectory || !solved.accuracy) continue;
+    Table summary(answer_columns(std::ranges::any_of(answers_, has_free_horizon)));
+    for (const auto& [solved, checks] : answers_) {
       const std::string file = output.prefix.string() + label_of_(solved.the_case);
+      summary.append(row_of_answer(solved, checks, solved.trajectory ? file + "_nodes.csv" : "none"));
+      if (!solved.trajectory) continue;
       write_motion(file, solved, output.metadata);
       if (solved.estimated_error) output.metadata["motions"].back()["estimated_error"] = *solved.estimated_error;
-      print_line(fmt::format("solve: {}: {}_nodes.csv", solved.the_case.label(), file));
-      print_line(fmt::format("solve: {}: intervals join to {:.1e} of the range, worst is interval {}",
-                             solved.the_case.label(), solved.accuracy->relative_jump, solved.accuracy->interval));
-      print_found(solved);
-      print_excess(solved);
+    }
+    output.findings.show("answers", summary, {}, output.prefix.string() + ".csv");
+    for (const Answer& answer : answers_) {
+      const Solution& solution = answer.solved.solution;
+      if (solution.status != Status::solved)
+        output.findings.say(
+            fmt::format("{}: {}: {}", answer.solved.the_case.label(), name_of(solution.status), solution.message));
+      if (answer.solved.trajectory) say_found(answer.solved, output.findings);
     }
   }
 
   /// What a solve chose besides the motion.
-  static void print_found(const SolvedCase& solved) {
+  static void say_found(const SolvedCase& solved, Findings& findings) {
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& motion = *solved.trajectory;
     const std::vector<std::size_t> unknowns = problem.unknowns();
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
       const Parameter& parameter = problem.parameters()[unknowns[i]];
-      print_line(fmt::format("solve: {}: {} = {:.10g}{}{}", solved.the_case.label(), parameter.name,
-                             motion.unknowns[static_cast<Eigen::Index>(i)], parameter.unit.empty() ? "" : " ",
-                             parameter.unit));
+      findings.say(fmt::format("{}: {} = {:.10g}{}{}", solved.the_case.label(), parameter.name,
+                               motion.unknowns[static_cast<Eigen::Index>(i)], parameter.unit.empty() ? "" : " ",
+                               parameter.unit));
     }
     for (Eigen::Index i = 0; i < motion.integral_prices.size(); ++i) {
-      print_line(fmt::format("solve: {}: integrands[{}]: the integral is {:.10g}, the price of its bound {:.6g}",
-                             solved.the_case.label(), i, motion.integrals[i], motion.integral_prices[i]));
+      findings.say(fmt::format("{}: integrands[{}]: the integral is {:.10g}, the price of its bound {:.6g}",
+                               solved.the_case.label(), i, motion.integrals[i], motion.integral_prices[i]));
     }
-  }
-
-  /// The excess of a control is there wherever it switches, also where the motion misses little by it.
-  static void print_excess(const SolvedCase& solved) {
-    if (!is_solved(solved.solution.status) || !solved.between_stages ||
-        solved.between_stages->control.constraint.empty())
-      return;
-    const MotionViolation& control = solved.between_stages->control;
-    fmt::print(
-        "solve: {}: {} is exceeded between stages by {:.2g} at t = {:.4g}; with clipped controls the motion misses "
-        "{:.1e} of its range\n",
-        solved.the_case.label(), control.constraint, control.size,
-        solved.the_case.problem->card().time_unit.factor * control.time, solved.between_stages->missed);
   }
 
  private:
@@ -134,8 +185,14 @@ class Solve final : public ExperimentOf<Measured> {
   bool takes_costates_ = true;
   /// What tells the motion of a case from those of the others, behind the table's name.
   std::function<std::string(const Case&)> label_of_ = [](const Case& /*the_case*/) { return ""; };
-  std::vector<SolvedCase> motions_;    // solved, each with its trajectory
-  std::vector<std::string> failures_;  // of the cases that were not solved in all respects, why, a sentence each
+  struct Answer {
+    SolvedCase solved;
+    IndependentChecks checks;
+  };
+  [[nodiscard]] static bool has_free_horizon(const Answer& answer) {
+    return answer.solved.the_case.problem->bounds().horizon.is_free();
+  }
+  std::vector<Answer> answers_;
 };
 
 int run(int argc, char** argv) { return run_experiment(Solve(), argc, argv); }

@@ -11,6 +11,7 @@
 #include "bench/run/options.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
+#include "bench/tables/selection.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/error.hpp"
 #include "problems/registry.hpp"
@@ -101,9 +102,30 @@ void add_options(CommandLine& line, StructureOptions& options) {
   options.asked.add_to(line);
 }
 
+/// Rows of each table on a terminal.
+constexpr std::size_t most_shown = 5;
+
+/// The largest defect of the symplectic form, by problem and method.
+Table largest_defects(const Table& symplecticity) {
+  const ColumnNames scheme{"problem", "method"};
+  Table largest({"problem", "method", "symplectic defect", "rounding"});
+  for (const Selection& group : Selection(symplecticity).group_by(scheme)) {
+    Row row = fields_of(group.front(), scheme);
+    const Selection measured = group.with_number("defect");
+    if (!measured.empty()) {
+      row.set("symplectic defect", fmt::format("{:.1e}", measured.max("defect")));
+      row.set("rounding", fmt::format("{:.1e}", measured.max("rounding")));
+    }
+    largest.append(std::move(row));
+  }
+  return largest;
+}
+
 void add_symplecticity(TableRun& run, const std::vector<MappedStates>& systems) {
   const SymplecticityTable symplecticity = symplecticity_table(systems);
   run.add("structure_symplecticity", symplecticity.table, symplecticity.unsolved);
+  run.findings().show("defect of the symplectic form", largest_defects(symplecticity.table), {},
+                      "structure_symplecticity.csv", most_shown);
 }
 
 void add_energy_against_work(TableRun& run, const std::vector<std::shared_ptr<const Problem>>& problems) {
@@ -112,6 +134,9 @@ void add_energy_against_work(TableRun& run, const std::vector<std::shared_ptr<co
   run.add("structure_energy_work", work.plain, work.unsolved);
   run.add("structure_modified_work", work.modified);
   run.add("structure_energy_work_slopes", work.orders);
+  run.findings().show("orders of the gap between energy and work", work.orders,
+                      {"problem", "method", "quantity", "slope", "standard_error"}, "structure_energy_work_slopes.csv",
+                      most_shown);
 }
 
 void add_long_time_energy(TableRun& run, const StructureOptions& options) {

@@ -9,6 +9,7 @@
 
 #include "bench/experiments/swept_values.hpp"
 #include "bench/run/experiment.hpp"
+#include "bench/tables/selection.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench::sweep_program {
@@ -30,12 +31,13 @@ class Sweep final : public ExperimentOf<Instance> {
                  "that is not solved, or cannot be, keeps its row.",
              .options = {.problems = {"two_link_manipulator"},
                          .methods = {"dmoc"},
-                         .solvers = {"interior_point"},
+                         .solvers = {"auto"},
                          .intervals = "64",
                          .batch = true},
              .branches = BranchesTold::none,
              .takes_batches = true,
-             .finishes_interrupted = true}) {}
+             .finishes_interrupted = true,
+             .example = "--over mass_1=0.5:2:20 --over final_q1=0.3:0.8:11"}) {}
 
   void add_options(CommandLine& line) override {
     line.option("--over", over_,
@@ -82,7 +84,12 @@ class Sweep final : public ExperimentOf<Instance> {
     std::map<std::string, std::size_t> ends;
     for (const Row& row : table.rows()) ++ends[row.text("status")];
     for (const auto& [status, count] : ends)
-      fmt::print("sweep: {} of {} rows: {}\n", count, table.rows().size(), status);
+      output.findings.say(fmt::format("sweep: {} of {} rows: {}", count, table.rows().size(), status));
+    const Selection solved = Selection(table).usable().sorted_by("objective");
+    if (solved.empty()) return;
+    output.findings.say(fmt::format("sweep: cost from {:.7g} (instance {}) to {:.7g} (instance {})",
+                                    solved.front().needed("objective"), solved.front().text("instance"),
+                                    solved.back().needed("objective"), solved.back().text("instance")));
   }
 
  private:

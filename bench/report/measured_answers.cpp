@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Measured {
   std::map<std::string, std::vector<std::string>> orders;  ///< in words, by the table that has them
   std::size_t rows = 0;
   std::size_t solved = 0;
+  double finest = 0.0;                        ///< number of intervals of the finest grid that was solved
+  std::optional<double> cost = std::nullopt;  ///< on it
 };
 
 Scheme scheme_of(const Row& row) {
@@ -69,7 +72,12 @@ std::map<Scheme, Measured> measured_by_scheme(const ResultsFolder& results) {
       if (!has_solves) continue;
       Measured& measured = all[scheme_of(row)];
       ++measured.rows;
-      if (!is_unsolved(row)) ++measured.solved;
+      if (is_unsolved(row)) continue;
+      ++measured.solved;
+      const double intervals = row.number("intervals", 0.0);
+      if (!row.number("objective") || intervals < measured.finest) continue;
+      measured.finest = intervals;
+      measured.cost = row.number("objective");
     }
   }
   return all;
@@ -78,7 +86,8 @@ std::map<Scheme, Measured> measured_by_scheme(const ResultsFolder& results) {
 std::string line_html(const Scheme& scheme, const Measured& measured) {
   const auto& [problem, method, tableau, stages] = scheme;
   std::vector<std::string> parts;
-  parts.reserve(measured.orders.size() + 1);
+  parts.reserve(measured.orders.size() + 2);
+  if (measured.cost) parts.push_back(fmt::format("cost {:.9g} with N = {:g}", *measured.cost, measured.finest));
   for (const auto& [file, orders] : measured.orders) {
     parts.push_back(fmt::format("<a href=\"#{}\">fitted orders</a> {}", anchor("table", file),
                                 escaped_prose(fmt::format("{}", fmt::join(orders, ", ")))));

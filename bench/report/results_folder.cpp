@@ -9,6 +9,7 @@
 #include "bench/run/json_place.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
+#include "methods/program/status.hpp"
 
 namespace dmocbench {
 
@@ -50,7 +51,8 @@ std::set<std::string> files_of_motions(const std::vector<ReportedRun>& runs) {
   std::set<std::string> files;
   for (const ReportedRun& run : runs) {
     for (const Json& motion : motions_of(run)) {
-      for (const char* const part : {"_nodes.csv", "_stages.csv", "_picture.csv"})
+      for (const char* const part :
+           {"_nodes.csv", "_stages.csv", "_picture.csv", "_quantities.csv", "_constraints.csv"})
         files.insert(stem_of_motion(motion) + part);
     }
   }
@@ -61,6 +63,8 @@ void read_motions(const std::filesystem::path& folder, ResultsFolder& results) {
   for (const ReportedRun& run : results.runs) {
     for (const Json& motion : motions_of(run)) {
       const std::string file = stem_of_motion(motion) + "_picture.csv";
+      const Status status = status_named(motion.value("status", std::string(name_of(Status::solved))));
+      if (!is_solved(status) && !is_no_motion(status)) continue;    // the last iterate of a failed solve
       if (std::filesystem::path(file).has_parent_path()) continue;  // all that a report shows is in its folder
       try {
         results.motions.push_back({motion.at("problem").get<std::string>(), motion.at("method").get<std::string>(),

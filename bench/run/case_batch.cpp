@@ -124,7 +124,8 @@ std::shared_ptr<Transcription> transcribed(const Case& the_case, const Problem& 
 }  // namespace
 
 bool CaseBatch::takes(const Case& the_case, const SolverOptions& options) {
-  return the_case.solver == "interior_point" && the_case.derivatives == "tape" && the_case.form == CostForm::bolza &&
+  const bool is_ours = the_case.solver == "interior_point" || the_case.solver == "auto";
+  return is_ours && the_case.derivatives == "tape" && the_case.form == CostForm::bolza &&
          !family_of(the_case.method).is_condensed && options.most_seconds <= 0.0 && !options.verbose;
 }
 
@@ -245,7 +246,9 @@ std::unique_ptr<CaseBatch> batch_of(const Case& the_case, const SolverOptions& o
 
 void judge_and_keep(const BatchWork& work, CaseBatch& batch, const BatchedCase& one) {
   SolvedCase solved = batch.judged(one);
-  if (interrupt_requested() && solved.solution.status == Status::interrupted) return;  // its judgement was
+  const Status status = solved.solution.status;
+  if (interrupt_requested() && status == Status::interrupted) return;                           // its judgement was
+  if (solved.the_case.solver == "auto" && !is_solved(status) && !is_no_motion(status)) return;  // ipopt goes on alone
   work.keep(solved, one.number);
 }
 

@@ -51,8 +51,8 @@ struct BatchedCase {
 /// side (`solve_batch`). The program is made once. What becomes of a case does not depend on those beside it.
 class CaseBatch {
  public:
-  /// Whether a case asks for what batches have: `interior_point` as it is, exact derivatives, the Bolza form, no limit
-  /// of time, no trace of iterations. `solve` checks whether the program fits.
+  /// Whether a case asks for what batches have: `interior_point` as it is or as the first of `auto`, exact derivatives,
+  /// the Bolza form, no limit of time, no trace of iterations. `solve` checks whether the program fits.
   [[nodiscard]] static bool takes(const Case& the_case, const SolverOptions& options);
   /// Whether two cases differ in nothing but starts, parameters and ends.
   [[nodiscard]] static bool share_program(const Case& a, const Case& b);

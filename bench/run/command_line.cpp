@@ -19,7 +19,9 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include "bench/run/metadata.hpp"
 #include "bench/run/process_pool.hpp"
+#include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/environment.hpp"
 #include "methods/runtime/parsed.hpp"
@@ -30,8 +32,9 @@ namespace dmocbench {
 namespace {
 
 template <class Value>
-CLI::Option* add(CLI::App& app, const std::string& names, Value& value, const std::string& help) {
-  CLI::Option* option = app.add_option(names, value, help)->capture_default_str();
+CLI::Option* add(CLI::App& app, const std::string& group, const std::string& names, Value& value,
+                 const std::string& help) {
+  CLI::Option* option = app.add_option(names, value, help)->capture_default_str()->group(group);
   return option->get_default_str() == "[]" ? option->default_str("") : option;
 }
 
@@ -118,7 +121,7 @@ std::string sentence_of(const std::exception& error) {
 
 template <class Value>
 void CommandLine::option(const std::string& names, Value& value, const std::string& help) {
-  CLI::Option* const option = add(app_, names, value, help)->required(!names.starts_with('-'));
+  CLI::Option* const option = add(app_, group_, names, value, help)->required(!names.starts_with('-'));
   constexpr bool is_path = std::is_same_v<Value, std::filesystem::path>;
   if constexpr (is_path || std::is_same_v<Value, std::string>) {
     const auto is_empty = [](const std::string& text) {
@@ -141,9 +144,10 @@ void CommandLine::number(const std::string& names, Number& value, std::type_iden
   const auto nan = [](const std::string& text) {  // which no comparison finds outside of a range
     return std::isnan(std::strtod(text.c_str(), nullptr)) ? fmt::format("{} is not a number", text) : std::string();
   };
-  CLI::Option* const option = add(app_, names, value, help);
+  CLI::Option* const option = add(app_, group_, names, value, help);
   option->check(is_written_as_number)->check(CLI::Validator(nan, ""));
-  option->check(CLI::Range(static_cast<Limit>(least), static_cast<Limit>(largest)));
+  CLI::Validator range = CLI::Range(static_cast<Limit>(least), static_cast<Limit>(largest));
+  option->check(range.description(fmt::format(" {} to {}", least, largest)));
 }
 template void CommandLine::number(const std::string&, int&, int, int, const std::string&);
 template void CommandLine::number(const std::string&, long long&, long long, long long, const std::string&);
@@ -152,7 +156,7 @@ template void CommandLine::number(const std::string&, double&, double, double, c
 
 template <class Value>
 void CommandLine::list(const std::string& names, std::vector<Value>& values, const std::string& help) {
-  CLI::Option* const option = add(app_, names, values, help)->delimiter(',');
+  CLI::Option* const option = add(app_, group_, names, values, help)->delimiter(',');
   if constexpr (std::is_arithmetic_v<Value>) option->check(is_written_as_number);
   lists_.push_back(names);
 }
@@ -176,13 +180,20 @@ void CommandLine::refuse_empty_entries() const {
 }
 
 void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
-  app_.add_flag(names, value, help);
+  app_.add_flag(names, value, help)->group(group_);
 }
 
-void CommandLine::footer(const std::string& text) { app_.footer(text); }
+std::string CommandLine::end_of_help() const {
+  const std::string blank = footer_.empty() ? "" : "\n\n";
+  return fmt::format(
+      "{}{}Example:\n  {} {}\n\nExit codes: 0 done; 1 {}; 2 bad input, or a file cannot be read or written; 130 "
+      "interrupted",
+      footer_, blank, app_.get_name(), example_, meaning_of_1_);
+}
 
 std::vector<std::string> CommandLine::parse() {
   refuse_empty_entries();
+  app_.footer(end_of_help());
   app_.parse(argc_, argv_);
   check_environment();
   order_by_one_thread();
@@ -199,9 +210,48 @@ std::vector<std::pair<std::string, std::string>> CommandLine::values() const {
   return values;
 }
 
+namespace {
+
+/// What CLI11 writes of options, without the value that a name that says no stands for.
+class HelpFormatter final : public CLI::Formatter {
+ public:
+  [[nodiscard]] std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    std::string name = CLI::Formatter::make_option_name(option, is_positional);
+    constexpr std::string_view noise = "{false}";
+    for (std::size_t at = name.find(noise); at != std::string::npos; at = name.find(noise))
+      name.erase(at, noise.size());
+    return name;
+  }
+};
+
+/// Installed experiments are called as "dmocbench NAME".
+std::string name_in_usage(const std::string& name, std::string_view call) {
+  const std::size_t slash = call.rfind('/', call.find(' '));
+  const std::string_view program = call.substr(slash == std::string_view::npos ? 0 : slash + 1);
+  return program == "dmocbench " + name ? std::string(program) : name;
+}
+
+/// What is wrong with a command line; a mistyped option with the name that was likely meant.
+std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+  const auto unknown = app.remaining();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || unknown.empty()) return error.what();
+  const std::string option = unknown.front().substr(0, unknown.front().find('='));
+  std::vector<std::string> names;
+  for (const CLI::Option* known : app.get_options()) {
+    for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+  }
+  const std::string meant = option.starts_with("--") ? likely_meant(option, names) : "";
+  return meant.empty() ? error.what() : fmt::format("there is no option {} (did you mean {}?)", option, meant);
+}
+
+}  // namespace
+
 int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                 const std::function<int(CommandLine&)>& body) {
-  CLI::App app(description, name);
+  CLI::App app(description, name_in_usage(name, argc > 0 ? argv[0] : ""));
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_version_flag("-v,--version", "dmocbench " + version())->group("Help");
+  app.set_help_flag("-h,--help", "show this and exit")->group("Help");
   occupy_closed_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe that nobody reads: locks and parts are removed
@@ -213,7 +263,7 @@ int run_program(const std::string& name, const std::string& description, int arg
   } catch (const CLI::Success& request) {  // --help
     return app.exit(request);
   } catch (const CLI::ParseError& error) {
-    return report_error(name, std::string(error.what()) + "; --help lists the options");
+    return report_error(name, sentence_of_parse_error(app, error) + "; --help lists the options");
   } catch (const Interrupted& interrupt) {
     report_error(name, interrupt.what());
     return 130;
@@ -236,13 +286,41 @@ void erase_line(std::FILE* terminal) { std::fputs("\r\033[K", terminal); }
 
 }  // namespace
 
-ProgressLine::ProgressLine() : terminal_(::isatty(STDERR_FILENO) == 1 ? stderr : nullptr, erase_line) {}
+ProgressLine::ProgressLine(std::string program, bool is_silent)
+    : program_(std::move(program)),
+      is_silent_(is_silent),
+      terminal_(!is_silent && ::isatty(STDERR_FILENO) == 1 ? stderr : nullptr, erase_line) {}
 
-void ProgressLine::show(const std::string& activity) const {
-  if (!is_shown()) return;
-  erase_line(terminal_.get());
-  fmt::print(terminal_.get(), "{}", one_line(activity));
-  std::fflush(terminal_.get());
+void ProgressLine::show(const std::string& activity) {
+  constexpr double seconds_between_lines = 60.0;
+  if (is_shown()) {
+    erase_line(terminal_.get());
+    fmt::print(terminal_.get(), "{}", one_line(activity));
+    std::fflush(terminal_.get());
+  } else if (!is_silent_ && seconds_since(last_line_) >= seconds_between_lines) {
+    last_line_ = Clock::now();
+    fmt::print(stderr, "{}: {}\n", program_, one_line(activity));
+  }
+}
+
+void ProgressLine::show(const std::string& activity, std::size_t done, std::size_t all) {
+  if (!first_done_) first_done_ = done;
+  const auto finished = static_cast<double>(done - *first_done_);
+  std::string left;
+  if (finished > 0.0) {
+    const double seconds = seconds_since(begin_) / finished * static_cast<double>(all - done);
+    left = fmt::format(", about {} left", rounded_duration(seconds));
+  }
+  show(fmt::format("[{}/{}{}] {}", done + 1, all, left, activity));
+}
+
+std::string rounded_duration(double seconds) {
+  constexpr double minute = 60.0;
+  constexpr long long minutes_of_hour = 60;
+  if (seconds < 2.0 * minute) return fmt::format("{:.0f} s", seconds);
+  const auto minutes = static_cast<long long>(std::round(seconds / minute));
+  if (minutes < 2 * minutes_of_hour) return fmt::format("{} min", minutes);
+  return fmt::format("{} h {} min", minutes / minutes_of_hour, minutes % minutes_of_hour);
 }
 
 }  // namespace dmocbench

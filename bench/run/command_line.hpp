@@ -4,11 +4,14 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "methods/runtime/clock.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the name is CLI11's
 class App;
@@ -35,8 +38,14 @@ class CommandLine {
   void list(const std::string& names, std::vector<Value>& values, const std::string& help);
   /// `names` as in "--polish,!--no-polish", where an exclamation mark stands before a name that says no.
   void flag(const std::string& names, bool& value, const std::string& help);
+  /// The group of `--help` that options belong to from here on.
+  void group(const std::string& name) { group_ = name; }
   /// Text behind the options in `--help`.
-  void footer(const std::string& text);
+  void footer(const std::string& text) { footer_ = text; }
+  /// The options of a call that `--help` shows as an example; without one it shows the name of the program alone.
+  void example(const std::string& options) { example_ = options; }
+  /// What exit code 1 stands for, in `--help`.
+  void exit_code_1(const std::string& meaning) { meaning_of_1_ = meaning; }
   /// The values are known from here on; the name of the program and all its arguments. Throws as `check_environment`.
   std::vector<std::string> parse();
   /// Behind `parse`: the options and their values as text, defaults included, in the order of `--help`.
@@ -50,11 +59,22 @@ class CommandLine {
   /// the = of an option.
   void refuse_empty_entries() const;
 
+  /// What stands behind the options in `--help`.
+  [[nodiscard]] std::string end_of_help() const;
+
   CLI::App& app_;
   int argc_;
   char** argv_;
+  std::string group_ = "Options";
+  std::string footer_;
+  std::string example_;
+  std::string meaning_of_1_ = "a row could not be measured";
   std::vector<std::string> lists_;  ///< options with commas between their values
 };
+
+/// The groups of `--help` that most programs have: which problem, and where results go.
+inline constexpr const char* group_of_problem = "Problem";
+inline constexpr const char* group_of_output = "Output";
 
 /// What went wrong, for a person: the words of our own errors; of others what they mean, where that is known.
 [[nodiscard]] std::string sentence_of(const std::exception& error);
@@ -90,18 +110,30 @@ class ComplaintScope {
   std::string* outer_;
 };
 
-/// Standard error if it is a terminal: one line there says what is being done. The line is erased at the end.
+/// What is being done, on standard error: on a terminal one line that is replaced, and erased at the end; in a pipe or
+/// a file at most one line per minute.
 class ProgressLine {
  public:
-  ProgressLine();
+  /// `program`: its name, in front of lines in a pipe. A silent one shows nothing.
+  explicit ProgressLine(std::string program, bool is_silent = false);
 
-  /// Whether anybody sees it.
+  /// Whether a terminal shows it.
   [[nodiscard]] bool is_shown() const noexcept { return terminal_ != nullptr; }
-  /// Replaces the line.
-  void show(const std::string& activity) const;
+  /// Shows an activity.
+  void show(const std::string& activity);
+  /// Shows an activity after so many of all cases, with an estimate of the time that is left.
+  void show(const std::string& activity, std::size_t done, std::size_t all);
 
  private:
+  std::string program_;
+  bool is_silent_;
   std::unique_ptr<std::FILE, void (*)(std::FILE*)> terminal_;  ///< empty where it is no terminal
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point last_line_ = begin_;   ///< in a pipe
+  std::optional<std::size_t> first_done_;  ///< cases that were finished when the first one was shown
 };
+
+/// "40 s", "3 min", "2 h 5 min".
+[[nodiscard]] std::string rounded_duration(double seconds);
 
 }  // namespace dmocbench

@@ -12,6 +12,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "bench/run/case_list.hpp"
+#include "bench/run/findings.hpp"
 #include "bench/run/options.hpp"
 
 namespace dmocbench {
@@ -45,7 +46,9 @@ struct ExperimentCard {
                                       ///< `solve`: --batch is offered
   bool finishes_interrupted = false;  ///< `finish` is called too where a stop was asked for behind the first row
   bool wants_motions = false;         ///< an answer that is no motion (`is_no_motion`) makes the exit code 1 too
-  bool takes_parts = true;            ///< --part is offered: `finish` needs nothing of solves but rows and `indirect`
+  /// `finish` needs nothing of solves but rows and `indirect`: --part is offered, and an interrupted run is resumed.
+  bool takes_parts = true;
+  std::string example = {};  ///< options of a call that `--help` shows; by default a problem and its grids
 };
 
 /// A solve that is to be done.
@@ -67,6 +70,7 @@ struct FurtherOutput {
   std::filesystem::path prefix;                           ///< folder and name of the table
   nlohmann::ordered_json& metadata;                       ///< of the run
   const KeptRows& kept;                                   ///< rows of earlier runs about other problems
+  Findings& findings;                                     ///< what is printed at the end
   std::vector<std::filesystem::path> named_by_user = {};  ///< tables in that folder whose names are the user's
 
   /// Writes one of the card's further files, and to the metadata what its columns mean. Rows of a problem get its
@@ -159,12 +163,16 @@ class ExperimentOf : public Experiment {
   }
 };
 
-/// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it
-/// keeps its row), 2 on bad input or if a file cannot be written (one line on standard error), 130 if interrupted
-/// (finished rows are kept). One part of a run (--part) is 0 as soon as its file is there, which has no rows of an
-/// interrupted one. The table of an earlier run keeps its rows of other problems, libraries and settings; a table with
-/// other columns is refused. Nothing of an earlier run of that name is touched before the first row is there; from then
-/// on until all files are written, the metadata say `"complete": false`. Two runs never write one table at a time.
+/// Runs an experiment from the command line and returns the exit code: 0 if every curve (the rows of one problem,
+/// method, tableau, number of stages, solver and back end) has a usable row; of an experiment that `wants_motions`, if
+/// every row is a motion; else 1. It is 2 on bad input or if a file cannot be written (one line on standard error), 130
+/// if interrupted. One part of a run (--part) is 0 as soon as its file is there, which has no rows of an interrupted
+/// one. The table of an earlier run keeps its rows of other problems, libraries and settings; a table with other
+/// columns is refused. Nothing of an earlier run of that name is touched before the first row is there; from then on
+/// until all files are written, the metadata say `"complete": false`. Two runs never write one table at a time.
+///
+/// An interrupted run keeps its finished rows, and NAME.unfinished next to its table; the same command resumes it if
+/// program, libraries, options and cases are the same (`identity_of`) and --fresh is not given.
 int run_experiment(Experiment&& experiment, int argc, char** argv);
 
 }  // namespace dmocbench

@@ -118,20 +118,14 @@ void require_libraries(const PartFile& part, std::vector<std::string> given) {
   }
 }
 
-/// What starts an experiment: the program of its name beside `merge`, or that one which is all of them.
+/// What starts the experiment that wrote a part.
 std::vector<std::string> program_of(const PartFile& part) {
   const std::string experiment = JsonPlace(part.description, part.path.string()).at("identity").at("experiment").text();
   if (!is_in(experiments, experiment)) {
     throw Error(fmt::format("{} is of \"{}\", and there is no such experiment; remove that part", part.path.string(),
                             experiment));
   }
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
-  if (self.filename() != "merge") return {self.string(), experiment};
-  const std::filesystem::path program = self.parent_path() / experiment;
-  if (::access(program.c_str(), X_OK) != 0) {
-    throw Error(fmt::format("there is no program {}, which wrote the parts; build it", program.string()));
-  }
-  return {program.string()};
+  return start_of_program(experiment);
 }
 
 /// The options with files that `merge` was given.
@@ -162,6 +156,15 @@ void require_name(const std::string& name, const std::filesystem::path& out) {
   throw Error(names.empty() ? fmt::format("--name is missing, and there are no parts in {}", out.string())
                             : fmt::format("--name is missing; in {} there are parts of {}", out.string(),
                                           fmt::join(names, ", ")));
+}
+
+std::vector<std::string> start_of_program(const std::string& name) {
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
+  if (self.filename() != "merge" && self.filename() != "study") return {self.string(), name};
+  const std::filesystem::path program = self.parent_path() / name;
+  if (::access(program.c_str(), X_OK) != 0)
+    throw Error(fmt::format("there is no program {}; build it", program.string()));
+  return {program.string()};
 }
 
 std::vector<std::string> joining_run(const PartFile& part, const JoiningOptions& options) {

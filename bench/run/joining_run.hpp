@@ -23,6 +23,10 @@ struct JoiningOptions {
   std::vector<std::string> passed_on;          ///< "option=value" for a solver
 };
 
+/// The words that start a program of the suite: the one of that name next to this one (merge or study), or this one
+/// where it is all of them. Throws `Error` if it is not there.
+[[nodiscard]] std::vector<std::string> start_of_program(const std::string& name);
+
 /// The command line of the experiment that wrote a part, with its options, but to join the parts and write to `out`.
 /// The program is the one beside this, or this one where it is all experiments. Throws `Error` if the part names no
 /// experiment of this build, has an option that no part has, or needs what `merge` was not given.

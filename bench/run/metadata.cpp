@@ -63,6 +63,8 @@ std::string operating_system() {
 
 }  // namespace
 
+std::string version() { return DMOCBENCH_VERSION; }
+
 std::string compiler() {
 #ifdef __clang__
   return __VERSION__;  // begins with a name
@@ -76,7 +78,7 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
   description["command_line"] = command_line;
   description["utc_time"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(begun));
   description["commit"] = commit();
-  description["dmocbench"] = DMOCBENCH_VERSION;
+  description["dmocbench"] = version();
   description["compiler"] = compiler();
   description["flags"] = DMOCBENCH_FLAGS;
   description["instruction_set"] = std::string(name_of(preferred_instruction_set()));

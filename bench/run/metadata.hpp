@@ -8,6 +8,9 @@
 
 namespace dmocbench {
 
+/// The version of dmocbench.
+[[nodiscard]] std::string version();
+
 /// The compiler of this build, with its version.
 [[nodiscard]] std::string compiler();
 

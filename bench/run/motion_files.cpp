@@ -3,11 +3,14 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/meanings.hpp"
+#include "methods/program/status.hpp"
 #include "methods/tables/motion_file.hpp"
 
 namespace dmocbench {
 
-std::vector<std::string> endings_of_motion_files() { return {"_stages.csv", "_picture.csv", "_nodes.csv"}; }
+std::vector<std::string> endings_of_motion_files() {
+  return {"_stages.csv", "_picture.csv", "_quantities.csv", "_constraints.csv", "_nodes.csv"};
+}
 
 void write_motion(const std::filesystem::path& prefix, const SolvedCase& solved, nlohmann::ordered_json& metadata) {
   const Case& the_case = solved.the_case;
@@ -15,6 +18,9 @@ void write_motion(const std::filesystem::path& prefix, const SolvedCase& solved,
   const std::string file = prefix.string();
   write_table(file + "_stages.csv", stage_table(problem, *solved.trajectory), metadata);
   write_table(file + "_picture.csv", picture_table(problem, *solved.trajectory), metadata);
+  write_table(file + "_quantities.csv", quantity_table(problem), metadata);
+  if (const Table constraints = constraint_table(problem, *solved.trajectory); !constraints.columns().empty())
+    write_table(file + "_constraints.csv", constraints, metadata);
   write_table(file + "_nodes.csv", node_table(problem, *solved.trajectory), metadata);
   metadata["motions"].push_back({{"nodes", std::filesystem::path(file + "_nodes.csv").filename().string()},
                                  {"problem", problem.name()},
@@ -25,6 +31,7 @@ void write_motion(const std::filesystem::path& prefix, const SolvedCase& solved,
                                  {"solver", the_case.solver},
                                  {"answered_by", solved.solution.solver},
                                  {"intervals", the_case.intervals()},
+                                 {"status", name_of(solved.solution.status)},
                                  {"costates_are_estimated", solved.solution.multipliers_are_estimated}});
 }
 

@@ -158,42 +158,48 @@ std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
 }  // namespace
 
 void add_options(CommandLine& line, ExperimentOptions& options) {
+  line.group(group_of_problem);
   line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
+  line.option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
+  line.option("--form", options.form,
+              "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)");
+  line.group("Method");
   line.list("--method", options.methods,
             fmt::format("methods: {}", fmt::join(all_families(), ", ")) +
                 (options.methods.empty() ? fmt::format("; default: {}", fmt::join(paper_families(), ", ")) : ""));
-  line.list("--integrator", options.integrators,
-            "of shooting: rk4, midpoint, dmoc (its own map as a step); default: rk4");
-  line.list("--substeps", options.substeps, "steps of the integrator per interval, of shooting; default: 1");
   line.list("--tableau", options.tableaus, "families of Butcher tableaus");
+  line.list("--stages", options.stages, "numbers of stages s; a tableau takes those that it is offered with");
   line.option("--controls", options.controls,
               "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
               "the tables then call lobatto_shared");
-  line.list("--stages", options.stages, "numbers of stages s; a tableau takes those that it is offered with");
-  line.list("--solver", options.solvers, "solvers, as `list` names them");
-  line.list("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them");
+  line.list("--integrator", options.integrators,
+            "of shooting: rk4, midpoint, dmoc (its own map as a step); default: rk4");
+  line.list("--substeps", options.substeps, "steps of the integrator per interval, of shooting; default: 1");
+  line.group("Grid");
   line.option("--intervals", options.intervals,
               "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed");
   line.option("--grid", options.grid_file,
               "file with relative node times from 0 to 1, one per line; replaces --intervals");
-  line.option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
-  line.option("--form", options.form,
-              "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)");
+  line.group("Start");
   line.option("--start", options.start,
-              "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
-              "X_nodes.csv written by solve");
+              "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a CSV "
+              "file with columns t, q and v_q per configuration, and controls and costates if it has them");
   line.number(
       "--start-seconds", options.start_seconds, 0.0, 1e6,
-      "time to look for the common start of a problem (and tableau), after which its solves start at the guess, "
-      "which their rows say");
+      "time limit for finding the common start of a problem (and tableau); afterwards solves start at the guess");
+  line.group("Solver");
+  line.list("--solver", options.solvers, "solvers, as `list` names them");
+  line.list("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them");
   line.option("--tolerance", options.tolerance, "for the KKT residual of the scaled program");
   line.option("--iterations", options.most_iterations, "largest number of iterations of a solver");
   line.number("--seconds", options.most_seconds, 0.0, 1e6, "time after which a solve has failed; 0: no limit");
   line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
   line.option("--repeats", options.repeats, "solves per row; times are medians");
-  line.option("--out", options.out, "folder for the results");
-  line.option("--name", options.name, "name of the table and the files beside it");
   line.flag("--verbose", options.verbose, "show the solver's own output");
+  line.group(group_of_output);
+  line.option("--out", options.out, "folder for the results");
+  line.option("--name", options.name, "name of the table and of the files next to it");
+  line.flag("--fresh", options.fresh, "solve all cases, also where an interrupted run could be resumed");
 }
 
 void add_jobs_option(CommandLine& line, ExperimentOptions& options) {
@@ -212,6 +218,7 @@ void add_batch_option(CommandLine& line, ExperimentOptions& options) {
 }
 
 void add_part_options(CommandLine& line, ExperimentOptions& options) {
+  line.group("Parts");
   line.option(
       "--part", options.part,
       "i/n: work on the i-th of n parts alone and write OUT/NAME.parts/i-of-n.part, whole or not at all; a part "
@@ -277,9 +284,11 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
 }
 
 void ProblemOptions::add_to(CommandLine& line) {
+  line.group(group_of_problem);
   line.list("--problem", problems, "problems, as `list` names them; all: every one");
   line.option("--set", settings, "parameter=value of a problem, as `list` shows them; may be repeated");
   add_library_option(line, libraries);
+  line.group("Options");
 }
 
 std::vector<std::shared_ptr<const Problem>> ProblemOptions::selected() const {

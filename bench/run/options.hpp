@@ -38,6 +38,7 @@ struct ExperimentOptions {
   bool batch = false;    ///< cases of one program are solved side by side, where an experiment allows it
   int repeats = 1;       ///< solves per row; times are their medians
   bool verbose = false;  ///< shows the solver's own output
+  bool fresh = false;    ///< solves all cases anew where an interrupted run would be resumed
   std::filesystem::path out = "results";  ///< folder for results
   std::string name = {};                  ///< of the table and the files beside it
   std::string part = {};                  ///< "i/n": solve the i-th of n parts of the cases; empty: all

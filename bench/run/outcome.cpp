@@ -1,12 +1,15 @@
 #include "bench/run/outcome.hpp"
 
+#include <algorithm>
 #include <map>
+#include <ranges>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/solve_case.hpp"
 #include "methods/program/status.hpp"
 
 namespace dmocbench {
@@ -30,7 +33,13 @@ Outcome outcome_of(const Table& table) {
   Outcome outcome;
   std::map<std::string, std::ptrdiff_t> coarse;
   std::map<std::string, std::ptrdiff_t> violating;
+  std::map<std::vector<std::string>, bool> is_usable_curve;
   for (const Row& row : table.rows()) {
+    std::vector<std::string> curve;
+    for (const char* const column :
+         {"problem", "library", "settings", "method", "tableau", "stages", "solver", "derivatives"})
+      curve.push_back(row.text(column));
+    is_usable_curve[curve] |= is_usable(row);
     const std::string& status = row.text("status");
     if (status == name_of(Status::too_coarse)) {
       ++outcome.too_coarse;
@@ -43,6 +52,7 @@ Outcome outcome_of(const Table& table) {
     }
     if (row.text("branch") == "other") ++outcome.other_branch;
   }
+  outcome.unusable_curves = std::ranges::count(is_usable_curve | std::views::values, false);
   outcome.no_motions_by_method =
       counted_by_method(Status::too_coarse, coarse) + counted_by_method(Status::violates_between_stages, violating);
   return outcome;

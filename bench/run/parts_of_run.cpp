@@ -28,12 +28,20 @@ std::vector<SharedBy> respects_of(const Experiment& experiment) {
   const auto scheme = [](const Case& c) { return fmt::format("{} {} {}", c.problem->name(), c.tableau, c.stages); };
   const ExperimentCard& card = experiment.card();
   std::vector<SharedBy> respects{[](const Case& the_case) { return the_case.shares; }};
-  const std::string& start = card.options.start;
-  if (start == "common" || (start == "guess" && card.branches == BranchesTold::of_any_start))
-    respects.emplace_back(scheme);
   if (card.takes_turns) {
     respects.emplace_back([scheme](const Case& c) { return fmt::format("{} {}", scheme(c), c.intervals()); });
   }
+  return respects;
+}
+
+/// The same where the common start of a scheme is to be found once.
+std::vector<SharedBy> respects_of_parts(const Experiment& experiment) {
+  const auto scheme = [](const Case& c) { return fmt::format("{} {} {}", c.problem->name(), c.tableau, c.stages); };
+  const ExperimentCard& card = experiment.card();
+  std::vector<SharedBy> respects = respects_of(experiment);
+  const std::string& start = card.options.start;
+  if (start == "common" || (start == "guess" && card.branches == BranchesTold::of_any_start))
+    respects.emplace_back(scheme);
   return respects;
 }
 
@@ -99,11 +107,10 @@ PartsOfRun::PartsOfRun(Experiment& experiment, const std::vector<Case>& cases, c
   const ExperimentOptions& chosen = experiment.options();
   if (!chosen.part.empty()) part_ = parse_part("--part", chosen.part);
   if (!chosen.missing_parts.empty()) asked_for_ = parse_part("--missing-parts", "1/" + chosen.missing_parts).of;
-  const bool is_of_parts = part_ || asked_for_ > 0 || !chosen.join.empty();
-  if (is_of_parts) identity_ = identity_of(experiment.card(), cases, metadata, options);
+  if (experiment.card().takes_parts) identity_ = identity_of(experiment.card(), cases, metadata, options);
 }
 
-std::vector<std::size_t> PartsOfRun::groups() const { return groups_of(cases_, respects_of(experiment_)); }
+std::vector<std::size_t> PartsOfRun::groups() const { return groups_of(cases_, respects_of_parts(experiment_)); }
 
 std::vector<bool> PartsOfRun::own_cases() const {
   std::vector<bool> own(cases_.size(), true);
@@ -130,6 +137,40 @@ bool PartsOfRun::is_there(const Part& part) const {
 }
 
 void PartsOfRun::write(const RowsOfCases& rows, const Json& metadata) const {
+  write_part(file_with(file(), part_.value_or(Part()), rows, metadata));
+}
+
+void PartsOfRun::save(const std::filesystem::path& file, const RowsOfCases& rows, const Json& metadata) const {
+  write_part(file_with(file, Part(), rows, metadata));
+}
+
+RowsOfCases PartsOfRun::resume(const std::filesystem::path& file) const {
+  RowsOfCases rows(cases_.size());
+  std::error_code none;  // what is not there is no run to resume
+  if (!std::filesystem::is_regular_file(file, none)) return rows;
+  try {
+    const PartFile part = read_part(file);
+    if (part.description.at("identity") != identity_) return rows;
+    take_rows(part, rows);
+    if (experiment_.indirect() != nullptr)
+      experiment_.indirect()->add_findings(JsonPlace(part.description, file.string()).at("findings"));
+  } catch (const Error&) {
+    return RowsOfCases(cases_.size());  // damaged
+  }
+  const auto is_finished = [](const std::optional<Row>& row) {
+    return row && row->text("status") != name_of(Status::interrupted);
+  };
+  const std::vector<std::size_t> groups = groups_of(cases_, respects_of(experiment_));
+  std::vector<bool> is_whole(cases_.size(), true);  // by the first case of a group
+  for (std::size_t i = 0; i < rows.size(); ++i) is_whole[groups[i]] = is_whole[groups[i]] && is_finished(rows[i]);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!is_whole[groups[i]]) rows[i].reset();
+  }
+  return rows;
+}
+
+PartFile PartsOfRun::file_with(const std::filesystem::path& path, const Part& part, const RowsOfCases& rows,
+                               const Json& metadata) const {
   Table table(columns_of_part());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::optional<Row>& measured = rows[i];
@@ -138,7 +179,7 @@ void PartsOfRun::write(const RowsOfCases& rows, const Json& metadata) const {
     row.set(case_column, i + 1);
     table.append(std::move(row));
   }
-  const Json description{{"part", part_.value_or(Part()).in_words()},
+  const Json description{{"part", part.in_words()},
                          {"commit", metadata.at("commit")},
                          {"identity", identity_},
                          {"rows", table.rows().size()},
@@ -146,7 +187,7 @@ void PartsOfRun::write(const RowsOfCases& rows, const Json& metadata) const {
                          {"utc_time", metadata.at("utc_time")},
                          {"machine", machine_of(metadata)},
                          {"findings", experiment_.indirect() ? experiment_.indirect()->findings() : Json()}};
-  write_part({.path = file(), .description = description, .table = table.csv()});
+  return {.path = path, .description = description, .table = table.csv()};
 }
 
 std::vector<std::size_t> PartsOfRun::missing() const {

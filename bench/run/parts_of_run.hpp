@@ -15,7 +15,8 @@ namespace dmocbench {
 /// The cases of a run by number; a row for each that is solved.
 using RowsOfCases = std::vector<std::optional<Row>>;
 
-/// A run whose cases are dealt out to parts: what each of them works on, writes and is joined from.
+/// A run whose cases are dealt out to parts: what each of them works on, writes and is joined from. An unfinished run
+/// is kept as a part, too.
 class PartsOfRun {
  public:
   /// `options`: names and values of the command line; `columns`: names of those of the table. Throws `Error` if
@@ -44,12 +45,21 @@ class PartsOfRun {
   /// another run, or has what no run writes.
   [[nodiscard]] RowsOfCases join(nlohmann::ordered_json& metadata) const;
 
+  /// Writes the rows that an unfinished run has so far to a file, from which `resume` takes them. Throws `Error` if it
+  /// cannot be written.
+  void save(const std::filesystem::path& file, const RowsOfCases& rows, const nlohmann::ordered_json& metadata) const;
+  /// The rows of an unfinished run of this very identity in a file. Cases that need something of a case without a row,
+  /// or were interrupted, have none. No rows at all if there is no such file, or it is damaged or of another run.
+  [[nodiscard]] RowsOfCases resume(const std::filesystem::path& file) const;
+
  private:
   [[nodiscard]] std::filesystem::path file_of(const Part& part) const;
   [[nodiscard]] bool is_there(const Part& part) const;
   /// The number of the case, then the columns of the table.
   [[nodiscard]] std::vector<std::string> columns_of_part() const;
   void take_rows(const PartFile& file, RowsOfCases& rows) const;
+  [[nodiscard]] PartFile file_with(const std::filesystem::path& path, const Part& part, const RowsOfCases& rows,
+                                   const nlohmann::ordered_json& metadata) const;
 
   Experiment& experiment_;
   const std::vector<Case>& cases_;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/advice.hpp"
 #include "bench/run/case_batch.hpp"
 #include "bench/run/case_list.hpp"
 #include "bench/run/command_line.hpp"
@@ -21,6 +22,7 @@
 #include "bench/run/result_file.hpp"
 #include "bench/run/start_provider.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/clock.hpp"
 #include "methods/runtime/counted.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/tables/motion_file.hpp"
@@ -59,9 +61,10 @@ bool has_instances(const std::vector<Case>& cases) {
 /// One run of an experiment: its cases, its table, its files.
 class Run {
  public:
-  Run(Experiment& experiment, const std::vector<std::string>& command_line,
+  Run(Experiment& experiment, Findings& findings, const std::vector<std::string>& command_line,
       const std::vector<std::pair<std::string, std::string>>& values)
       : experiment_(experiment),
+        findings_(findings),
         options_(experiment.options()),
         solver_options_(solver_options(options_)),
         cases_(cases_of(experiment)),
@@ -77,12 +80,15 @@ class Run {
         rows_(cases_.size()),
         metadata_(describe_run(command_line)),
         parts_(experiment, cases_, metadata_, values, names_),
-        prefix_(parts_.is_one() ? parts_.file() : options_.out / options_.name) {
+        prefix_(parts_.is_one() ? parts_.file() : options_.out / options_.name),
+        progress_(experiment.card().name, findings.are_quiet()) {
     starts_.check(cases_);
     is_own_ = parts_.own_cases();
+    shown_cases_ = static_cast<std::size_t>(own_cases());
     starts_.on_progress = [this](const std::string& activity) { show(activity); };
     starts_.on_long_search = [this](const std::string& sentence) {
-      if (!progress_.is_shown()) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
+      if (!progress_.is_shown() && !findings_.are_quiet())
+        fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
     };
     metadata_["start"] = options_.start;
     if (options_.tolerances.empty()) metadata_["tolerance"] = options_.tolerance;
@@ -90,6 +96,10 @@ class Run {
     for (const Case& the_case : cases_) {
       nlohmann::ordered_json& scale = metadata_["cost_scale"][the_case.problem->name()];
       if (scale.is_null()) scale = the_case.problem->cost_scale();
+      const ProblemCard card = the_case.problem->card();
+      if (card.configuration_units.empty() && card.control_units.empty()) continue;
+      metadata_["units"][the_case.problem->name()] = {{"configurations", card.configuration_units},
+                                                      {"controls", card.control_units}};
     }
     const NamedOptions named = named_options(options_);
     for (const std::string& solver : options_.solvers) static_cast<void>(make_solver(solver, solver_options_, named));
@@ -104,6 +114,7 @@ class Run {
     require_writable(table_file());
     read_kept_rows();
     if (options_.join.empty()) {
+      resume();
       solve_all();
     } else {
       rows_ = parts_.join(metadata_);
@@ -112,7 +123,7 @@ class Run {
     const bool complete = !interrupt_requested();
     Table own = own_rows();
     if (own.rows().empty()) throw_if_interrupted();
-    FurtherOutput output{.prefix = prefix_, .metadata = metadata_, .kept = kept_};
+    FurtherOutput output{.prefix = prefix_, .metadata = metadata_, .kept = kept_, .findings = findings_};
     if (complete || experiment_.card().finishes_interrupted) experiment_.finish(own, output);
     const Table table = kept_.joined(table_file(), own);
     if (!own.rows().empty()) write_file(table_file(), table.csv());
@@ -124,22 +135,81 @@ class Run {
     describe_tables_of_run(files, table_of(columns_, {}), metadata_);
     kept_.describe_files(names_of_files(files), metadata_);
     write_metadata(prefix_.string() + ".json", metadata_);
-    return report(outcome_of(own), own.rows().size(), complete);
+    end_unfinished(complete);
+    return report(own, complete);
   }
 
  private:
   /// Prints how the run ended; returns the exit code.
-  [[nodiscard]] int report(const Outcome& outcome, std::size_t rows, bool complete) const {
+  [[nodiscard]] int report(const Table& own, bool complete) const {
+    const Outcome outcome = outcome_of(own);
+    const bool lacks_motion = outcome.failures + outcome.too_coarse + outcome.violating > 0;
+    const bool has_failed = experiment_.card().wants_motions ? lacks_motion : outcome.unusable_curves > 0;
+    const int code = !complete ? 130 : has_failed ? 1 : 0;
+    if (findings_.are_for_people()) print_end(outcome, own, complete);
+    nlohmann::ordered_json end{{"experiment", experiment_.card().name},
+                               {"exit_code", code},
+                               {"complete", complete},
+                               {"rows", own.rows().size()}};
+    describe(outcome, end);
+    end["file"] = table_file().string();
+    findings_.end(end);
+    return code;
+  }
+
+  void print_end(const Outcome& outcome, const Table& own, bool complete) const {
+    const std::string& name = experiment_.card().name;
     const std::size_t kept = kept_.count(table_file());
     print_line(fmt::format(
-        "{}: {}{}, {} not solved, {} on another branch{}: {}{}", experiment_.card().name,
+        "{}: {}{}, {} not solved, {} on another branch{}: {}{}", name,
         complete ? "" : fmt::format("interrupted before {} complete: ", counted(cases_.size(), "row was", "rows were")),
-        counted(rows, "row"), outcome.failures, outcome.other_branch, outcome.no_motions_by_method,
+        counted(own.rows().size(), "row"), outcome.failures, outcome.other_branch, outcome.no_motions_by_method,
         table_file().string(),
         kept == 0 ? "" : fmt::format(" (and {} of other problems or settings)", counted(kept, "earlier row"))));
-    if (!complete) return 130;
-    const bool lacks_motion = experiment_.card().wants_motions && outcome.too_coarse + outcome.violating > 0;
-    return outcome.failures > 0 || lacks_motion ? 1 : 0;
+    if (!complete && experiment_.card().takes_parts) print_line(name + ": the same command resumes it");
+    // The first one; the others stand in their rows.
+    for (const Row& row : own.rows()) {
+      const std::size_t advice = row.text("message").rfind("Try ");
+      if (is_failure(row) && advice != std::string::npos) {
+        return print_line(fmt::format("{}: {} {} N = {}: {}", name, row.text("problem"), row.text("method"),
+                                      row.text("intervals"), row.text("message").substr(advice)));
+      }
+    }
+  }
+
+  [[nodiscard]] static bool is_failure(const Row& row) {
+    const Status status = status_named(row.text("status"));
+    return !is_solved(status) && !is_no_motion(status);
+  }
+
+  [[nodiscard]] std::filesystem::path unfinished_file() const { return prefix_.string() + ".unfinished"; }
+
+  /// Takes over the rows of an interrupted run of the same identity.
+  void resume() {
+    if (!experiment_.card().takes_parts || options_.fresh) return;
+    rows_ = parts_.resume(unfinished_file());
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (!rows_[i]) continue;
+      is_own_[i] = false;
+      ++resumed_;
+    }
+    if (resumed_ == 0) return;
+    shown_cases_ = static_cast<std::size_t>(own_cases());
+    metadata_["resumed_rows"] = resumed_;
+    if (findings_.are_for_people())
+      print_line(fmt::format("{}: resumes an interrupted run, which has {} of {} rows; --fresh solves all of them",
+                             experiment_.card().name, resumed_, cases_.size()));
+  }
+
+  void save_unfinished() {
+    last_saved_ = Clock::now();
+    if (experiment_.card().takes_parts) parts_.save(unfinished_file(), rows_, metadata_);
+  }
+
+  void end_unfinished(bool complete) {
+    if (!complete) return save_unfinished();
+    std::error_code none;  // it need not be there
+    std::filesystem::remove(unfinished_file(), none);
   }
 
   /// What stays of earlier runs in the tables that this one writes.
@@ -236,9 +306,7 @@ class Run {
     return table;
   }
 
-  void show(const std::string& activity) const {
-    progress_.show(fmt::format("[{}/{}] {}", done_ + 1, own_cases(), activity));
-  }
+  void show(const std::string& activity) { progress_.show(activity, done_, shown_cases_); }
 
   void solve_span(std::size_t first, std::size_t end) {
     if (options_.batch && options_.repeats == 1 && options_.passed_on.empty()) solve_batches(first, end);
@@ -272,7 +340,9 @@ class Run {
       const std::size_t position = i == 0 ? solved_first : i - (i <= solved_first ? 1 : 0);
       if (!is_own_[first + position] || rows_[first + position]) continue;
       SolvedCase solved = solve(first + position, options_.repeats);
-      if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // it was not solved to its end
+      // It was not solved to its end; a motion keeps its last iterate.
+      const bool is_cut = interrupt_requested() && !is_solved(solved.solution.status);
+      if (is_cut && !experiment_.card().wants_motions) return;
       keep(completed(solved), first + position);
     }
   }
@@ -318,6 +388,7 @@ class Run {
     } catch (const std::exception& error) {
       solved.note(fmt::format("What is measured of the answer is missing: {}.", sentence_of(error)));
     }
+    if (const std::string advice = next_to_try(solved, options_.start); !advice.empty()) solved.note(advice);
     return row_of(columns_, measured);
   }
 
@@ -365,6 +436,8 @@ class Run {
       if (!is_child()) replace_earlier_files();
       write_file(table_file(), kept_.joined(table_file(), own_rows()).csv());
     }
+    constexpr double seconds_between_saves = 20.0;
+    if (!is_child() && seconds_since(last_saved_) > seconds_between_saves) save_unfinished();
   }
 
   /// A process per problem, of batches per program; its rows come back in a file.
@@ -380,6 +453,12 @@ class Run {
       table_of_child_ = files[i];
       has_file_ = true;
       rows_.assign(cases_.size(), std::nullopt);  // those of other problems are the parent's
+      // In a pipe one of all processes reports.
+      progress_ = ProgressLine(experiment_.card().name, findings_.are_quiet() || (i > 0 && !progress_.is_shown()));
+      done_ = 0;
+      const auto first = is_own_.begin() + static_cast<std::ptrdiff_t>(spans[i].first);
+      const auto end = is_own_.begin() + static_cast<std::ptrdiff_t>(spans[i].end);
+      shown_cases_ = static_cast<std::size_t>(std::count(first, end, true));
       write_file(files[i], Table(names_).csv());
       solve_span(spans[i].first, spans[i].end);
       write_file(files[i], own_rows().csv());
@@ -398,13 +477,14 @@ class Run {
         while (number < spans[i].end && !is_own_[number]) ++number;
         if (number == spans[i].end) throw Error("a process wrote more rows than it had cases");
         keep(row, number++);
-        show(row.text("problem"));
+        if (progress_.is_shown()) show(row.text("problem"));
       }
     };
     for_each_in_processes(spans.size(), static_cast<std::size_t>(options_.jobs), work, collect);
   }
 
   Experiment& experiment_;
+  Findings& findings_;
   const ExperimentOptions& options_;
   SolverOptions solver_options_;
   std::vector<Case> cases_;
@@ -420,9 +500,12 @@ class Run {
   std::filesystem::path prefix_;          ///< of the files: folder and name of the table, or the file of a part
   std::filesystem::path table_of_child_;  ///< of a process that works for another; empty in that one
   ProgressLine progress_;
-  std::size_t done_ = 0;          ///< cases
-  std::size_t first_solved_ = 0;  ///< the case that the whole run begins with
-  bool has_file_ = false;         ///< a row has been written to the table's file
+  Clock::time_point last_saved_ = Clock::now();  ///< the unfinished run
+  std::size_t resumed_ = 0;                      ///< rows taken over from an interrupted run
+  std::size_t done_ = 0;                         ///< cases
+  std::size_t shown_cases_ = 0;                  ///< that progress counts: those of this process
+  std::size_t first_solved_ = 0;                 ///< the case that the whole run begins with
+  bool has_file_ = false;                        ///< a row has been written to the table's file
 };
 
 }  // namespace
@@ -431,14 +514,24 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
   const ExperimentCard& card = experiment.card();
   return run_program(card.name, card.description, argc, argv, [&](CommandLine& line) {
     line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(columns_of(card, experiment.own_columns()))));
+    const ExperimentOptions& defaults = card.options;
+    line.example(!card.example.empty()
+                     ? card.example
+                     : fmt::format("--problem {} --intervals {}", defaults.problems.front(), defaults.intervals));
+    line.exit_code_1(card.wants_motions ? "a row is not solved, or is no motion"
+                                        : "a curve has no usable row (its rows have the reasons)");
     add_options(line, experiment.options());
+    Findings findings;
+    findings.add_to(line);
+    line.group("Work");
     if (card.problems_are_independent) add_jobs_option(line, experiment.options());
     if (card.compares_tolerances) add_tolerances_option(line, experiment.options());
     if (card.takes_batches) add_batch_option(line, experiment.options());
-    if (card.takes_parts) add_part_options(line, experiment.options());
+    line.group("Of this experiment");
     experiment.add_options(line);
+    if (card.takes_parts) add_part_options(line, experiment.options());
     const std::vector<std::string> command_line = parse_with_libraries(line);
-    return Run(experiment, command_line, line.values()).run();
+    return Run(experiment, findings, command_line, line.values()).run();
   });
 }
 

@@ -19,8 +19,8 @@ using Json = nlohmann::ordered_json;
 
 /// Options that change no row but by its times, and where libraries of problems are: what they hold is compared.
 bool is_about_the_machine(const std::string& option) {
-  constexpr std::array names{"--help", "--out",           "--name", "--jobs",   "--verbose",
-                             "--part", "--missing-parts", "--join", "--library"};
+  constexpr std::array names{"--help", "--out",     "--name",  "--jobs",  "--verbose", "--part",   "--missing-parts",
+                             "--join", "--library", "--fresh", "--quiet", "--json",    "--version"};
   return std::ranges::find(names, option) != names.end();
 }
 
@@ -76,7 +76,9 @@ Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, con
     if (!is_about_the_machine(name)) identity["options"][name] = value;
   }
   const std::string& start = card.options.start;
-  if (start != "common" && start != "guess") identity["start"] = fmt::format("{:08x}", crc_32(read_file(start)));
+  std::error_code none;  // a start that is no file is refused where it is read
+  if (start != "common" && start != "guess" && std::filesystem::is_regular_file(start, none))
+    identity["start"] = fmt::format("{:08x}", crc_32(read_file(start)));
   identity["cases"] = cases.size();
   identity["checksum_of_cases"] = checksum_of(cases);
   return identity;

@@ -13,7 +13,7 @@ namespace dmocbench {
 
 /// What two parts must have in common to be parts of the same run: program, compiler, instruction set, libraries
 /// (those of problems by name and checksum), parameters of the problems, options (except those that say where and how
-/// fast: --out, --name, --jobs, --library, --verbose, and those of parts), the cases, and the file that solves start
+/// fast: --out, --name, --jobs, --library, --verbose and the like), the cases, and the file that solves start
 /// from. `metadata` describes the run (`describe_run`), `options` are names and values of the command line.
 [[nodiscard]] nlohmann::ordered_json identity_of(const ExperimentCard& card, const std::vector<Case>& cases,
                                                  const nlohmann::ordered_json& metadata,

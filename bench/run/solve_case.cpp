@@ -165,17 +165,10 @@ void judge_in_time(SolvedCase& solved, const Trajectory& motion, const TimeOfCas
   }
 }
 
-/// Tells who gave the answer where that was left open, and who may give one where there is none.
+/// Names the solver of the answer where that was left open.
 void note_solver(SolvedCase& solved) {
-  const std::string& asked = solved.the_case.solver;
-  const std::string& answered = solved.solution.solver;
-  if (asked == "auto" && answered == "ipopt")
-    solved.note("interior_point failed; this is what ipopt made of its point.");
-  const Status status = solved.solution.status;
-  const bool has_failed = status == Status::step_failed || status == Status::iteration_limit ||
-                          status == Status::evaluation_failed || status == Status::not_confirmed ||
-                          status == Status::diverged;
-  if (asked == "interior_point" && has_failed) solved.note("--solver auto goes on from here with ipopt.");
+  if (solved.the_case.solver == "auto" && solved.solution.solver == "ipopt")
+    solved.note("interior_point failed; ipopt continued from its last point.");
 }
 
 /// Says on which branch the answer is, and why it did not begin at the start that was asked for.
@@ -392,7 +385,14 @@ IndependentChecks check_independently(SolvedCase& solved) {
     solved.solution.status = Status::evaluation_failed;
     solved.solution.message = undefined->words();
   }
-  IndependentChecks checks{.replay = replay(solved), .violation_between_nodes = {}, .free_horizon_residual = {}};
+  IndependentChecks checks{
+      .replay = replay(solved), .violation_between_nodes = {}, .free_horizon_residual = {}, .interval_cost = {}};
+  try {
+    checks.interval_cost = cost_by_intervals(problem, trajectory);
+  } catch (const Stopped&) {
+    note_stop(solved, "The cost of its intervals is missing");
+  } catch (const Error&) {  // an interval cannot be replayed: the motion is judged by its jumps
+  }
   if (!solved.between_stages) {
     solved.between_stages = violation_between_stages(problem, solved.program->traced_problem(), trajectory);
   }

@@ -114,6 +114,7 @@ struct IndependentChecks {
   std::optional<ReplayError> replay;              ///< the controls integrated on the continuous equations
   std::optional<double> violation_between_nodes;  ///< of bounds and path constraints where no point imposes them
   std::optional<double> free_horizon_residual;    ///< what is left of the condition on T; none for a fixed horizon
+  std::optional<double> interval_cost;            ///< of the motion whose intervals are replayed one by one
 };
 
 /// An answer that many starts may end at, with all that is found out of it.

@@ -127,6 +127,9 @@ Columns<IndependentChecks> check_columns() {
   using Checks = IndependentChecks;
   return {replay_error_column(&Checks::replay),
           {"replay_cost", "cost", "cost of the replayed motion", from(&Checks::replay, &ReplayError::cost)},
+          {"interval_cost", "cost",
+           "cost of the motion when every interval is replayed alone; the grid makes it differ from the objective",
+           &Checks::interval_cost},
           {"violation_between_nodes", "", "of bounds and path constraints, where no point imposes them",
            &Checks::violation_between_nodes},
           {"free_horizon_residual", "", "what is left of the condition on T; empty for a fixed horizon",

@@ -56,6 +56,8 @@ std::string origin_in(const nlohmann::json& metadata, const std::string& nodes) 
     if (!metadata.is_object() || !metadata.contains("motions")) return {};
     for (const auto& motion : metadata["motions"]) {
       if (motion.at("nodes") != nodes) continue;
+      // The last iterate of a solve that failed may be continued by the same solve.
+      if (!is_solved(status_named(motion.value("status", std::string(name_of(Status::solved)))))) return {};
       return identity_of(motion.at("problem"), motion.value("settings", std::string()), motion.at("method"),
                          motion.at("tableau"), motion.at("stages"), motion.at("intervals"));
     }
@@ -88,7 +90,9 @@ std::string origin_of(const std::filesystem::path& nodes_file, const MotionTexts
     try {
       const std::string source = file.filename().string();
       require_as_written(metadata, source, nodes, texts.nodes);
-      require_as_written(metadata, source, stages_file_of(nodes_file).filename().string(), texts.stages);
+      if (!texts.stages.empty()) {
+        require_as_written(metadata, source, stages_file_of(nodes_file).filename().string(), texts.stages);
+      }
     } catch (const Error& error) {
       throw Error(fmt::format("{}; run it again, or give a motion of your own another name", error.what()));
     }
@@ -243,8 +247,10 @@ class StartProvider::Search {
     for (const char* solver : {"interior_point", "ipopt"}) {
       if (must_stop()) break;
       if (provider_.on_progress) {
-        provider_.on_progress(fmt::format("{} {} {}: common start, {} on {} intervals by {}", case_.problem->name(),
-                                          case_.tableau, case_.stages, method, intervals, solver));
+        const double left = std::max(0.0, provider_.rules_.most_seconds - seconds_since(begin_));
+        provider_.on_progress(fmt::format("{} {} {}: common start, {} on {} intervals by {}, at most {:.0f} s more",
+                                          case_.problem->name(), case_.tableau, case_.stages, method, intervals, solver,
+                                          left));
       }
       Solution solution = make_solver(solver, options_)->solve(*program, sample(*program, start));
       settle(*program, options_.tolerance, solution);
@@ -280,6 +286,9 @@ void StartProvider::check(const std::vector<Case>& cases) {
 const Trajectory& StartProvider::motion_in_file(const Problem& problem) {
   if (const auto known = files_.find(problem.name()); known != files_.end()) return known->second;
   if (!texts_) {
+    std::error_code none;  // what cannot be looked up is not there
+    if (!std::filesystem::exists(rules_.start, none))
+      throw Error(fmt::format("--start {} is neither common nor guess nor a file", rules_.start));
     texts_ = read_motion_texts(rules_.start);
     origin_ = origin_of(rules_.start, *texts_);
   }

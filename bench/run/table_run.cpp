@@ -15,8 +15,10 @@ namespace dmocbench {
 
 namespace {
 
-std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out) {
+std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, Findings& findings) {
+  line.group(group_of_output);
   line.option("--out", out, "folder for the results");
+  findings.add_to(line);
   std::vector<std::string> command_line = line.parse();
   listen_for_interrupt();  // what the folder is made of goes when the run ends
   return command_line;
@@ -46,9 +48,10 @@ void write_tables(const std::vector<TableFile>& tables, const std::filesystem::p
 
 TableRun::TableRun(std::string name, CommandLine& line)
     : name_(std::move(name)),
-      command_line_(parse(line, out_)),
+      command_line_(parse(line, out_, findings_)),
       folder_(out_),
       lock_(out_ / name_),
+      progress_(name_, findings_.are_quiet()),
       scope_(interrupt_requested, 0.0) {
   require_writable(out_ / (name_ + ".json"));
 }
@@ -87,10 +90,19 @@ int TableRun::write() const {
   KeptRows kept(out_ / name_, std::move(own));
   for (const TableFile& table : tables_) kept.read(table.file);
   write_tables(tables_, out_ / (name_ + ".json"), command_line_, kept);
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  constexpr std::size_t few_tables = 4;
+  const bool has_many = tables_.size() > few_tables;
+  if (has_many && findings_.are_for_people())
+    print_line(fmt::format("{}: {} tables: {}*.csv", name_, tables_.size(), (out_ / name_).string()));
   for (std::size_t i = 0; i < tables_.size(); ++i) {
-    print_line(fmt::format("{}: {}: {}", name_, rows_of_tables_[i], tables_[i].file.string()));
+    files.push_back(tables_[i].file.string());
+    if (!has_many && findings_.are_for_people())
+      print_line(fmt::format("{}: {}: {}", name_, rows_of_tables_[i], tables_[i].file.string()));
   }
-  return not_measured_ > 0 ? 1 : 0;
+  const int code = not_measured_ > 0 ? 1 : 0;
+  findings_.end({{"experiment", name_}, {"exit_code", code}, {"not_measured", not_measured_}, {"files", files}});
+  return code;
 }
 
 }  // namespace dmocbench

@@ -12,6 +12,7 @@
 
 #include "bench/run/column.hpp"
 #include "bench/run/command_line.hpp"
+#include "bench/run/findings.hpp"
 #include "bench/run/kept_rows.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/result_file.hpp"
@@ -38,8 +39,9 @@ void write_tables(const std::vector<TableFile>& tables, const std::filesystem::p
 /// As long as it exists, an interrupt ends what this thread computes (`StopScope`).
 class TableRun {
  public:
-  /// Adds the option `--out`, reads the command line and takes the results `name` of that folder, so that no other run
-  /// writes them meanwhile. Throws `Error` on bad input, or if nothing can be written there.
+  /// Adds the options `--out`, `--quiet` and `--json`, reads the command line and takes the results `name` of that
+  /// folder, so that no other run writes them meanwhile. Throws `Error` on bad input, or if nothing can be written
+  /// there.
   TableRun(std::string name, CommandLine& line);
 
   /// Options for solvers, which stop if the run is to stop.
@@ -49,6 +51,8 @@ class TableRun {
   [[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected(const ProblemOptions& asked);
   /// Says on a terminal what is being measured. Throws `Interrupted` if the run is to stop.
   void show(const std::string& activity) const;
+  /// What is printed when the run ends.
+  [[nodiscard]] Findings& findings() noexcept { return findings_; }
   /// Adds the table of a file, named without folder and ending. `not_measured`: rows that say why they lack a number.
   void add(const std::string& file, const Table& table, std::ptrdiff_t not_measured = 0);
   /// The same with what its columns mean, for the metadata.
@@ -65,10 +69,11 @@ class TableRun {
  private:
   std::string name_;
   std::filesystem::path out_ = "results";
+  Findings findings_;
   std::vector<std::string> command_line_;
   OutputFolder folder_;
   ResultLock lock_;
-  ProgressLine progress_;
+  mutable ProgressLine progress_;
   StopScope scope_;
   std::set<Statement> statements_;
   std::vector<TableFile> tables_;

@@ -20,15 +20,24 @@ namespace {
 /// Rows that agree in these are compared: they differ in method and start only.
 const ColumnNames group_columns{"problem", "tableau", "stages", "solver", "derivatives", "intervals"};
 
+/// The part of a cost that the grid makes: how far it is from the cost of the same motion, interval by interval.
+double grid_error(const Row& row) {
+  const double objective = row.number("objective", 0.0);
+  return std::abs(row.number("interval_cost", objective) - objective);
+}
+
 /// The minima that some solves ended in, each with its rows, the lowest cost first.
 std::vector<Selection> minima_of(const Selection& rows, double separation) {
   std::vector<Selection> minima;
   double lowest = 0.0;
+  double error_of_lowest = 0.0;
   for (const Row& row : rows.where(has_solved_status).sorted_by("objective")) {
     const double objective = row.number("objective", 0.0);
-    if (minima.empty() || objective - lowest > separation * std::abs(lowest)) {
+    const double errors = error_of_lowest + grid_error(row);
+    if (minima.empty() || objective - lowest > separation * std::abs(lowest) + errors) {
       minima.emplace_back();
       lowest = objective;
+      error_of_lowest = grid_error(row);
     }
     minima.back().append(row);
   }

@@ -119,7 +119,9 @@ ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, d
   return {.configuration = (q - last.q).norm(),
           .velocity = (v - last.v).norm(),
           .first_order = (y - last.y).norm(),
-          .cost = state.back() + final_cost(problem, {q, v, y}, trajectory.node_times[intervals])};
+          .cost = state.back() + final_cost(problem, {q, v, y}, trajectory.node_times[intervals]),
+          .q = q - last.q,
+          .v = v - last.v};
 }
 
 double cost_by_intervals(const Problem& problem, const Trajectory& trajectory, double tolerance) {

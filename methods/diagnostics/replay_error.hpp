@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "methods/mechanics/problem.hpp"
 #include "methods/transcription/motions/trajectory.hpp"
 
@@ -12,6 +14,8 @@ struct ReplayError {
   double velocity = 0.0;       ///< |v(T) - v^T|
   double first_order = 0.0;    ///< |y(T) - y^T|
   double cost = 0.0;           ///< the cost of the replayed motion, integrated along with it
+  Eigen::VectorXd q = {};      ///< q(T) - q^T, entry by entry: each has its own unit
+  Eigen::VectorXd v = {};      ///< v(T) - v^T
   /// Configuration, velocity and first-order states together, Euclidean norm.
   [[nodiscard]] double norm() const;
 };

@@ -60,6 +60,21 @@ TEST(DistinctMinima, AreTheClustersOfTheObjectivesAndTheBestIsTheLowestThatIsAMo
   expect(2, 90.0, "no", "yes", "yes", 1.0, 0.0);
 }
 
+TEST(DistinctMinima, OfSeveralMethodsAreNoneWhereTheirGridErrorsExplainTheDifference) {
+  const auto minima_with = [](double interval_cost) {
+    Table table({"problem"});
+    table.append(answer("dmoc", 80.0, 0.01, 0.01));
+    Row tangent = answer("tangent", 78.0, 0.01, 0.01);
+    tangent.set("interval_cost", interval_cost);
+    table.append(std::move(tangent));
+    return distinct_minima(table, 0.01);
+  };
+  EXPECT_EQ(minima_with(78.1).rows().size(), 2U);
+  const Table same = minima_with(79.9);
+  ASSERT_EQ(same.rows().size(), 1U);
+  EXPECT_EQ(same.rows()[0].text("is_best"), "yes");
+}
+
 TEST(BestMinimumShares, CountEveryStartOfAMethodSolvedOrNot) {
   const Table shares = best_minimum_shares(answers(), 0.01);
   ASSERT_EQ(shares.rows().size(), 2U);

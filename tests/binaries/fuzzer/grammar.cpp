@@ -148,7 +148,7 @@ Values read_names(const std::string& text) {
 Program read_program(const fs::path& binary, const Values& names) {
   Program program{.binary = binary, .options = {}};
   static const std::regex option(R"(^  (?:-\w,)?(--[a-z-]+)(?:[,{]\S*)?(?: (TEXT|INT|UINT|FLOAT)\S*)?.*)");
-  static const std::regex range(R"(in \[(\S+) - ([^\]]+)\])");
+  static const std::regex range(R"((?:INT|UINT|FLOAT): (\S+) to ([^= ]+))");
   static const std::regex preset(R"((?:TEXT|INT|FLOAT)=\[?([^\] ]+))");
   for (const std::string& line : split(capture(binary, {"--help"}), '\n')) {
     std::smatch found;
@@ -230,10 +230,13 @@ const Values& tame_values() {
 }  // namespace
 
 std::vector<Program> read_grammar(const fs::path& folder) {
-  const Values names = read_names(capture(folder / "list", {}));
+  const fs::path list = folder / "list";
+  const Values names = read_names(capture(list, {"--problem", "all"}) + capture(list, {}));
   std::vector<fs::path> binaries;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const bool executable = (entry.status().permissions() & fs::perms::owner_exec) != fs::perms::none;
+    const std::string name = entry.path().filename().string();
+    if (name == "new" || name == "study") continue;  // one writes where it stands, the other starts those fuzzed here
     if (entry.is_regular_file() && executable && !entry.path().has_extension()) binaries.push_back(entry.path());
   }
   std::ranges::sort(binaries);

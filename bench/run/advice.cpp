@@ -1,0 +1,70 @@
+#include "bench/run/advice.hpp"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace dmocbench {
+
+namespace {
+
+/// A coordinate that is likely an angle in degrees: it turns by more than a full turn, and by a multiple of 15.
+std::optional<std::string> angle_in_degrees(const Problem& problem) {
+  constexpr double full_turn = 6.3;
+  constexpr double step = 15.0;
+  const Eigen::VectorXd turned = problem.final_state().q - problem.initial_state().q;
+  const std::vector<std::string> names = problem.configuration_names();
+  const std::vector<std::string> units = problem.card().configuration_units;
+  for (Eigen::Index i = 0; i < turned.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool may_be_angle = units.empty() || units[k] == "rad" || units[k] == "deg";
+    if (may_be_angle && std::abs(turned[i]) > full_turn && std::fmod(turned[i], step) == 0.0) {
+      return fmt::format("Try radians: {} changes by {:g}, which looks like an angle in degrees.", names[k], turned[i]);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Coordinates whose sizes along the guess differ by four orders of magnitude.
+std::optional<std::string> units_apart(const Problem& problem) {
+  constexpr double far = 1e4;
+  constexpr int samples = 16;
+  Eigen::VectorXd sizes = Eigen::VectorXd::Zero(problem.configuration_size());
+  for (int i = 0; i <= samples; ++i) {
+    sizes = sizes.cwiseMax(problem.guess(problem.horizon() * i / samples).q.cwiseAbs());
+  }
+  Eigen::Index largest = 0;
+  if (!(sizes.maxCoeff(&largest) > 0.0)) return std::nullopt;
+  Eigen::Index smallest = 0;
+  const double least = (sizes.array() > 0.0).select(sizes, sizes.maxCoeff()).minCoeff(&smallest);
+  if (sizes[largest] < far * least) return std::nullopt;
+  const std::vector<std::string> names = problem.configuration_names();
+  return fmt::format("Try other units: {} is about {:.1g}, {} about {:.1g}; sizes near 1 suit solvers.",
+                     names[static_cast<std::size_t>(largest)], sizes[largest],
+                     names[static_cast<std::size_t>(smallest)], least);
+}
+
+}  // namespace
+
+std::string next_to_try(const SolvedCase& solved, const std::string& start) {
+  const Status status = solved.solution.status;
+  const Case& the_case = solved.the_case;
+  const Problem& problem = *the_case.problem;
+  if (is_solved(status) || is_no_motion(status) || status == Status::interrupted) return "";
+  if (status == Status::time_limit) return "Try more time (--seconds) or fewer intervals.";
+  if (auto degrees = angle_in_degrees(problem)) return *degrees;
+  if (auto units = units_apart(problem)) return *units;
+  if (status == Status::infeasible && !problem.bounds().horizon.is_free()) {
+    return fmt::format("Try a longer horizon than T = {:g}, or wider bounds: the ends may be out of reach.",
+                       problem.horizon());
+  }
+  if (status == Status::too_large || status == Status::invalid_program || the_case.solver == "nlopt")
+    return "Try --solver auto.";
+  if (the_case.solver != "auto") return "Try --solver auto: interior_point, then ipopt from its last point.";
+  if (start == "guess") return "Try --start common, a motion that other methods find first.";
+  return "Try another guess (Problem::guess), or --start FILE with a motion near the one you want.";
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,113 @@
+// Everything about one problem: motion, orders, what is preserved, minima, figures, and a report of it.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench/run/command_line.hpp"
+#include "bench/run/joining_run.hpp"
+#include "bench/run/problem_libraries.hpp"
+#include "bench/run/process_pool.hpp"
+#include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
+
+namespace dmocbench::study_program {
+
+/// The choices of a user.
+struct Study {
+  std::string problem;
+  std::vector<std::string> settings;
+  std::vector<std::string> libraries;
+  std::string intervals = "16:256";
+  long long starts = 20;
+  std::filesystem::path out;
+};
+
+/// The script that draws figures: installed next to the program, else the one of the sources.
+std::string drawer() {
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
+  const std::filesystem::path installed = self.parent_path() / "dmocbench-figures";
+  return std::filesystem::exists(installed) ? installed.string() : DMOCBENCH_SOURCE_DIR "/plots/figures";
+}
+
+/// Runs a command and returns its exit code, 128 and the signal's number if a signal ended it.
+int run_and_wait(const std::vector<std::string>& words) {
+  fmt::print("+ {}\n", fmt::join(words, " "));
+  std::fflush(nullptr);
+  const ::pid_t child = ::fork();
+  if (child < 0) throw Error("the system gives no more processes");
+  if (child == 0) {
+    try {
+      run_in_place(words);
+    } catch (const Error& error) {
+      std::fputs((std::string("study: ") + error.what() + "\n").c_str(), stderr);
+      ::_exit(2);
+    }
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  constexpr int base_of_signals = 128;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : base_of_signals + WTERMSIG(status);
+}
+
+std::vector<std::vector<std::string>> commands_of(const Study& study) {
+  const std::string out = study.out.string();
+  const auto experiment = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> words = start_of_program(name);
+    words.insert(words.end(), {"--problem", study.problem, "--out", out});
+    for (const std::string& library : study.libraries) words.insert(words.end(), {"--library", library});
+    for (const std::string& setting : study.settings) words.insert(words.end(), {"--set", setting});
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
+  };
+  std::vector<std::string> report = start_of_program("report");
+  report.insert(report.end(), {"--from", out});
+  for (const std::string& library : study.libraries) report.insert(report.end(), {"--library", library});
+  return {experiment("solve", {"--method", "dmoc", "--start", "common", "--name", "motion_" + study.problem}),
+          experiment("convergence", {"--intervals", study.intervals, "--solver", "auto"}),
+          experiment("structure", {}),
+          experiment("local_minima", {"--starts", std::to_string(study.starts)}),
+          {drawer(), out},
+          report};
+}
+
+int run_all(CommandLine& line) {
+  Study study;
+  line.group(group_of_problem);
+  line.option("--problem", study.problem, "the problem");
+  line.option("--set", study.settings, "parameter=value of the problem; may be repeated");
+  add_library_option(line, study.libraries);
+  line.group("Experiments");
+  line.option("--intervals", study.intervals, "grids of convergence");
+  line.number("--starts", study.starts, 1, 100000, "starts of local_minima per method");
+  line.group(group_of_output);
+  line.option("--out", study.out, "folder for the results; default: study_PROBLEM");
+  line.example("--problem cart_pole");
+  line.exit_code_1("a step has failed; the others have run");
+  line.parse();
+  if (study.problem.empty()) throw Error("name a problem: study --problem cart_pole; list shows those there are");
+  if (study.out.empty()) study.out = "study_" + study.problem;
+  listen_for_interrupt();
+  int failures = 0;
+  for (const std::vector<std::string>& command : commands_of(study)) {
+    if (run_and_wait(command) != 0) ++failures;
+    throw_if_interrupted();
+  }
+  fmt::print("study: {}: {}/report.html\n",
+             failures == 0 ? "all steps done" : fmt::format("{} of 6 steps failed", failures), study.out.string());
+  return failures == 0 ? 0 : 1;
+}
+
+int run(int argc, char** argv) {
+  return run_program(
+      "study",
+      "Runs solve, convergence, structure and local_minima on one problem, draws the figures and writes the "
+      "report.",
+      argc, argv, run_all);
+}
+
+}  // namespace dmocbench::study_program

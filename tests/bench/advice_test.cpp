@@ -1,0 +1,87 @@
+#include "bench/run/advice.hpp"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "methods/choose.hpp"
+#include "tests/support/problems_for_tests.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// A mass on a line from 0 to `distance`, with a unit.
+class Moved final : public tests::SmallProblem {
+ public:
+  Moved(double distance, std::string unit)
+      : SmallProblem("moved", at(0.0, 0.0), at(distance, 0.0), 1.0, 1), unit_(std::move(unit)) {}
+  [[nodiscard]] ProblemCard card() const override { return {.configuration_units = {unit_}}; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+
+ private:
+  std::string unit_;
+};
+
+/// A point of a plane from 0 to (x, y).
+class MovedInPlane final : public tests::SmallProblem {
+ public:
+  MovedInPlane(double x, double y)
+      : SmallProblem("moved_in_plane", BoundaryState::at_rest(Eigen::Vector2d::Zero()),
+                     BoundaryState::at_rest(Eigen::Vector2d(x, y)), 1.0, 2) {}
+  [[nodiscard]] ProblemCard card() const override { return {.configuration_units = {"m", "m"}}; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+};
+
+std::string advice(std::shared_ptr<const Problem> problem, Status status, const std::string& solver,
+                   const std::string& start = "guess") {
+  SolvedCase solved;
+  solved.the_case.problem = std::move(problem);
+  solved.the_case.solver = solver;
+  solved.solution.status = status;
+  return next_to_try(solved, start);
+}
+
+bool names(const std::string& sentence, const std::string& word) { return sentence.find(word) != std::string::npos; }
+
+TEST(Advice, SuspectsDegreesWhereAnAngleTurnsByAMultipleOf15) {
+  EXPECT_TRUE(names(advice(std::make_shared<Moved>(180.0, "rad"), Status::iteration_limit, "auto"), "degrees"));
+  EXPECT_FALSE(names(advice(std::make_shared<Moved>(180.0, "m"), Status::iteration_limit, "auto"), "degrees"));
+  EXPECT_FALSE(names(advice(std::make_shared<Moved>(3.14, "rad"), Status::iteration_limit, "auto"), "degrees"));
+}
+
+TEST(Advice, NamesUnitsThatAreTenThousandTimesApart) {
+  const std::string apart = advice(std::make_shared<MovedInPlane>(4e5, 0.3), Status::step_failed, "ipopt");
+  EXPECT_TRUE(names(apart, "units") && names(apart, "q1") && names(apart, "q2")) << apart;
+  EXPECT_FALSE(names(advice(std::make_shared<MovedInPlane>(4e2, 0.3), Status::step_failed, "ipopt"), "units"));
+}
+
+TEST(Advice, OffersAHorizonThenASolverThenAStartThenAGuess) {
+  const auto problem = std::make_shared<Moved>(1.0, "m");
+  EXPECT_TRUE(names(advice(problem, Status::infeasible, "auto"), "longer horizon"));
+  EXPECT_TRUE(names(advice(problem, Status::iteration_limit, "ipopt"), "--solver auto"));
+  EXPECT_TRUE(names(advice(problem, Status::iteration_limit, "auto"), "--start common"));
+  EXPECT_TRUE(names(advice(problem, Status::iteration_limit, "auto", "common"), "guess"));
+}
+
+TEST(Advice, IsGivenForFailuresOnly) {
+  for (const Status status : {Status::solved, Status::control_not_determined, Status::too_coarse, Status::interrupted})
+    EXPECT_EQ(advice(std::make_shared<Moved>(1.0, "m"), status, "ipopt"), "");
+}
+
+TEST(LikelyMeant, IsTheNameWithFewestLettersChangedAndNoneThatIsFar) {
+  const std::vector<std::string> names{"hamiltonian", "tangent", "dmoc"};
+  EXPECT_EQ(likely_meant("hamiltonain", names), "hamiltonian");
+  EXPECT_EQ(likely_meant("tangnet", names), "tangent");
+  EXPECT_EQ(likely_meant("dmco", names), "dmoc");
+  EXPECT_EQ(likely_meant("collocation", names), "");
+  EXPECT_EQ(likely_meant("x", names), "");
+}
+
+}  // namespace
+}  // namespace dmocbench
