@@ -143,8 +143,8 @@ class Equivalence final : public ExperimentOf<Measured> {
       }
     } else if (trajectory.has_costates()) {
       solved.note(
-          "Its stages have no costates to put into the adjoint scheme: constraints along the path have "
-          "multipliers of their own there.");
+          "Its stages have no costates to put into the adjoint scheme: constraints along the path, "
+          "integrals and first-order states have multipliers of their own there.");
     }
     if (here.method == "dmoc") {
       answers_.emplace_back(here, trajectory);

@@ -55,7 +55,7 @@ StageMultipliers as_pairs(const Eigen::VectorXd& local, const Tableau& tableau, 
 }  // namespace
 
 Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
-                  const Trajectory& motion) {
+                  const Eigen::MatrixXd& v) {
   const Layout& layout = transcription.layout();
   const auto intervals = static_cast<Eigen::Index>(layout.intervals());
   const Eigen::Index n = transcription.traced_problem().configuration_size();
@@ -82,8 +82,12 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   if (layout.node_state() == NodeState::momentum) return result;
   LegendreTransform legendre(transcription.traced_problem());
   const Eigen::VectorXd times = transcription.node_times(primal);
+  // Entry k of `count` series of the nodes.
+  const auto series = [&](std::size_t first, Eigen::Index count, Eigen::Index k) {
+    return Eigen::VectorXd(primal(Eigen::seqN(static_cast<Eigen::Index>(first) + k, count, intervals + 1)));
+  };
   for (Eigen::Index k = 0; k <= intervals; ++k) {
-    const MotionPoint node = motion.node(k);
+    const MotionPoint node{series(0, n, k), v.row(k).transpose(), {}, series(layout.first_order_head(0), l, k)};
     const double t = times[k];
     const Eigen::VectorXd psi_p =
         solve_square(legendre.mass(node.q, node.v, t, node.y), Eigen::VectorXd(result.psi_p.row(k).transpose()));

@@ -20,9 +20,9 @@ struct Costates {
 ///
 /// DMOC: ψ^p_k is the multiplier of node k's row, ψ^q_k = ∂ℓ_k/∂q_k. Hamiltonian: x = (q, p), as it stands.
 /// Tangent-space: x = (q, v), carried over by ψ^p = L_vv⁻¹ ψ^v, ψ^q = ψ^q̃ - (∂p/∂q)ᵀ ψ^p, ψ^y = ψ^ỹ - (∂p/∂y)ᵀ ψ^p.
-/// `motion` is the trajectory with its velocities.
+/// `v` are the node velocities, (N + 1) × n.
 [[nodiscard]] Costates costates(Transcription& transcription, const Eigen::VectorXd& primal,
-                                const Eigen::VectorXd& multipliers, const Trajectory& motion);
+                                const Eigen::VectorXd& multipliers, const Eigen::MatrixXd& v);
 
 /// Costates at the stages: the Ψ_i of the adjoint scheme (eq:stateco7, eq:stateco8), in the sign and unit of
 /// `Costates`. Row k s + i is stage i of interval k.

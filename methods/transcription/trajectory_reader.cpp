@@ -95,7 +95,7 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   add_velocities(transcription.traced_problem(), trajectory);
   trajectory.cost = transcription.objective(primal) / transcription.cost_scale();
   if (static_cast<std::size_t>(multipliers.size()) == transcription.constraint_count()) {
-    Costates psi = costates(transcription, primal, multipliers, trajectory);
+    Costates psi = costates(transcription, primal, multipliers, trajectory.v);
     trajectory.psi_q = std::move(psi.psi_q);
     trajectory.psi_p = std::move(psi.psi_p);
     trajectory.psi_y = std::move(psi.psi_y);
