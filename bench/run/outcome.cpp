@@ -36,8 +36,7 @@ Outcome outcome_of(const Table& table) {
   std::map<std::vector<std::string>, bool> is_usable_curve;
   for (const Row& row : table.rows()) {
     std::vector<std::string> curve;
-    for (const char* const column :
-         {"problem", "library", "settings", "method", "tableau", "stages", "solver", "derivatives"})
+    for (const char* const column : {"problem", "library", "method", "tableau", "stages", "solver", "derivatives"})
       curve.push_back(row.text(column));
     is_usable_curve[curve] |= is_usable(row);
     const std::string& status = row.text("status");

@@ -237,6 +237,8 @@ Table quantity_table(const Problem& problem) {
                  {"lower", "its lower bound; empty for none"},
                  {"upper", "its upper bound; empty for none"}});
   table.set_key({"kind", "quantity"});
+  for (const char* const text : {"kind", "quantity", "unit"}) table.declare({{text, {FieldKind::text, true}}});
+  for (const char* const number : {"lower", "upper"}) table.declare({{number, {FieldKind::number, true}}});
   Row time;
   time.set("kind", "t");
   time.set("quantity", "t");

@@ -73,7 +73,7 @@ TEST_F(MotionFile, IsRefusedWithItsNameWhereItIsNoMotion) {
 TEST_F(MotionFile, NeedsNoStagesBesideIt) {
   std::filesystem::remove(folder() / "X_stages.csv");
   EXPECT_EQ(read().at(0.5).u, problem_->guess(0.5).u);
-  write_file(nodes_file(), "\xEF\xBB\xBFu,v_q,q,t\r\n4,0,0,0\r\n-4,0,1,1\r\n");
+  write_file(nodes_file(), "\xEF\xBB\xBFu,v_q,q,t\r\n4,0,0,0\r\n0,1.5,0.5,0.5\r\n-4,0,1,1\r\n");
   EXPECT_DOUBLE_EQ(read().at(0.25).u[0], 2.0);
   EXPECT_DOUBLE_EQ(read().at(0.5).q[0], 0.5);
   std::filesystem::rename(nodes_file(), folder() / "mine.csv");

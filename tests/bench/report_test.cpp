@@ -166,7 +166,7 @@ TEST(Report, TellsOrdersAndSolvesWhereNobodyHasJudged) {
   EXPECT_TRUE(has(overview(),
                   "<b>arm by DMOC</b> (gauss, 1 stage per step): <a href=\"#table-convergence-slopes-csv\">"
                   "fitted orders</a> state 2.012 ± 0.017, control 1.900, costate: floor."));
-  EXPECT_TRUE(has(overview(), "<b>arm by DMOC</b>: 1 of 2 solves solved."));
+  EXPECT_TRUE(has(overview(), "<b>arm by DMOC</b>: cost 0.123456789 with N = 16; 1 of 2 solves solved."));
   EXPECT_FALSE(has(overview(), "state 7"));
   results.claims = Table::from_csv("claim,verdict,whose,states,measured\narm/other,differs,paper,nothing,5\n");
   EXPECT_FALSE(has(overview(), "arm by DMOC"));
