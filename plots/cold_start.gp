@@ -53,7 +53,7 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
     set xrange [0.5:words(solvers) + 0.5]
     set yrange [0:1.03]
     set xlabel ""
-    set ylabel "share of the cold starts"
+    set ylabel "share of the cold starts" offset inwards
     set key at screen 0.5, screen upwards(365) center bottom vertical maxrows 3 width 1 font ",12" samplen 2
     plot for [method in methods] for [solver in solvers] for [c = 1:3]\
            rows(shares, where.",solver=".solver.",method=".method, "")\
@@ -74,7 +74,7 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
       set autoscale x
       set format y (is_left ? "%.1f" : "")
       set xlabel (is_left ? "evaluations, " : "time [s], ").solver_label(solver_of_profiles)
-      set ylabel (is_left ? "share solved and confirmed" : "")
+      set ylabel (is_left ? "share solved and confirmed" : "") offset inwards
       plot for [method in methods] steps_of(where.",solver=".solver_of_profiles, measure, method)\
            using (column("budget")):(column("share")) with steps linecolor rgb method_colour(method)\
            linewidth width_of(method) dashtype 1 notitle
@@ -130,7 +130,7 @@ do for [kind in kinds] {
   set ytics nomirror scale 0.8 0, 0.2, 1 font ",15"; set format y "%.1f"
   set xtics font ",15"
   set xlabel "evaluations"
-  set ylabel "mean share solved and confirmed"
+  set ylabel "mean share solved and confirmed" offset inwards
   eval key_below
   plot for [method in methods] steps_of(mean_where, "evaluations", method) using (column("budget")):(column("share"))\
        with steps linecolor rgb method_colour(method) linewidth width_of(method) dashtype 1 title method_label(method)

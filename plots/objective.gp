@@ -40,7 +40,7 @@ do for [where in problems_of("objective", "")] {
     eval plain_axis("y", y_high)
     power = abs(y_high) > 0.01 && abs(y_high) < 1e5 ? 0 : int(floor(log10(abs(y_high))))
     set format y "%g"
-    set ylabel axis_label("cost J".(power == 0 ? "" : sprintf(" · 10^{%d}", -power)), problem, "cost_unit")
+    set ylabel axis_label("cost J".(power == 0 ? "" : sprintf(" · 10^{%d}", -power)), problem, "cost_unit") offset inwards
     plot for [curve in curves] rows("objective", curve, "")\
          using (column("intervals")):(column("objective") / 10.0**power)\
          with linespoints linetype method_style(entry(curve, "method")) title curve_label("objective", curve)
@@ -55,7 +55,7 @@ do for [where in problems_of("objective", "")] {
       eval intervals_axis
       eval set_range("x", x_low, x_high, 1.25)
       eval power_axis("y")
-      set ylabel axis_label(is_certified ? "|J − J*|" : "|J − J_{ref}|", problem, "cost_unit")
+      set ylabel axis_label(is_certified ? "|J − J*|" : "|J − J_{ref}|", problem, "cost_unit") offset inwards
       plot for [curve in error_curves] rows(table_of_errors, curve, is_certified ? "objective" : "objective_error")\
            using (column("intervals")):(is_certified ? distance_to(J) : column("objective_error"))\
            with linespoints linetype method_style(entry(curve, "method")) title curve_label(table_of_errors, curve)

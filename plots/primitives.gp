@@ -42,7 +42,7 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
     set size noratio
     set xtics autofreq
     set xlabel axis_label("time", problem, "time_unit")
-    set ylabel axis_label("first control", problem, "control_unit")
+    set ylabel axis_label("first control", problem, "control_unit") offset inwards
     plot points("before") using "t":"u" with lines linetype 3, points("after") using "t":"u" with lines linetype 1
     unset multiplot
     eval end_figure(kind, problem."_primitives")

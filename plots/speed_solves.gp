@@ -87,7 +87,7 @@ do for [kind in kinds] {
     set xrange [45:24000]
     set yrange [5:500]
     set title problem_label(problem) font ",12"
-    set ylabel (p == 1 ? "seconds of Ipopt / seconds of interior\\_point" : "")
+    set ylabel (p == 1 ? "seconds of Ipopt / seconds of interior\\_point" : "") offset inwards
     unset key
     if (p == 1) { eval key_below }
     shown = ""

@@ -33,7 +33,7 @@ do for [where in problems_of("structure_energy", "energy_largest")] {
     set xrange [1:P_max]
     set yrange [1e-9:*]
     set xlabel "period"
-    set ylabel "largest |E − E_0| of a period [GM/a]"
+    set ylabel "largest |E − E_0| of a period [GM/a]" offset inwards
     set key at screen 0.02, screen upwards(120) left top font ",12" samplen 2.5
     set title entry(distinct("structure_energy", "steps_per_period", where, ""), "steps_per_period")." steps per period"
     plot for [method in methods] rows("structure_energy", method, "")\
@@ -43,7 +43,7 @@ do for [where in problems_of("structure_energy", "energy_largest")] {
     eval place(600, 735, 200, top_of_panels(figure_title))
     set title "DMOC, first ten periods"
     set xlabel "step {/:Italic h}"
-    set ylabel "max E − min E [GM/a]"
+    set ylabel "max E − min E [GM/a]" offset inwards
     set autoscale
     eval power_axis("xy")
     set xtics ("2π/512" 2 * pi / 512, "" 2 * pi / 256, "2π/128" 2 * pi / 128)
