@@ -1,10 +1,12 @@
 """The Python package, for pip: CMake builds its module. Needs the packages that bench/install lists."""
 
+import os
 import re
 from pathlib import Path
 
 from skbuild import setup
 
+os.environ.setdefault("SKBUILD_BUILD_OPTIONS", "dmocbench_python")  # what is built, and not all
 version = re.search(r"\n  VERSION (\S+)", Path("CMakeLists.txt").read_text()).group(1)
 setup(
     name="dmocbench",

@@ -112,7 +112,7 @@ class Runs(unittest.TestCase):
         timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
-            db.convergence(PendulumSwingUp(), out=self.out, intervals="16:262144", solver="ipopt")
+            db.convergence(PendulumSwingUp(), out=self.out, intervals="16:32768", solver="ipopt")
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
         self.assertEqual(len(db.run("solve", PendulumSwingUp(), out=self.out, method="dmoc", intervals=16)), 1)
 
