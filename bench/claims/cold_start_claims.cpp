@@ -33,6 +33,16 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
     words += fmt::format("; {} {} of {}, difference {:+.1f} to {:+.1f} %: {}", method, count.hits, count.trials,
                          100.0 * difference.lower, 100.0 * difference.upper, in_words(difference));
   }
+  if (tables.has("cold_start_indirect")) {
+    const Selection rows_of_indirect = tables.rows("cold_start_indirect").where("problem", problem);
+    for (const Row& row : rows_of_indirect) {
+      words += fmt::format(
+          "; the indirect method with costates 0 converges from {} of {} ({:.0f} to {:.0f} %), from {} "
+          "to the best branch",
+          row.needed("converged"), row.needed("starts"), 100.0 * row.needed("converged_lower"),
+          100.0 * row.needed("converged_upper"), row.needed("best"));
+    }
+  }
   return found(ClaimVerdict::measured, "{}; 95 % intervals", words)
       .as_sure_as(fmt::format("95 % of {} starts", own.trials));
 }
@@ -57,12 +67,13 @@ ShareCount count_of_cold_starts(const Row& row, const char* column) {
 
 /// Starts at the guess and near it.
 Claims cold_start_claims() {
-  const std::vector<std::string> evidence{"cold_start_shares.csv", "figures/{}_cold_start.svg"};
+  const std::vector<std::string> evidence{"cold_start_shares.csv", "cold_start_indirect.csv",
+                                          "figures/{}_cold_start.svg"};
   return {{.id = "cold_starts_confirmed",
            .where = "section 4.1, SQP Method",
            .states = "how often DMOC and collocation are solved and confirmed from cold starts, the guess and near it",
            .judge = how_often_in("confirmed"),
-           .condition = "by interior_point",
+           .condition = "by interior_point; section 3.3 names the indirect methods",
            .evidence = evidence},
           {.id = "cold_starts_best",
            .where = "section 5, Global Minima",

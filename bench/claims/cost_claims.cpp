@@ -109,6 +109,31 @@ Predicate saves_at_equal(const char* quantity) {
   };
 }
 
+/// Iterations and time of whole solves of collocation to DMOC's, where the errors are the same.
+Finding whole_solves(const ResultTables& tables, const std::string& problem) {
+  std::vector<std::string> words;
+  const auto append = [&](const Selection& rows, const std::string& name) {
+    for (const char* method : {"hamiltonian", "tangent"}) {
+      const Selection ratios = midpoint(rows, method).with_number("ratio_at_equal_accuracy");
+      if (ratios.empty()) continue;
+      words.push_back(fmt::format("{} of {} {:.2f} to {:.2f} on {} grids", name, method,
+                                  ratios.min("ratio_at_equal_accuracy"), ratios.max("ratio_at_equal_accuracy"),
+                                  ratios.size()));
+    }
+  };
+  const Selection counts = tables.rows("iterations_common_ratios", problem);
+  append(counts.where("currency", "ipopt_iterations"), "iterations by ipopt");
+  append(counts.where("currency", "sqp_major_iterations"), "major iterations by sqp");
+  const Selection times = tables.rows("structure_advantage_ratios", problem).where("quantity", "seconds");
+  for (const Selection& way : times.group_by({"solver", "factorisation"}))
+    append(way, fmt::format("seconds by {}", way_of(way.front())));
+  require(!words.empty(),
+          "iterations_common_ratios.csv and structure_advantage_ratios.csv have no ratio of {} at equal "
+          "accuracy",
+          problem);
+  return found(ClaimVerdict::measured, "collocation to DMOC: {}", fmt::join(words, ", "));
+}
+
 }  // namespace
 
 /// Variables, operations, time, also at equal accuracy.
@@ -138,6 +163,13 @@ Claims cost_claims() {
        .judge = more_expensive_by(add_coarse_grids),
        .condition = "times are warm, from the common start; geometric mean over the coarse grids",
        .evidence = advantage},
+      {.id = "whole_solves_at_equal_accuracy",
+       .where = "section 4.2",
+       .states = "iterations and time of whole solves, collocation to DMOC, where both are equally accurate",
+       .judge = whole_solves,
+       .condition =
+           "warm, from the common start; equal replay errors for iterations, equal errors of the cost for times",
+       .evidence = {"iterations_common_ratios.csv", "structure_advantage_ratios.csv"}},
       {.id = "savings_at_equal_state_error",
        .where = "section 5",
        .states = "DMOC saves variables where the states are equally accurate",

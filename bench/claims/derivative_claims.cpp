@@ -89,7 +89,7 @@ Finding more_robust(const ResultTables& tables, const std::string& problem) {
     verdicts.push_back(verdict_on_pairs(here));
     chances.push_back(fmt::format("{:.1g}", std::min(chance_of(here.by_tape_alone, here.by_differences_alone),
                                                      chance_of(here.by_differences_alone, here.by_tape_alone))));
-    words.push_back(fmt::format("{}: the tape {} of {}, forward differences {}", what, here.by_tape, here.count,
+    words.push_back(fmt::format("{}: the tape solves {} of {}, forward differences {}", what, here.by_tape, here.count,
                                 here.by_differences));
   };
   add(quasi_newton, "first derivatives, quasi-Newton, from a common start");

@@ -142,6 +142,23 @@ Finding order_of_adjoint_scheme(const ResultTables& tables, const std::string& p
                not_in(orders, tables, problem));
 }
 
+/// The error of the state over the sum of the errors of all intervals, on the coarsest and the finest grid.
+Finding stability_constant(const ResultTables& tables, const std::string& problem) {
+  const Selection all = tables.rows("convergence_indirect_jumps", problem).where([](const Row& row) {
+    return is_structured(row) && row.text("tableau") == "gauss" && row.text("stages") == "1";
+  });
+  const Selection rows = all.where("verdict", "slope");
+  require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} by the midpoint rule among its {}",
+          problem, all.size());
+  const auto words = [](const Row& row) {
+    return fmt::format("{} {:.4f} at N = {}, {:.4f} at N = {}", row.text("method"),
+                       row.needed("error_of_jumps_coarsest"), row.text("coarsest"), row.needed("error_of_jumps_finest"),
+                       row.text("finest"));
+  };
+  return found(ClaimVerdict::measured, "error of the state over N times the largest jump between intervals: {}",
+               rows.in_words(", ", words));
+}
+
 Finding order_of_stage_controls(const ResultTables& tables, const std::string& problem) {
   const Selection all = orders_of(tables, problem, {"control"}).where([](const Row& row) {
     return row.text("method") == "dmoc" && row.text("tableau") == "gauss" && row.needed("stages") > 1.0;
@@ -178,27 +195,36 @@ Finding order_eight(const ResultTables& tables, const std::string& problem) {
 
 /// Orders of state and costate for every tableau.
 Claims order_claims() {
-  return {{.id = "order_of_convergence",
-           .where = "section 3.6, main_theorem",
-           .whose = Whose::paper,
-           .states = "order kappa for state, costate and u(x, psi) at the nodes",
-           .judge = order_of_convergence,
-           .condition = "the optimum is smooth, and its final state is fixed, which the theorem leaves out",
-           .evidence = {"convergence_indirect_slopes.csv", "convergence_indirect.csv", "figures/{}_orders.svg"}},
-          {.id = "order_eight_of_four_stages",
-           .problems = only_orbit,
-           .where = "section 3.6, main_theorem",
-           .states = "four Gauss stages have order 8 in state, costate and u(x, psi)",
-           .judge = order_eight,
-           .condition = "rounding leaves few grids: the fit needs four above it",
-           .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}},
-          {.id = "order_of_adjoint_scheme",
-           .where = "section 3.5, th:orderapp, eq:stateco5-eq:stateco9",
-           .whose = Whose::paper,
-           .states = "the adjoint scheme is that of the states with both halves exchanged, and has its order",
-           .judge = order_of_adjoint_scheme,
-           .condition = "Gauss is its own exchange, so that Lobatto alone can tell",
-           .evidence = {"equivalence.csv", "convergence_indirect_slopes.csv", "figures/{}_adjoint.svg"}}};
+  return {
+      {.id = "order_of_convergence",
+       .where = "section 3.6, main_theorem",
+       .whose = Whose::paper,
+       .states = "order kappa for state, costate and u(x, psi) at the nodes",
+       .judge = order_of_convergence,
+       .condition = "the optimum is smooth, and its final state is fixed, which the theorem leaves out",
+       .evidence = {"convergence_indirect_slopes.csv", "convergence_indirect.csv", "figures/{}_orders.svg"}},
+      {.id = "order_eight_of_four_stages",
+       .problems = only_orbit,
+       .where = "section 3.6, main_theorem",
+       .states = "four Gauss stages have order 8 in state, costate and u(x, psi)",
+       .judge = order_eight,
+       .condition = "rounding leaves few grids: the fit needs four above it",
+       .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}},
+      {.id = "order_of_adjoint_scheme",
+       .where = "section 3.5, th:orderapp, eq:stateco5-eq:stateco9",
+       .whose = Whose::paper,
+       .states = "the adjoint scheme is that of the states with both halves exchanged, and has its order",
+       .judge = order_of_adjoint_scheme,
+       .condition = "Gauss is its own exchange, so that Lobatto alone can tell",
+       .evidence = {"equivalence.csv", "convergence_indirect_slopes.csv", "figures/{}_adjoint.svg"}},
+      {.id = "stability_constant",
+       .where = "section 3.6, abstract_result",
+       .states = "what consistency errors of the state equations are multiplied by in the error of the optimum, as the "
+                 "grid is refined",
+       .judge = stability_constant,
+       .condition = "it bounds the constant of (abstract_result) from below, in this direction of errors alone; the "
+                    "midpoint rule",
+       .evidence = {"convergence_indirect_jumps.csv"}}};
 }
 
 /// And of the controls of the stages.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bench/claims/claim.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 
@@ -133,6 +134,48 @@ Finding equal_solutions(const ResultTables& tables, const std::string& problem) 
                rows_agree ? "rounding" : "more than rounding", left_out(all, rows));
 }
 
+/// The same where inequalities are active or the horizon is free. An answer that no Newton step could refine differs by
+/// the tolerance of its solver.
+Finding equal_with_inequalities(const ResultTables& tables, const std::string& /*problem*/) {
+  const Selection all = tables.rows("equivalence_inequalities").where("method", "hamiltonian");
+  // Where DMOC has no answer on the grid, nothing was compared.
+  const Selection rows = all.usable().where([](const Row& row) {
+    const bool is_compared = !row.text("objective_difference").empty() || !row.text("configuration_difference").empty();
+    return is_compared && row.needed("polish_steps") >= 1.0;
+  });
+  std::vector<ClaimVerdict> verdicts;
+  std::vector<std::string> words;
+  for (const Selection& of_problem : rows.group_by({"problem"})) {
+    const Differences largest(of_problem);
+    const bool agree = std::ranges::all_of(of_problem, is_answer_of_dmoc);
+    verdicts.push_back(verdict_on(agree && largest.are_rounding()));
+    words.push_back(fmt::format("{} on {} grids: {}, T {:.0e}, costates {:.0e}", of_problem.front().text("problem"),
+                                of_problem.size(), largest.words, of_problem.max("horizon_difference"),
+                                largest.costates));
+  }
+  require(words.size() > 1, "equivalence_inequalities.csv has usable rows of {} problems; two are needed",
+          words.size());
+  return found(verdict_on_all(verdicts), "largest relative difference: {}{}", fmt::join(words, "; "),
+               left_out(all, rows, "no motion, or not refined by Newton steps, in favour of"));
+}
+
+/// Noether's theorem of the optimal control problem.
+Finding costates_keep_their_momentum(const ResultTables& tables, const std::string& /*problem*/) {
+  const Selection all = tables.rows("equivalence_symmetric");
+  const Selection rows = all.usable();
+  std::vector<std::string> words;
+  for (const Selection& of_method : rows.group_by({"method"})) {
+    words.push_back(fmt::format("{} {:.0e} on {} grids of {}", of_method.front().text("method"),
+                                of_method.max("costate_momentum_spread"), of_method.size(),
+                                fmt::join(of_method.distinct("problem"), ", ")));
+  }
+  require(words.size() >= paper_families().size(),
+          "equivalence_symmetric.csv has usable rows of {} methods; three are needed", words.size());
+  return found(rows.max("costate_momentum_spread") < equal_costates_tolerance,
+               "largest spread of the momentum of the costates, relative: {}{}", fmt::join(words, "; "),
+               left_out(all, rows));
+}
+
 Finding tangent_differs(const ResultTables& tables, const std::string& problem) {
   const Selection all = midpoint(tables.rows("equivalence", problem), "tangent");
   const Selection rows = all.usable();
@@ -211,6 +254,25 @@ Claims solution_claims() {
        .judge = equal_solutions,
        .condition = "fixed ends, no inequality is active, answers are refined by Newton steps",
        .evidence = equivalence},
+      {.id = "equal_solutions_with_inequalities",
+       .problems = examples,
+       .where = "section 3.4, th:equi",
+       .whose = Whose::paper,
+       .states = "DMOC and Hamiltonian collocation have equal solutions also where inequalities are active and the "
+                 "horizon is free",
+       .judge = equal_with_inequalities,
+       .condition = "odd N: on even ones the symmetric switches of robot_arm fall on nodes, no control is left between "
+                    "its bounds there, and so multipliers are not unique",
+       .evidence = {"equivalence_inequalities.csv"}},
+      {.id = "costates_keep_their_momentum",
+       .problems = examples,
+       .where = "section 3.5",
+       .states = "where L, f and the cost are invariant under a group, the momentum of the costates is constant along "
+                 "the discrete optima of all three methods (Noether's theorem of the optimal control problem)",
+       .judge = costates_keep_their_momentum,
+       .condition = "the group acts linearly on the coordinates, so that every method here is equivariant: this keeps "
+                    "no method apart",
+       .evidence = {"equivalence_symmetric.csv"}},
       {.id = "tangent_differs",
        .where = section,
        .states = "collocation on the tangent space is another discretisation: its solutions are not those of DMOC",

@@ -1,18 +1,28 @@
 // How often a solve from a guess, or from a perturbed one, succeeds: every problem by every method, as users meet them,
 // none from a solution. How many starts are solved, confirmed, on the best branch, and what that takes.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/run/experiment.hpp"
+#include "bench/run/process_pool.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/tables/cold_starts.hpp"
 #include "bench/tables/selection.hpp"
+#include "bench/tables/share_interval.hpp"
+#include "methods/error.hpp"
+#include "methods/indirect/solve_indirect.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+#include "problems/registry.hpp"
 
 namespace dmocbench::cold_start_program {
 
@@ -37,6 +47,26 @@ Table summed_up(const Table& shares) {
   return summary;
 }
 
+/// How many of the same starts the indirect method converges from.
+struct IndirectStarts {
+  std::string problem;
+  long long starts = 0;
+  ShareCount converged = {};
+  ShareCount best = {};
+};
+
+const Columns<IndirectStarts> indirect_columns{
+    {"problem", "", "its name", &IndirectStarts::problem, in_key},
+    {"starts", "", "motions of the direct methods' cold starts, with costates 0", &IndirectStarts::starts},
+    {"converged", "", "from so many of them two runs agree to 1e-6",
+     [](const IndirectStarts& of) { return static_cast<long long>(of.converged.hits); }},
+    {"converged_lower", "", "of the interval of 95 % of their share",
+     [](const IndirectStarts& of) { return wilson_interval(of.converged).lower; }},
+    {"converged_upper", "", "of the same interval",
+     [](const IndirectStarts& of) { return wilson_interval(of.converged).upper; }},
+    {"best", "", "and so many at a cost not above the certified one",
+     [](const IndirectStarts& of) { return static_cast<long long>(of.best.hits); }}};
+
 class ColdStart final : public Experiment {
  public:
   ColdStart()
@@ -47,7 +77,9 @@ class ColdStart final : public Experiment {
                  "methods. NAME_shares.csv: how many starts are solved, confirmed by a replay of each interval, and on "
                  "the best branch, with intervals of confidence, and quartiles of iterations, evaluations and seconds "
                  "to there. NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of "
-                 "evaluations alone where solves are those of a batch). A start that is lost keeps its row and counts.",
+                 "evaluations alone where solves are those of a batch). A start that is lost keeps its row and counts. "
+                 "NAME_indirect.csv: from how many of the same motions, with costates 0, the indirect method "
+                 "converges.",
              .options = {.problems = {"all"},
                          .solvers = {"auto"},
                          .intervals = "64",
@@ -55,7 +87,7 @@ class ColdStart final : public Experiment {
                          .tolerance = 1e-8,  // all solvers reach it
                          .most_iterations = 200,
                          .jobs = 2},
-             .further_files = {"_shares.csv", "_profiles.csv"},
+             .further_files = {"_shares.csv", "_profiles.csv", "_indirect.csv"},
              .branches = BranchesTold::none,
              .problems_are_independent = true,
              .takes_batches = true},
@@ -73,6 +105,7 @@ class ColdStart final : public Experiment {
     line.number("--library-starts", library_starts_, 0, most, "by interior_point and auto on the other problems");
     line.number("--other-starts", other_starts_, 0, most, "by other solvers on the paper's problems");
     line.number("--other-library-starts", other_library_starts_, 0, most, "by other solvers on the other problems");
+    line.number("--indirect-starts", indirect_starts_, 0, most, "of the indirect method on the paper's problems");
     line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
     line.number("--amplitude", amplitude_, 0.0, 10.0,
                 "of the random curves, relative to the range of each coordinate and the size of each control");
@@ -86,7 +119,10 @@ class ColdStart final : public Experiment {
         [this](const Motion& motion, const Problem& problem, std::size_t start) {
           return perturbed(motion, amplitude_, seed_, start, control_scales(problem));
         });
-    for (const Case& the_case : chosen) varied_[the_case.problem->name()] = varied_in_words(*the_case.problem);
+    for (const Case& the_case : chosen) {
+      varied_[the_case.problem->name()] = varied_in_words(*the_case.problem);
+      problems_[the_case.problem->name()] = the_case.problem;
+    }
     if (cases.empty()) throw Error("no case has a start; see --starts and the options like it");
     return cases;
   }
@@ -96,6 +132,11 @@ class ColdStart final : public Experiment {
     const Table shares = cold_start_shares(table, objective_tolerance_);
     output.write("_shares.csv", shares);
     output.write("_profiles.csv", cold_start_profiles(table));
+    std::vector<IndirectStarts> indirect;
+    for (const auto& [name, problem] : problems_) {
+      if (is_of_paper(name) && indirect_starts_ > 0) indirect.push_back(by_indirect_method(problem));
+    }
+    if (!indirect.empty()) output.write("_indirect.csv", table_of(indirect_columns, indirect));
     metadata["start"] = "cold";
     metadata["seed"] = seed_;
     metadata["amplitude"] = amplitude_;
@@ -106,22 +147,57 @@ class ColdStart final : public Experiment {
   }
 
  private:
-  [[nodiscard]] long long starts_of(const Case& the_case) const {
+  [[nodiscard]] static bool is_of_paper(const std::string& problem) {
     const std::vector<std::string> paper = paper_problem_names();
-    const bool is_of_paper = std::ranges::find(paper, the_case.problem->name()) != paper.end();
-    if (the_case.solver == "interior_point" || the_case.solver == "auto")
-      return is_of_paper ? starts_ : library_starts_;
-    return is_of_paper ? other_starts_ : other_library_starts_;
+    return std::ranges::find(paper, problem) != paper.end();
+  }
+  [[nodiscard]] long long starts_of(const Case& the_case) const {
+    const bool is_papers = is_of_paper(the_case.problem->name());
+    if (the_case.solver == "interior_point" || the_case.solver == "auto") return is_papers ? starts_ : library_starts_;
+    return is_papers ? other_starts_ : other_library_starts_;
+  }
+  /// The boundary value problem of the maximum principle from the motions of the direct methods' starts. Nothing is
+  /// known of the costates there, so that they begin at 0.
+  [[nodiscard]] IndirectStarts by_indirect_method(const std::shared_ptr<const Problem>& problem) const {
+    constexpr long long intervals = 64;
+    constexpr double agreement = 1e-6;
+    const Case grid{.problem = problem, .method = "dmoc", .tableau = "gauss", .grid = Grid::uniform(intervals)};
+    const std::unique_ptr<Transcription> program = grid.transcribe();
+    const Motion guess = guessed_motion(*problem);
+    const auto& reference = problem->card().reference;
+    const auto trials = static_cast<std::size_t>(indirect_starts_);
+    IndirectStarts result{
+        problem->name(), indirect_starts_, {.hits = 0, .trials = trials}, {.hits = 0, .trials = trials}};
+    for (std::size_t number = 0; number < trials; ++number) {
+      throw_if_interrupted();
+      const Motion motion = perturbed(guess, amplitude_, seed_, number, control_scales(*problem));
+      Trajectory start = read_trajectory(*program, sample(*program, motion), {});
+      start.psi_q = start.psi_p = Eigen::MatrixXd::Zero(start.q.rows(), start.q.cols());
+      try {
+        const IndirectSolution solution =
+            solve_indirect(*problem, start, {.tolerance = agreement, .most_intervals = intervals});
+        if (!(solution.agreement().worst() <= agreement)) continue;
+        ++result.converged.hits;
+        if (reference &&
+            solution.cost() - reference->objective <= objective_tolerance_ * std::abs(reference->objective))
+          ++result.best.hits;
+      } catch (const Error&) {
+        continue;  // it counts as not converged
+      }
+    }
+    return result;
   }
 
   long long starts_ = 1000;
   long long library_starts_ = 100;
   long long other_starts_ = 50;
   long long other_library_starts_ = 0;
+  long long indirect_starts_ = 0;
   std::uint64_t seed_ = 1;
   double amplitude_ = 0.3;
   double objective_tolerance_ = 0.02;
   std::map<std::string, std::string> varied_;  // what starts vary, by problem
+  std::map<std::string, std::shared_ptr<const Problem>> problems_;
 };
 
 int run(int argc, char** argv) { return run_experiment(ColdStart(), argc, argv); }

@@ -9,9 +9,11 @@
 #include "bench/run/experiment.hpp"
 #include "bench/tables/fitted_orders.hpp"
 #include "methods/diagnostics/adjoint_scheme.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/control_lagrangian.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/kkt_residual.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 
@@ -65,6 +67,7 @@ struct Measured {
   std::optional<double> plain_residual;
   std::optional<double> forced_form_residual;
   std::optional<double> acceleration_form_residual;
+  std::optional<double> costate_momentum_spread;
   std::optional<int> polish_steps;
 };
 
@@ -104,6 +107,8 @@ class Equivalence final : public ExperimentOf<Measured> {
         {"adjoint_residual", "", "what the costates leave in the adjoint scheme", &Measured::adjoint_residual},
         {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
          &Measured::plain_residual},
+        {"costate_momentum_spread", "", "how far the momentum of the costates moves along the motion, relative",
+         &Measured::costate_momentum_spread},
         {"polish_steps", "", "Newton steps behind the solver", &Measured::polish_steps},
         {"horizon_difference", "", "of T", &Measured::horizon},
         {"forced_form_residual", "",
@@ -126,6 +131,8 @@ class Equivalence final : public ExperimentOf<Measured> {
     if (!solved.trajectory || !is_discrete_optimum(solved)) return;  // the theorem is about these
     const Case& here = solved.the_case;
     const Trajectory& trajectory = *solved.trajectory;
+    if (trajectory.has_costates() && TracedProblem(*here.problem).has_symmetry())
+      measured.costate_momentum_spread = costate_momentum(*here.problem, trajectory).spread;
     if (trajectory.has_stage_costates()) {
       // By the coefficients that the theorem predicts, and by those of the state scheme without exchanging the halves.
       const Tableau& tableau = trajectory.tableau;

@@ -75,6 +75,35 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
   return result;
 }
 
+CostateMomentum costate_momentum(const Problem& problem, const Trajectory& trajectory) {
+  const TracedProblem traced(problem);
+  if (!traced.has_symmetry()) throw Error(problem.name() + " states no symmetry, so its costates have no momentum");
+  if (!trajectory.has_costates()) throw Error("the momentum of costates needs a trajectory with costates");
+  const Eigen::Index n = traced.configuration_size();
+  PointFunction action(n, traced.control_size(), [&](const ControlledState& x) {
+    const TracedProblem::Values values = traced.at(x);
+    ExpressionVector outputs(n * (n + 1));  // ξ, then Dξ column by column
+    outputs << values.symmetry, values.symmetry_jacobian.reshaped();
+    return outputs;
+  });
+  Eigen::VectorXd outputs(n * (n + 1));
+  CostateMomentum result;
+  result.values.resize(trajectory.q.rows());
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < result.values.size(); ++k) {
+    action.evaluate(trajectory.node(k), trajectory.node_times[k], outputs);
+    const Eigen::Map<const Eigen::MatrixXd> jacobian(outputs.data() + n, n, n);
+    const Eigen::ArrayXd on_q = trajectory.psi_q.row(k).transpose().array() * outputs.head(n).array();
+    const Eigen::ArrayXd on_p =
+        trajectory.psi_p.row(k).transpose().array() * (jacobian.transpose() * trajectory.p.row(k).transpose()).array();
+    result.values[k] = on_q.sum() - on_p.sum();
+    largest = std::max(largest, on_q.abs().sum() + on_p.abs().sum());
+  }
+  const double difference = result.values.maxCoeff() - result.values.minCoeff();
+  result.spread = largest > 0.0 ? difference / largest : difference;
+  return result;
+}
+
 Energy::Energy(const Problem& problem)
     : function_(problem.configuration_size(), problem.control_size(),
                 [&](const ControlledState& x) {

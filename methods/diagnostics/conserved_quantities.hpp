@@ -28,6 +28,17 @@ struct MomentumConsistency {
 /// problem has no symmetry.
 [[nodiscard]] MomentumConsistency momentum_consistency(const Problem& problem, const Trajectory& trajectory);
 
+/// The momentum of the costates, ψ_q·ξ(q) - ψ_p·Dξ(q)ᵀp at the nodes: the action of the group on phase space, paired
+/// with ψ. Noether's theorem of the optimal control problem: it is constant along an optimum where L, f and the cost
+/// are all invariant (`Problem::symmetry` asks less).
+struct CostateMomentum {
+  Eigen::VectorXd values;  ///< N + 1 entries
+  double spread = 0.0;     ///< max - min of them, relative to the largest sum of magnitudes of the terms at a node
+};
+
+/// Along a discrete optimum. Throws `Error` if the problem has no symmetry or the trajectory no costates.
+[[nodiscard]] CostateMomentum costate_momentum(const Problem& problem, const Trajectory& trajectory);
+
 /// The energy E = L_v·v - L of a problem and the power f·v of its forces, on numbers.
 class Energy {
  public:

@@ -197,6 +197,35 @@ inline Rows share_rows() {
   return rows;
 }
 
+inline Rows inequality_rows() {
+  Rows rows;
+  for (const char* problem : {"container_crane", "robot_arm"}) {
+    for (Row& row : equivalence_rows()) {
+      if (row.text("method") != "hamiltonian") continue;
+      row.set("problem", problem);
+      row.set("horizon_difference", 1e-16);
+      row.set("polish_steps", 2LL);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+inline Rows symmetric_rows() {
+  return rows_on_grids([](Row& row, bool /*tangent*/, double /*h*/) { row.set("costate_momentum_spread", 1e-13); });
+}
+
+inline Rows jump_rows() {
+  return rows_of_texts({"problem", "method", "tableau", "stages", "error_of_jumps_coarsest", "error_of_jumps_finest",
+                        "coarsest", "finest", "verdict"},
+                       {{orbit, "dmoc", "gauss", "1", "0.19", "0.21", "20", "512", "slope"}});
+}
+
+inline Rows currency_rows() {
+  return rows_of_texts({"problem", "method", "tableau", "stages", "intervals", "currency", "ratio_at_equal_accuracy"},
+                       {{orbit, "tangent", "gauss", "1", "64", "ipopt_iterations", "1.2"}});
+}
+
 inline Rows cold_start_rows() {
   Rows rows;
   for (const std::string& method : paper_families()) {
@@ -289,6 +318,7 @@ inline std::map<std::string, Rows> all_rows() {
   }
   for (Row& row : rows["iterations"]) row.set("major_iterations", 4LL);
   rows["iterations_limited_memory"] = rows["iterations"];
+  rows["iterations_limited_memory_by_cost"] = rows["iterations"];
   rows["iterations_bounds"] = rows["iterations"];
   for (Row& row : rows["iterations_bounds"]) row.set("predicted_minors", row.needed("minor_iterations") - 1.0);
   add_rows_of(rows["iterations_bounds"], oscillator, [](const Row& row) { return row.text("problem") == orbit; });
@@ -344,6 +374,10 @@ inline std::map<std::string, Rows> all_rows() {
       {"intervals", "status", "cost_error", "variables"},
       {{"variational", {"64", "solved", "1e-3", "388"}}, {"imposed", {"64", "solved", "1e-2", "258"}}});
   rows["step_control_slopes"] = step_control_rows({"operations"}, {{"variational", {"240"}}, {"imposed", {"104"}}});
+  rows["equivalence_inequalities"] = inequality_rows();
+  rows["equivalence_symmetric"] = symmetric_rows();
+  rows["convergence_indirect_jumps"] = jump_rows();
+  rows["iterations_common_ratios"] = currency_rows();
   rows["coercivity"] = coercivity_rows();
   rows["structure_advantage_ratios"] = advantage_rows();
   rows["local_minima_minima"] = minima_rows();

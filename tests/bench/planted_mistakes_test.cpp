@@ -148,7 +148,7 @@ std::vector<Mistake> mistakes_about_cost() {
        on_orbit("minor_iteration_ratio"), ClaimVerdict::not_judged},
       {"minor iterations that miss the law", "iterations", scale(every_row, "predicted_minors", 1.01),
        on_orbit("minor_iterations_equal_variable_ratio")},
-      {"quasi-Newton iterations that all methods need alike", "iterations_limited_memory",
+      {"quasi-Newton iterations that all methods need alike", "iterations_limited_memory_by_cost",
        set(every_row, "minor_iterations", 100LL), on_orbit("minor_iteration_ratio_by_quasi_newton")},
       {"minor iterations with bounds that all methods need alike", "iterations_bounds",
        [](Rows& rows) {

@@ -2,6 +2,8 @@
 
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
+#include "methods/error.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
@@ -119,6 +121,26 @@ TEST(MomentumConsistency, SumsItsDefectsToTheTotalAndTheirMagnitudesToTheMean) {
   EXPECT_DOUBLE_EQ(measured.largest, measured.defects.cwiseAbs().maxCoeff());
   EXPECT_DOUBLE_EQ(measured.mean, measured.defects.cwiseAbs().mean());
   EXPECT_DOUBLE_EQ(measured.total, std::abs(measured.defects.sum()));
+}
+
+TEST(CostateMomentum, IsConstantAlongOptimaOfSymmetricProblemsByEveryMethodInEitherChart) {
+  for (const std::string name : {"orbital_transfer", "kepler_cartesian", "hovercraft"}) {
+    const auto problem = make_problem(name);
+    for (const std::string& method : paper_families()) {
+      const Solved solved =
+          tests::solve(*problem, {method, 2}, Grid::uniform(32), tests::common_start(*problem), 1e-11);
+      EXPECT_LT(costate_momentum(*problem, solved.trajectory).spread, 1e-7) << name << ", " << method;
+    }
+  }
+}
+
+TEST(CostateMomentum, MovesWhereGravityBreaksTheSymmetry) {
+  const auto problem = make_problem("two_link_manipulator");
+  const Solved solved = tests::solve(*problem, {"dmoc", 1}, Grid::uniform(64), tests::common_start(*problem), 1e-11);
+  EXPECT_GT(costate_momentum(*problem, solved.trajectory).spread, 1e-3);
+  Trajectory without = solved.trajectory;
+  without.psi_q.resize(0, 0);
+  EXPECT_THROW(static_cast<void>(costate_momentum(*problem, without)), Error);
 }
 
 TEST(MomentumConsistency, NeedsASymmetry) {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,7 +36,10 @@ class Convexification {
 /// of their sum becomes the new start. Always positive definite.
 class LimitedMemoryHessian {
  public:
+  /// Begins as the identity.
   explicit LimitedMemoryHessian(Eigen::Index variables) : diagonal_(Eigen::VectorXd::Ones(variables)) {}
+  /// Begins as a diagonal matrix with positive entries.
+  explicit LimitedMemoryHessian(Eigen::VectorXd diagonal) : diagonal_(std::move(diagonal)) {}
   [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const;
 
   /// Learns from a step s and the change y of the gradient of the Lagrangian along it (Powell's damping where yᵀs is

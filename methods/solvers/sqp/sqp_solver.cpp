@@ -42,8 +42,9 @@ class SequentialRun {
                           [this](const MinorIteration& minor) { return observe(minor); }),
         globalisation_(program),
         multipliers_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count()))) {
-    if (choices.limited_memory) limited_memory_.emplace(start.size());
     at_ = values_at(program, start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper()));
+    if (choices.hessian == SecondDerivatives::limited_memory) limited_memory_.emplace(start.size());
+    if (choices.hessian == SecondDerivatives::limited_memory_by_cost) limited_memory_.emplace(curvatures_of_cost());
   }
 
   /// Major iterations until the Karush-Kuhn-Tucker conditions hold.
@@ -75,6 +76,13 @@ class SequentialRun {
     if (options_.stop_requested && options_.stop_requested()) return Status::interrupted;
     if (program_.is_out_of_time()) return Status::time_limit;
     return std::nullopt;
+  }
+
+  /// With the identity in their place, how many iterations are needed depends on the units of the unknowns.
+  [[nodiscard]] Eigen::VectorXd curvatures_of_cost() const {
+    const Eigen::VectorXd diagonal =
+        hessian_at(program_, at_.point, Eigen::VectorXd::Zero(multipliers_.size())).diagonal();
+    return (diagonal.array() > 0.0 && diagonal.array().isFinite()).select(diagonal, 1.0);
   }
 
   [[nodiscard]] bool is_differentiable() const {
@@ -207,7 +215,10 @@ class SequentialRun {
 };
 
 constexpr std::array crashes{Named<Crash>{"none", Crash::none}, Named<Crash>{"basis", Crash::basis}};
-constexpr std::array hessians{Named<bool>{"exact", false}, Named<bool>{"limited_memory", true}};
+constexpr std::array hessians{
+    Named<SecondDerivatives>{"exact", SecondDerivatives::exact},
+    Named<SecondDerivatives>{"limited_memory", SecondDerivatives::limited_memory},
+    Named<SecondDerivatives>{"limited_memory_by_cost", SecondDerivatives::limited_memory_by_cost}};
 constexpr std::array pricing_rules{
     Named<PricingRule>{"largest", PricingRule::largest}, Named<PricingRule>{"lowest", PricingRule::lowest},
     Named<PricingRule>{"last", PricingRule::last}, Named<PricingRule>{"random", PricingRule::random}};
@@ -222,8 +233,7 @@ SequentialOptions sequential_options(const NamedOptions& named) {
   SequentialOptions choices;
   read_named_options(
       "sqp", named,
-      {named_option("crash", choices.crash, sqp::crashes),
-       named_option("hessian", choices.limited_memory, sqp::hessians),
+      {named_option("crash", choices.crash, sqp::crashes), named_option("hessian", choices.hessian, sqp::hessians),
        named_option("pricing", choices.pricing, sqp::pricing_rules), named_option("seed", choices.seed)});
   return choices;
 }

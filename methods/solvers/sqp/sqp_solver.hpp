@@ -11,12 +11,19 @@
 
 namespace dmocbench {
 
+/// The second derivatives of the quadratic programs.
+enum class SecondDerivatives : std::uint8_t {
+  exact,                   ///< the Hessian of the Lagrangian
+  limited_memory,          ///< quasi-Newton updates of the identity
+  limited_memory_by_cost,  ///< quasi-Newton updates of the curvatures of the cost at the start, 1 where it has none
+};
+
 /// Options of `SqpSolver`.
 struct SequentialOptions {
-  sqp::Crash crash = sqp::Crash::none;                   ///< the basis of the first quadratic program
-  sqp::PricingRule pricing = sqp::PricingRule::largest;  ///< which column enters
-  std::uint32_t seed = 1;                                ///< of the random pricing rule
-  bool limited_memory = false;                           ///< a quasi-Newton matrix instead of the exact Hessian
+  sqp::Crash crash = sqp::Crash::none;                                 ///< the basis of the first quadratic program
+  sqp::PricingRule pricing = sqp::PricingRule::largest;                ///< which column enters
+  std::uint32_t seed = 1;                                              ///< of the random pricing rule
+  SecondDerivatives hessian = SecondDerivatives::exact;                ///< of the quadratic programs
   std::function<void(const MinorIteration&)> on_minor_iteration = {};  ///< called for every one
 };
 
@@ -24,7 +31,7 @@ struct SequentialOptions {
 [[nodiscard]] sqp::Crash crash_named(std::string_view name);
 
 /// The options from their names: crash=none|basis, pricing=largest|lowest|last|random, seed=(a whole number),
-/// hessian=exact|limited_memory. Throws `Error` on another name or value.
+/// hessian=exact|limited_memory|limited_memory_by_cost. Throws `Error` on another name or value.
 [[nodiscard]] SequentialOptions sequential_options(const NamedOptions& named);
 
 /// Sequential quadratic programming with an active-set method that starts each first quadratic program from the slack

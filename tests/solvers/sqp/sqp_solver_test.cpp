@@ -58,6 +58,23 @@ TEST(Sqp, SolvesWithActiveControlBoundsToAPointWhereIpoptStays) {
   }
 }
 
+TEST(Sqp, UpdatesOfTheCurvaturesOfTheCostTakeFarFewerIterationsThanUpdatesOfTheIdentity) {
+  const auto problem = make_problem("orbital_transfer");
+  for (const std::string& method : paper_families()) {
+    Transcription program(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(64));
+    const auto majors = [&](SecondDerivatives hessian) {
+      SolverOptions options;
+      options.tolerance = 1e-8;
+      const Solution solution =
+          SqpSolver(options, {.hessian = hessian}).solve(program, sample(program, guessed_motion(*problem)));
+      EXPECT_EQ(solution.status, Status::solved) << method << ": " << solution.message;
+      return solution.major_iterations.value_or(0);
+    };
+    EXPECT_LT(3 * majors(SecondDerivatives::limited_memory_by_cost), majors(SecondDerivatives::limited_memory))
+        << method;
+  }
+}
+
 TEST(Sqp, GivesUpWithAWordWhereTheObjectiveFallsForever) {
   SmallProgram program =
       tests::equality_program([](const HyperVector& x) { return x[0]; },
