@@ -33,8 +33,9 @@ struct Trajectory {
   /// Gradient of the optimal cost-to-go in (q, p) at the nodes, (N + 1) × n each; empty (0 × 0) without multipliers.
   Eigen::MatrixXd psi_q;
   Eigen::MatrixXd psi_p;  ///< see `psi_q`
-  /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, where bounds on velocities or
-  /// path constraints have multipliers of their own there, and of shooting, whose stages are no unknowns.
+  /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, where bounds on velocities,
+  /// path constraints, integrals or first-order states have multipliers of their own there, and of shooting, whose
+  /// stages are no unknowns.
   Eigen::MatrixXd stage_psi_q;
   Eigen::MatrixXd stage_psi_p;  ///< see `stage_psi_q`
 
