@@ -29,7 +29,7 @@ constexpr std::string_view harmless_options =
     "--set --form --start-seconds --tolerance --tolerances --iterations --seconds --repeats --verbose --jobs --batch "
     "--no-batch --reference --polish --no-polish --fit --routes --no-indirect --starts --library-starts --other-starts "
     "--other-library-starts --seed --amplitude --plane --objective-tolerance --hessian --crash --factorisation --over "
-    "--samples ";
+    "--samples --fresh --quiet --json ";
 
 /// Options that `merge` sets itself.
 constexpr std::string_view set_by_merge = " --part --out --name ";
