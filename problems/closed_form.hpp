@@ -13,7 +13,7 @@ struct OptimalPoint {
   Eigen::VectorXd psi_p;  ///< costate of p, n entries
 };
 
-/// A problem that knows its optimal motion in closed form.
+/// A problem whose optimal motion has a closed form.
 class ClosedForm {
  public:
   virtual ~ClosedForm() = default;

@@ -14,12 +14,12 @@ namespace dmocbench {
   return {"gravity", value, "m/s^2", "gravitational acceleration", lower, 1e3};
 }
 
-/// The parameter `horizon`, T in s; `of` says whose duration it is.
+/// The parameter `horizon`, T in s; `of` names the process that lasts so long.
 [[nodiscard]] inline Parameter horizon_parameter(double value, const std::string& of = "") {
   return {"horizon", value, "s", of.empty() ? "duration T" : "duration T of the " + of, 1e-3, 1e3};
 }
 
-/// A parameter that is 0 or 1; `meaning` says what both stand for.
+/// A parameter that is 0 or 1; `meaning` names both values.
 [[nodiscard]] inline Parameter switch_parameter(const std::string& name, bool on, const std::string& meaning) {
   return {name, on ? 1.0 : 0.0, "", meaning, 0.0, 1.0, true};
 }

@@ -62,11 +62,11 @@ std::string figure_of(const Row& claim) {
 }
 
 /// Links to the figures of the claims; the script of the page puts the figures into them.
-std::string small_figures(const std::vector<const Row*>& claims) {
+std::string small_figures(const std::vector<const Row*>& claims, const ResultsFolder& results) {
   std::string html;
   for (const Row* const claim : claims) {
     const std::string figure = figure_of(*claim);
-    if (!figure.empty())
+    if (std::ranges::count(results.figures, figure, &ReportedFigure::name) > 0)
       html +=
           fmt::format("<a class=\"small\" href=\"#{}\">{}</a>\n", anchor("figure", figure), escaped(in_words(figure)));
   }
@@ -80,7 +80,8 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-std::string answer_html(const Question& question, const Table& claims) {
+std::string answer_html(const Question& question, const ResultsFolder& results) {
+  const Table& claims = results.claims;
   const std::vector<const Row*> answers = claims_named(claims, question.claim);
   if (answers.empty()) return "";
   std::vector<std::string> measured;
@@ -100,14 +101,14 @@ std::string answer_html(const Question& question, const Table& claims) {
     verdicts.push_back(fmt::format("{} {}", linked(*claim), badge(claim->text("verdict"))));
   if (!verdicts.empty())
     html += fmt::format(" <i>{}: {}</i>", escaped(in_words(question.beside)), fmt::join(verdicts, ", "));
-  return html + small_figures(answers) + "</li>\n";
+  return html + small_figures(answers, results) + "</li>\n";
 }
 
 }  // namespace
 
-std::string answers_html(const Table& claims) {
+std::string answers_html(const ResultsFolder& results) {
   std::string answers;
-  for (const Question& question : questions) answers += answer_html(question, claims);
+  for (const Question& question : questions) answers += answer_html(question, results);
   return answers.empty() ? "" : "<ol class=\"answers\">\n" + answers + "</ol>\n";
 }
 

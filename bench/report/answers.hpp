@@ -3,13 +3,14 @@
 #include <string>
 #include <utility>
 
+#include "bench/report/results_folder.hpp"
 #include "methods/tables/table.hpp"
 
 namespace dmocbench {
 
 /// Five questions about the methods, each answered in a sentence by the claims that a run has judged, with the
 /// measurements for each problem and the verdicts; empty where none of these claims was judged.
-[[nodiscard]] std::string answers_html(const Table& claims);
+[[nodiscard]] std::string answers_html(const ResultsFolder& results);
 
 /// A verdict as a small label.
 [[nodiscard]] std::string badge(const std::string& verdict);

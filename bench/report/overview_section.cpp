@@ -160,7 +160,7 @@ std::string contents_html(const ResultsFolder& results) {
 std::string overview_section(const ResultsFolder& results) {
   std::string html = "<section id=\"overview\"><h1>DMOC against collocation</h1>\n";
   html += comparison_html(results) + contents_html(results) + warnings_html(results) +
-          (results.claims.rows().empty() ? measured_answers_html(results) : answers_html(results.claims)) +
+          (results.claims.rows().empty() ? measured_answers_html(results) : answers_html(results)) +
           unsolved_html(results) + "<dl class=\"facts\">\n";
   const auto add = [&html](std::string_view term, const std::string& description) {
     if (!description.empty()) html += fmt::format("<dt>{}<dd>{}\n", term, escaped(description));

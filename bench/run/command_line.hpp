@@ -74,7 +74,7 @@ class CommandLine {
 
 /// The groups of `--help` that most programs have: which problem, and where results go.
 inline constexpr const char* group_of_problem = "Problem";
-inline constexpr const char* group_of_output = "Output";
+inline constexpr const char* group_of_output = "Output";  ///< where results go
 
 /// What went wrong, for a person: the words of our own errors; of others what they mean, where that is known.
 [[nodiscard]] std::string sentence_of(const std::exception& error);
@@ -99,6 +99,7 @@ int run_program(const std::string& name, const std::string& description, int arg
 /// `complaint` and not to standard error; null leaves them there.
 class ComplaintScope {
  public:
+  /// From now on, until it is destroyed.
   explicit ComplaintScope(std::string* complaint);
   ~ComplaintScope();
   ComplaintScope(const ComplaintScope&) = delete;
