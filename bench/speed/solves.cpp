@@ -94,8 +94,8 @@ std::optional<double> peak_bytes(const SolveCase& solve) {
   return before && peak ? std::optional(std::max(0.0, *peak - *before)) : std::nullopt;
 }
 
-/// Every repetition makes the program again. So making it is measured as often as solving it, the place of its arrays is
-/// part of the noise of the repetitions, and no program of a million intervals, a gigabyte, waits for its turn.
+/// Every repetition makes the program again. So making it is measured as often as solving it, the place of its arrays
+/// is part of the noise of the repetitions, and no program of a million intervals, a gigabyte, waits for its turn.
 void run(benchmark::State& state, const SolveCase& solve, std::optional<double> bytes) {
   static_cast<void>(time_solves(state, *make_solver_of(solve), program_of(solve)));
   if (bytes) state.counters["bytes_per_interval"] = *bytes / solve.intervals;

@@ -104,12 +104,12 @@ struct AdaptiveTask {
 /// every interval is halved; with `Refinement::hp` the number of stages grows to three first. It ends as `too_many`
 /// where, by the order of the error, the accuracy takes more than 65536 intervals, on three grids in turn.
 ///
-/// A motion that leaves its constraints between stages (`violation_between_stages`) has no estimate, whatever the requested
-/// accuracy: the next grid is four times as fine where it leaves them farthest, and the same elsewhere.
+/// A motion that leaves its constraints between stages (`violation_between_stages`) has no estimate, whatever the
+/// requested accuracy: the next grid is four times as fine where it leaves them farthest, and the same elsewhere.
 ///
 /// It ends as `rounding` where the floor of an estimate is above the accuracy, or the next grid's would be. It stops
-/// where a program is not solved (`solution` has the reason). `on_grid` is called for every grid. Throws `Stopped` where a
-/// `StopScope` requires it outside of a solve, and `Error` as `Transcription` does.
+/// where a program is not solved (`solution` has the reason). `on_grid` is called for every grid. Throws `Stopped`
+/// where a `StopScope` requires it outside of a solve, and `Error` as `Transcription` does.
 [[nodiscard]] AdaptiveAnswer solve_adaptively(const AdaptiveTask& task, const AdaptiveOptions& options,
                                               const std::function<void(const GridAttempt&)>& on_grid = {});
 

@@ -51,8 +51,8 @@ class Job {
   std::exception_ptr error_;
 };
 
-/// Yields the processor, about ten microseconds in all, until `holds`: a thread that sleeps needs as long to wake. False
-/// if it does not hold by then.
+/// Yields the processor, about ten microseconds in all, until `holds`: a thread that sleeps needs as long to wake.
+/// False if it does not hold by then.
 template <class Condition>
 bool holds_soon(const Condition& holds) {
   constexpr int most_yields = 100;

@@ -86,7 +86,8 @@ void PrimitiveLibrary::require_made_for(const Problem& asked) const {
   bool all_fit = asked.horizon() / most_steps <= step && std::isfinite(step) && intervals_per_step >= 1;
   for (const BoundaryState& state : states) all_fit = all_fit && has_size(state.q, n, 1) && has_size(state.v, n, 1);
   for (const Primitive& each : primitives) all_fit = all_fit && fits(each, *this, n, asked.control_size());
-  if (!all_fit) throw Error(fmt::format("the primitives of {} are damaged: sizes do not fit; make them again", problem));
+  if (!all_fit)
+    throw Error(fmt::format("the primitives of {} are damaged: sizes do not fit; make them again", problem));
   require_true_costs(*this, asked);
 }
 
