@@ -84,7 +84,7 @@ Claims order_theorem_claims() {
            "one power too much of f_d and of the transforms: at fixed end points the derivative of h^(r + 1) "
            "e((q_0 + q_1)/2, (q_1 - q_0)/h) by q_1 loses one power, so that their exact order is h^r while L_d and "
            "the map keep h^(r + 1) (methods/diagnostics/README.md, \"Order of consistency\"); Patrick and Cuell, whom "
-           "the paper cites for another proof, find the same for the unforced theorem: divisions by the time step cost one "
+           "the paper cites for another proof, find it for the unforced theorem: divisions by the time step cost one "
            "order, which a symmetry between past and future repairs for the map (Error analysis of variational "
            "integrators of unconstrained Lagrangian systems, Numer. Math. 113, 2009)",
        .evidence = evidence},
