@@ -168,30 +168,3 @@ namespace detail {
 [[nodiscard]] std::size_t live_nodes() noexcept;
 
 }  // namespace dmocbench
-
-/// Formulas may also write `std::cos(x)`: without these names the compiler answers with a page of candidates.
-namespace std {  // NOLINT(cert-dcl58-cpp)
-using dmocbench::acos;
-using dmocbench::asin;
-using dmocbench::asinh;
-using dmocbench::atan;
-using dmocbench::atan2;
-using dmocbench::cos;
-using dmocbench::cosh;
-using dmocbench::erf;
-using dmocbench::exp;
-using dmocbench::hypot;
-using dmocbench::log;
-using dmocbench::pow;
-using dmocbench::sin;
-using dmocbench::sinh;
-using dmocbench::sqrt;
-using dmocbench::tan;
-using dmocbench::tanh;
-dmocbench::instead::write_smooth_abs abs(const dmocbench::Expression&) = delete;
-dmocbench::instead::write_smooth_abs fabs(const dmocbench::Expression&) = delete;
-dmocbench::instead::write_smooth_max max(const dmocbench::Expression&, const dmocbench::Expression&) = delete;
-dmocbench::instead::write_smooth_max fmax(const dmocbench::Expression&, const dmocbench::Expression&) = delete;
-dmocbench::instead::write_smooth_min min(const dmocbench::Expression&, const dmocbench::Expression&) = delete;
-dmocbench::instead::write_smooth_min fmin(const dmocbench::Expression&, const dmocbench::Expression&) = delete;
-}  // namespace std
