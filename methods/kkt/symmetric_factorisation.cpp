@@ -122,12 +122,18 @@ SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions
 bool SymmetricFactorisation::factorise(const Eigen::SparseMatrix<double>& lower) {
   if (!(lower.coeffs().abs() <= largest_entry).all()) return false;  // NaN fails it too
   try {
-    if (mumps_->read(lower)) {
-      mumps_->analysed = mumps_->run(job_analyse);
-      if (!mumps_->analysed) return false;
+    // An analysis reads values as well, for its scaling and matching. One of a singular matrix, or of other values,
+    // finds pivots that are mere rounding in a matrix that is regular.
+    bool analyses = mumps_->read(lower);
+    while (true) {
+      if (analyses) mumps_->analysed = mumps_->run(job_analyse);
+      if (analyses && !mumps_->analysed) return false;
+      if (mumps_->run(job_factorise) && mumps_->data.infog[control(28)] == 0) return true;
+      mumps_->analysed = false;
+      if (analyses) return false;
+      analyses = true;
     }
-    return mumps_->run(job_factorise) && mumps_->data.infog[control(28)] == 0;  // pivots that are mere rounding
-  } catch (...) {                                                               // its work is half done
+  } catch (...) {  // its work is half done
     mumps_ = std::make_shared<Mumps>(std::move(mumps_->positions));
     throw;
   }

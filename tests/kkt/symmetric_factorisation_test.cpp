@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include "methods/kkt/linearisation.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "tests/solvers/sqp/random_quadratic_program.hpp"
 
@@ -94,6 +95,33 @@ TEST(SymmetricFactorisation, TellsASingularMatrix) {
   SymmetricFactorisation factorisation;
   EXPECT_FALSE(factorisation.factorise(lower_of(Eigen::MatrixXd::Ones(3, 3))));
   EXPECT_TRUE(factorisation.factorise(lower_of(Eigen::MatrixXd::Identity(3, 3))));
+}
+
+TEST(SymmetricFactorisation, FactorisesARegularMatrixAfterASingularOneOfItsPattern) {
+  // Rows of a collocation of x' = v, v' = u with a free horizon, without curvature: regular with a shift only.
+  constexpr Eigen::Index intervals = 4;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2 * intervals, 3 * intervals - 1);
+  for (Eigen::Index k = 0; k < intervals; ++k) {
+    for (const Eigen::Index side : {0, 1}) {
+      const Eigen::Index node = k - 1 + side;  // the ends are given
+      if (node < 0 || node >= intervals - 1) continue;
+      rows(k, node) = side == 0 ? -1.6 : 1.6;
+      rows(k, intervals - 1 + node) = -0.5;
+      rows(intervals + k, intervals - 1 + node) = side == 0 ? -3.2 : 3.2;
+    }
+    rows(intervals + k, 2 * (intervals - 1) + k) = -1.0;
+    rows(k, 3 * intervals - 2) = -0.16;
+  }
+  const Eigen::SparseMatrix<double> jacobian = rows.sparseView();
+  const Eigen::SparseMatrix<double> no_curvature(jacobian.cols(), jacobian.cols());
+  const std::vector<bool> free(static_cast<std::size_t>(jacobian.cols()), true);
+  const std::vector<bool> counts(static_cast<std::size_t>(jacobian.rows()), true);
+  SymmetricFactorisation factorisation;
+  EXPECT_FALSE(factorisation.factorise(kkt_matrix(no_curvature, 0.0, jacobian, free, counts)));
+  for (const double shift : {1e-4, 1.0, 1e4}) {
+    EXPECT_TRUE(factorisation.factorise(kkt_matrix(no_curvature, shift, jacobian, free, counts))) << shift;
+    EXPECT_EQ(factorisation.negative_eigenvalues(), jacobian.rows());
+  }
 }
 
 }  // namespace

@@ -16,17 +16,21 @@ namespace dmocbench::sqp {
 /// the matrix (H + δI, Eᵀ; E, 0): as many negative eigenvalues as rows E, and no eigenvalue 0.
 class Convexification {
  public:
-  static constexpr double least_shift = 1e-4;
+  static constexpr double first_least_shift = 1e-4;
 
   /// 0 if H is positive definite there already; otherwise at most a tenth more than is needed, and at least
-  /// `least_shift`: without any curvature, a smaller shift would allow steps of any length. `free` marks
-  /// the variables that may move, `equalities` the rows that count. Where no shift is enough, the largest one tried.
-  /// None where an entry is not finite or above `SymmetricFactorisation::largest_entry`, or when `is_stopped`, called
-  /// after each trial, returns true.
+  /// `least_shift`: without any curvature, a smaller shift would allow longer steps than the line search may judge.
+  /// `free` marks the variables that may move, `equalities` the rows that count. Where no shift is enough, the largest
+  /// one tried. None where an entry is not finite or above `SymmetricFactorisation::largest_entry`, or when
+  /// `is_stopped`, called after each trial, returns true.
   [[nodiscard]] std::optional<double> shift_for(const Eigen::SparseMatrix<double>& hessian,
                                                 const Eigen::SparseMatrix<double>& jacobian,
                                                 const std::vector<bool>& free, const std::vector<bool>& equalities,
                                                 const std::function<bool()>& is_stopped = {});
+
+  /// What a matrix without curvature gets. A caller lowers it while whole steps are taken: where the cost is linear and
+  /// its minimum a vertex, the number of iterations is proportional to the shift.
+  double least_shift = first_least_shift;
 
  private:
   SymmetricFactorisation factorisation_;

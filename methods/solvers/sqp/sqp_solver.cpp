@@ -187,11 +187,14 @@ class SequentialRun {
     constexpr double growth = 4.0;
     constexpr double decay = 3.0;
     constexpr double smallest = 1e-6;
+    constexpr double least = 1e-10;
     if (step_length < short_step) {
       cautious_shift_ = growth * std::max({shift_, cautious_shift_, smallest});
+      convexification_.least_shift = Convexification::first_least_shift;
     } else if (step_length == 1.0) {
       cautious_shift_ /= decay;
       if (cautious_shift_ < smallest) cautious_shift_ = 0.0;
+      if (shift_ == convexification_.least_shift) convexification_.least_shift = std::max(least, shift_ / decay);
     }
   }
 

@@ -5,6 +5,7 @@
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/solvers/sqp/control_bounds.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/solving.hpp"
@@ -36,6 +37,37 @@ TEST(Sqp, FindsIpoptsOptimaToEightDigits) {
         const double largest = by_ipopt.solution.multipliers.lpNorm<Eigen::Infinity>();
         EXPECT_LT((solution.multipliers - by_ipopt.solution.multipliers).lpNorm<Eigen::Infinity>(), 1e-6 * largest);
       }
+    }
+  }
+}
+
+/// 2 kg over 1 m by at most 50 N in the least time, 0.4 s: a linear cost and an optimum at a vertex.
+class FastestMass final : public tests::SmallProblem {
+ public:
+  FastestMass() : SmallProblem("fastest_mass", at(0.0, 0.0), at(1.0, 0.0), 2.5, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState&) const override { return 0.0; }
+  [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    bounds.v = Bounds::all(1, -50.0, 50.0);
+    bounds.u = Bounds::all(1, -50.0, 50.0);
+    bounds.horizon = {0.01, 5.0};
+    return bounds;
+  }
+};
+
+TEST(Sqp, FindsAVertexOfALinearCostInFewIterationsByEveryFamily) {
+  const FastestMass problem;
+  for (const std::string& method : paper_families()) {
+    for (const Eigen::Index intervals : {20, 100}) {
+      SCOPED_TRACE(testing::Message() << method << " N = " << intervals);
+      Transcription program(problem, *make_element(method), gauss_tableau(1), Grid::uniform(intervals));
+      const Solution solution = solve_by_sqp(program, sample(program, guessed_motion(problem)));
+      ASSERT_EQ(solution.status, Status::solved) << solution.message;
+      EXPECT_NEAR(solution.objective, 0.4, 1e-9);
+      EXPECT_LT(solution.major_iterations, 40);
     }
   }
 }
