@@ -108,7 +108,7 @@ class DoubleIntegrator : public Problem, public ClosedForm {
     ReferenceOptimum optimum{.objective = 6.0 * d * d / (duration * duration * duration),
                              .digits = double_precision,
                              .certificate = "closed form, 6 d^2 / T^3"};
-    if (has_default_parameters()) optimum.published.push_back({6.000000, "PSOPT, example mineng_di"});
+    if (has_default_parameters()) optimum.published = {{6.000000, "PSOPT, example mineng_di"}};
     return optimum;
   }
 };

@@ -29,7 +29,7 @@ TEST(ParticleSteering, MeetsItsEndByTheBilinearTangentLaw) {
     boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
     constexpr int steps = 100;
     boost::numeric::odeint::integrate_n_steps(
-        stepper,
+        boost::ref(stepper),  // its copy would read scratch memory that nothing has written
         [&](const State& x, State& rate, double t) {
           const double u = std::atan(c * (1.0 - 2.0 * t / horizon));
           rate = {x[2], 100.0 * std::cos(u), 100.0 * std::sin(u)};
