@@ -66,7 +66,8 @@ do for [name in "convergence convergence_512"] {
         eval begin_figure(kind, figure, 600)
         plot for [curve in curves] rows(name, curve, error) using (column("step")):(column(error))\
              with linespoints linetype method_style(entry(curve, "method"))\
-             title with_slope(curve_label(name, curve), slope(name."_slopes", curve, quantity)),\
+             title with_slope(curve_label(name, curve), slope(name."_slopes", curve, quantity))\
+             .bounds_note(name."_slopes", curve, quantity),\
              for [k = 1:words(coarse_curves)] coarse_rows(name, word(coarse_curves, k), error)\
              using (column("step")):(column(error))\
              with points linetype method_style(entry(word(coarse_curves, k), "method")) pointtype 6 notitle,\

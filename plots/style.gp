@@ -60,6 +60,9 @@ slope(name, where, quantity) = slope_text(slope_fields(name, where, quantity, "s
 fit_range(name, where, quantity) = fit_range_text(slope_fields(name, where, quantity, "coarsest,finest"))
 fit_range_text(fields) = words(fields) < 2 ? "" : sprintf("N = %s to %s", word(fields, 1), word(fields, 2))
 with_slope(label, slope) = strlen(slope) == 0 ? label : label.", ".slope
+# A note for the legend of a curve on which bounds are active, where orders are lower.
+bounds_note(name, where, quantity) = noted_bounds(slope_fields(name, where, quantity, "active"))
+noted_bounds(read) = strlen(read) == 0 ? "" : ", bounds on ".read." active"
 
 # --- How a table was made --------------------------------------------------------------------------------------------
 # A value of the run's metadata, results/NAME.json, as text; empty if it is missing.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/experiments/situation.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/indirect_reference.hpp"
 #include "bench/tables/fitted_orders.hpp"
@@ -34,35 +35,19 @@ struct Measured {
   std::optional<double> control_from_costate_error;
   std::optional<ReplayError> replay;
   std::optional<int> polish_steps;
+  std::string active;
   std::vector<double> round_seconds;
 };
 
-constexpr const char* note_on_bounds = "Bounds or inequalities are active, where orders are lower.";
-
-/// True if an answer lies on a bound or an inequality that is no equation.
-bool has_active_bounds(SolvedCase& solved) {
-  constexpr double close_by = 1e-6;  // relative; interior-point methods stay off bounds by their tolerance
-  Transcription& program = *solved.program;
-  const auto is_active = [&](const Eigen::VectorXd& values, const Eigen::VectorXd& lower,
-                             const Eigen::VectorXd& upper) {
-    const Eigen::ArrayXd distance = (values - lower).array().min((upper - values).array());
-    return (lower.array() < upper.array() && distance < close_by * values.array().abs().max(1.0)).any();
-  };
-  Eigen::VectorXd constraints(static_cast<Eigen::Index>(program.constraint_count()));
-  program.constraints(solved.solution.primal, constraints);
-  return is_active(solved.solution.primal, program.variable_lower(), program.variable_upper()) ||
-         is_active(constraints, program.constraint_lower(), program.constraint_upper());
-}
-
 /// A row per curve: of each error the fitted order and the grids that it is fitted over, or why there is none; and
 /// whether bounds are active, which lower orders.
-Table orders_by_curve(const Table& orders, const Table& rows) {
+Table orders_by_curve(const Table& orders) {
   const std::vector<std::string> quantities{"state", "momentum", "control", "costate", "objective"};
   std::vector<std::string> columns{"problem", "method", "tableau", "s"};
   columns.insert(columns.end(), quantities.begin(), quantities.end());
-  const auto is_bounded = [](const Row& row) { return row.text("message").find(note_on_bounds) != std::string::npos; };
-  const bool has_bounds = std::ranges::any_of(rows.rows(), is_bounded);
-  if (has_bounds) columns.emplace_back("bounds");
+  const bool has_bounds =
+      std::ranges::any_of(orders.rows(), [](const Row& row) { return !row.text("active").empty(); });
+  if (has_bounds) columns.emplace_back("active bounds");
   Table summary(columns);
   for (const Selection& curve : Selection(orders).group_by({"problem", "method", "tableau", "stages"})) {
     Row row = fields_of(curve.front(), {"problem", "method", "tableau"});
@@ -75,10 +60,7 @@ Table orders_by_curve(const Table& orders, const Table& rows) {
                                                        : fmt::format("{:.2f} ({}:{})", fit.needed("slope"),
                                                                      fit.text("coarsest"), fit.text("finest")));
     }
-    if (has_bounds) {
-      const Selection curves = Selection(rows).matching(curve.front(), {"problem", "method", "tableau", "stages"});
-      row.set("bounds", curves.where(is_bounded).empty() ? "" : "active");
-    }
+    if (has_bounds) row.set("active bounds", curve.front().text("active"));
     summary.append(std::move(row));
   }
   return summary;
@@ -111,6 +93,9 @@ class Convergence final : public ExperimentOf<Measured> {
          "largest error of the control recomputed from state and costate at the nodes",
          &Measured::control_from_costate_error},
         {"polish_steps", "", "Newton steps behind the solver", &Measured::polish_steps},
+        {"active", "",
+         "what the bounds and path constraints that the motion meets read: control, state, control and state",
+         &Measured::active},
         {"stage_configuration_error", "", "largest error of Q_i", from(error, stages, &StageError::configuration)},
         {"stage_momentum_error", "", "largest error of P_i", from(error, stages, &StageError::momentum)},
         {"stage_costate_q_error", "", "largest error of Psi^q_i", from(error, stages, &StageError::costate_q)},
@@ -160,9 +145,10 @@ class Convergence final : public ExperimentOf<Measured> {
     measured.replay = replay(solved);
     // The error of an answer that is no motion is drawn, hollow, but nothing is fitted to it or measured by it.
     if (!is_discrete_optimum(solved)) return;
-    if (has_active_bounds(solved)) solved.note(note_on_bounds);
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& trajectory = *solved.trajectory;
+    const std::string active = active_bounds(problem, trajectory);
+    if (active != "nothing") measured.active = active;
     try {
       if (indirect_) {
         reference_trajectory_ = indirect_->near(problem, trajectory).sampled_like(trajectory);
@@ -194,7 +180,7 @@ class Convergence final : public ExperimentOf<Measured> {
       const std::vector<std::string> notes = indirect_->notes();
       orders.notes.insert(orders.notes.begin(), notes.begin(), notes.end());
     }
-    output.findings.show("orders", orders_by_curve(orders.table, table), {}, output.prefix.string() + "_slopes.csv");
+    output.findings.show("orders", orders_by_curve(orders.table), {}, output.prefix.string() + "_slopes.csv");
     for (const std::string& note : orders.notes) {
       metadata["notes"].push_back(note);
       output.findings.say("convergence: " + note);

@@ -138,6 +138,7 @@ struct FittedCurve {
   Row head;
   std::string quantity;
   Fit fit;
+  std::string active = {};  ///< of the finest grid
   std::optional<FittedOrder> order = std::nullopt;
 
   /// The fit, if there is an order.
@@ -165,14 +166,17 @@ Columns<FittedCurve> order_columns() {
               from(&Curve::fit, &Fit::floor)},
              {"verdict", "",
               "slope; floor (rounding leaves too few grids), few grids, or unsteady (no four grids agree)",
-              from(&Curve::fit, &Fit::verdict)}};
+              from(&Curve::fit, &Fit::verdict)},
+             {"active", "", "what the active bounds and path constraints read; they lower orders", &Curve::active}};
 }
 
 /// Appends a fit, unless the quantity has no error on any grid.
 void append_fit(std::vector<FittedCurve>& curves, const std::string& quantity, const std::string& column,
                 const Fit& fit, const Selection& curve) {
-  if (with_error(curve, column).empty()) return;
-  FittedCurve& fitted = curves.emplace_back(FittedCurve{.head = curve.front(), .quantity = quantity, .fit = fit});
+  const Selection grids = with_error(curve, column);
+  if (grids.empty()) return;
+  FittedCurve& fitted = curves.emplace_back(
+      FittedCurve{.head = curve.front(), .quantity = quantity, .fit = fit, .active = grids.back().text("active")});
   if (fit.verdict == "slope") fitted.order = fit_order(errors_of(fit.grids, column), fit.reference);
 }
 

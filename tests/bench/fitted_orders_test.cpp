@@ -71,6 +71,15 @@ TEST(FittedOrders, UseStatesButNoControlsOfAnswersWhoseControlIsNotDetermined) {
   EXPECT_EQ(slope_of(fits, "control").text("points"), "6");
 }
 
+TEST(FittedOrders, NameTheBoundsThatAreActiveOnTheFinestGrid) {
+  const Table all = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
+  const auto active_of = [](const Table& table) {
+    return slope_of(fit_orders(table, std::nullopt, exact_reference), "state").text("active");
+  };
+  EXPECT_EQ(active_of(all), "");
+  EXPECT_EQ(active_of(with_field(all, 1024, "active", "control")), "control");
+}
+
 TEST(FittedOrders, BeginWhereNeighbouringGridsAgree) {
   const auto bent = [](double n) { return std::pow(n, -2.0) * (1.0 + std::pow(100.0 / n, 4.0)); };
   const Table table = convergence_of({{.error = bent}}, {16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512});
