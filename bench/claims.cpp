@@ -1,4 +1,4 @@
-// The table of claims: what the paper states, what was measured, and the verdict.
+// The table of claims: the paper's statements, the measurements, and the verdicts.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,5 @@
 // Whether the system responds to the forces as computed (section 1: "minimal effort is only meaningful if ..."), and
-// what staying on Q x Q costs in rounding.
+// the rounding errors that staying on Q x Q costs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The error that the controls of DMOC leave when they are integrated on the continuous equations, over the error by
-/// tangent-space collocation, grid by grid. The errors are exact numbers: every grid has to tell the same.
+/// tangent-space collocation, grid by grid. The errors are exact numbers, so that all grids must agree.
 Finding replay_beside_tangent(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("convergence", problem);
   const Selection all = midpoint(rows, "dmoc");
@@ -37,7 +37,7 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
                left_out(all, used, "not solved by both, in favour of"));
 }
 
-/// What rounding leaves of the momentum balance on the finest grid that both solve.
+/// The momentum balance at the level of rounding, on the finest grid that both methods solve.
 Finding rounding_floor(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("consistency", problem).where(is_midpoint).usable();
   for (const Row& row : rows) static_cast<void>(row.needed("tolerance"));
@@ -84,7 +84,7 @@ Finding interior_point_beside_ipopt(const ResultTables& tables, const std::strin
 
 }  // namespace
 
-/// Replay, and what rounding costs.
+/// Claims about replay errors and rounding.
 Claims accuracy_claims() {
   return {
       {.id = "replay_beside_tangent",
@@ -93,7 +93,7 @@ Claims accuracy_claims() {
                          "the controls of tangent-space collocation, on every grid",
                          "replayed on the continuous equations, DMOC's controls miss the final state by more than "
                          "the controls of tangent-space collocation, on every grid: the momentum balance that the "
-                         "discrete system keeps says nothing about the error of its motion"),
+                         "discrete system keeps does not bound the error of its motion"),
        .judge = replay_beside_tangent,
        .condition = "the paper motivates DMOC by effort that is meaningful only if the system responds to the "
                     "forces as computed, and compares no responses; controls are constant over an interval",
@@ -101,7 +101,7 @@ Claims accuracy_claims() {
        .headline = true},
       {.id = "rounding_floor",
        .where = "section 3.3, Implementation",
-       .states = "what staying on Q x Q costs in rounding on the finest grid",
+       .states = "rounding errors due to staying on Q x Q, on the finest grid",
        .judge = rounding_floor,
        .condition = "DMOC's momenta are differences of positions divided by h, so that their rounding grows as 1/h",
        .evidence = {"consistency.csv", "figures/{}_momentum.svg"}},

@@ -1,4 +1,4 @@
-// Grids that an estimate of the error chooses: how good the estimate is, what it saves, whether DMOC stays ahead.
+// Grids chosen by an error estimate: how good the estimate is, how much it saves, and whether DMOC keeps its advantage.
 #include <algorithm>
 
 #include "bench/claims/claim.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double smallest_effectivity = 0.3;
 constexpr double largest_effectivity = 3.0;
-/// An estimate of first order says something of errors that are small.
+/// A first-order estimate is meaningful only for small errors.
 constexpr double largest_estimated_error = 1e-2;
 const Problems uneven_problems{"eccentric_transfer", "hypersensitive"};
 
@@ -72,7 +72,7 @@ const Row& fewest_intervals(const Selection& rows) {
   });
 }
 
-/// The best number of stages of each kind of grid; the ratio at equal numbers of stages beside it.
+/// The best number of stages for each kind of grid, and the ratio at equal numbers of stages.
 Finding fewer_intervals(const ResultTables& tables, const std::string& problem) {
   std::string words;
   for (const std::string& method : paper_families()) {
@@ -115,8 +115,8 @@ Finding more_variables_by_collocation(const ResultTables& tables, const std::str
     const Selection others = reached(tables, problem, method, "adapted");
     for (const Row& own : dmoc) {
       const Selection same = others.matching(own, {"tableau", "stages"});
-      require(same.size() == 1, "adaptive.csv: {} has no adapted grid with {} stages beside DMOC's on {}", method,
-              own.text("stages"), problem);
+      require(same.size() == 1, "adaptive.csv: {} has no adapted grid with {} stages to compare with DMOC's on {}",
+              method, own.text("stages"), problem);
       const double ratio = quotient(same.front(), own, "variables_at_accuracy");
       holds = holds && ratio > 1.0;
       words += fmt::format("{}{} s = {}: {:.2f}", words.empty() ? "" : ", ", method, own.text("stages"), ratio);

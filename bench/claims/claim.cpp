@@ -41,27 +41,27 @@ std::vector<std::string> problems_of(const Claims& claims) {
   return problems;
 }
 
-/// Whether a measurement in words has a number that is none. Numbers of tables are finite, but what follows from them
-/// need not be: a ratio to 1e-310 is infinite.
+/// Whether the text of a measurement contains an infinite number or NaN. Numbers in tables are finite, but results
+/// computed from them need not be: a ratio to 1e-310 is infinite.
 bool has_no_number(const std::string& measured) {
   static const std::regex none(R"((^|[^A-Za-z_])(inf|nan)($|[^A-Za-z_]))");
   return std::regex_search(measured, none);
 }
 
-/// What is found; "not judged", with what is lacking, where nothing can be found.
+/// The judge's finding, or "not judged" with the missing item if the judge throws.
 template <std::invocable Judge>
 Finding finding_of(const Judge& judge) {
   try {
     Finding finding = judge();
     if (!has_no_number(finding.measured)) return finding;
-    return {.measured = "what follows from the tables is no finite number: " + finding.measured, .sure = ""};
+    return {.measured = "a number computed from the tables is not finite: " + finding.measured, .sure = ""};
   } catch (const Error& lacking) {
     return {.measured = lacking.what(), .sure = ""};
   }
 }
 
-/// The same of a judge that reads tables. A column that is not there would be read as empty fields, so it is asked for
-/// behind.
+/// The same for a judge that reads tables. A missing column would be read as empty fields, so columns are checked
+/// afterwards.
 template <std::invocable Judge>
 Finding finding_in(const ResultTables& tables, const ReadFields& fields, const Judge& judge) {
   Finding finding = finding_of(judge);
@@ -76,8 +76,8 @@ bool is_equal(double value, double required) {
   return std::abs(value - required) < tolerance * std::max(1.0, std::abs(required));
 }
 
-/// A misprint is confirmed, and the printed statement "differs", if what is printed misses what must hold by far more
-/// than rounding and what is meant does not. If both miss it, nobody knows what is meant.
+/// A misprint is confirmed, and the printed statement "differs", if the printed value misses the required one by far
+/// more than rounding and the corrected value does not. If both miss it, the intended statement is unknown.
 Finding judge_misprint(const Row& row) {
   const double printed = row.needed("value_as_printed");
   const double meant = row.needed("value_as_meant");
@@ -89,7 +89,7 @@ Finding judge_misprint(const Row& row) {
       .because("meant is " + row.text("meant"));
 }
 
-/// The misprints of a table that is there; one row says so if it cannot be read.
+/// The misprints in the table, if it exists; a single row with the error if it cannot be read.
 std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
   if (!tables.has("slips")) return {};
   std::vector<JudgedClaim> judged;
@@ -120,7 +120,7 @@ std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
   return judged;
 }
 
-/// What is written behind a verdict: the cause where the claim differs, the condition, what the tables tell.
+/// The reason written after a verdict: the cause if the claim differs, the condition, and the finding's own reason.
 std::string reason_of(const Claim& claim, const std::string& problem, const Finding& finding) {
   if (finding.verdict == ClaimVerdict::not_judged) return "";
   std::vector<std::string> sentences;

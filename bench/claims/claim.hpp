@@ -20,10 +20,10 @@ namespace dmocbench {
 enum class ClaimVerdict : std::uint8_t {
   reproduced,  ///< the predicate holds
   differs,     ///< the predicate does not hold
-  undecided,   ///< the interval of what was measured holds values on both sides of what decides
-  floor,       ///< only rounding was measured: nothing can be said
-  measured,    ///< a finding of ours or of an extension that draws no line: its numbers are the answer
-  not_judged,  ///< it lacks a table, a number or usable rows
+  undecided,   ///< the interval of the measurement contains the threshold
+  floor,       ///< the measurement is at the level of rounding: no verdict is possible
+  measured,    ///< a finding of ours or of an extension without a threshold: its numbers are the result
+  not_judged,  ///< a table, a number or usable rows are missing
 };
 /// All verdicts, in the order of tables.
 inline constexpr std::array all_verdicts{ClaimVerdict::reproduced, ClaimVerdict::differs,  ClaimVerdict::undecided,
@@ -41,7 +41,7 @@ using Problems = std::vector<std::string>;
 inline const Problems of_paper{orbit, two_link};  ///< both problems of the paper
 inline const Problems only_orbit{orbit};          ///< the first one
 inline const Problems only_two_link{two_link};    ///< the second one
-/// In the place of a problem where motions are simulated and nothing is optimal.
+/// Takes the place of a problem in claims about simulated motions without optimization.
 inline const Problems simulated{"simulations"};
 /// The same where several small problems are solved for one statement.
 inline const Problems examples{"examples"};
@@ -79,7 +79,7 @@ class Wording {
 /// The result of judging a claim by the tables.
 struct Finding {
   std::string measured;                             ///< in words and numbers
-  ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< what follows
+  ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< the verdict that follows from it
   std::string reason = {};     ///< the cause or condition that the tables show; written after the claim's own
   std::string sure = "exact";  ///< "exact", or how often the verdict came out among replicates
 
@@ -95,7 +95,7 @@ struct Finding {
   }
 };
 
-/// Judges a claim about a problem. Throws `Error` that names what it lacks; the claim is then "not judged".
+/// Judges a claim about a problem. Throws `Error` that names the missing data; the claim is then "not judged".
 using Predicate = std::function<Finding(const ResultTables& tables, const std::string& problem)>;
 
 /// A row of the table of claims before it is judged. To add one, write it into an array of its topic.
@@ -105,10 +105,10 @@ struct Claim {
   Wording where;  ///< section or label in the paper; for our own statement, the place in the paper that it sharpens
   Wording figure = "";                ///< label of the paper's figure that shows it; "" if none does
   Whose whose = Whose::ours;          ///< who makes the statement
-  Wording states;                     ///< what is stated, in the words of the source
-  Predicate judge;                    ///< what decides
-  Wording condition = "";             ///< under which condition it holds; written whatever the verdict
-  Wording cause = "";                 ///< why it differs; written where it does
+  Wording states;                     ///< the statement, in the words of its source
+  Predicate judge;                    ///< computes the verdict
+  Wording condition = "";             ///< the condition under which it holds; written for every verdict
+  Wording cause = "";                 ///< why it differs; written only if it does
   std::vector<std::string> evidence;  ///< files of the results folder; "{}" stands for the problem
   bool by_counting = false;           ///< it follows from counting unknowns or from a choice: no solve can turn it
   bool headline = false;              ///< a finding that the summary of the written table states
@@ -121,10 +121,10 @@ struct JudgedClaim {
   std::string where;                                ///< section or label in the paper
   std::string figure;                               ///< label of the paper's figure
   Whose whose = Whose::paper;                       ///< who makes the statement
-  std::string states;                               ///< what is stated
-  std::string measured;                             ///< what was found, or what is lacking
-  ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< what the predicate found
-  std::string reason;                               ///< why it differs, or under which condition it holds
+  std::string states;                               ///< the statement
+  std::string measured;                             ///< the measurement, or the missing data
+  ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< the predicate's verdict
+  std::string reason;                               ///< why it differs, or the condition under which it holds
   std::string evidence;                             ///< the tables and figures, with "; " between them
   std::string sure;  ///< "exact", or how often the verdict came out among replicates; "" for "not judged"
   std::vector<ReadRows> rows = {};  ///< by which it was judged
@@ -165,7 +165,7 @@ template <class Outcome, class... Values>
   return {fmt::format(words, std::forward<Values>(values)...), verdict_on(outcome)};
 }
 
-/// The verdict on "what was measured lies in a band" by its interval: `reproduced` inside, `differs` outside,
+/// The verdict on "the measurement lies in a band" by its interval: `reproduced` inside, `differs` outside,
 /// `undecided` across an end of the band. So a noisier measurement does not pass more easily.
 [[nodiscard]] ClaimVerdict verdict_on_interval(double lower, double upper, double band_lower, double band_upper);
 
@@ -196,13 +196,13 @@ void require(bool is_there, fmt::format_string<Values...> words, Values&&... val
 /// Texts that rows have, by their columns.
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
-/// How many of the rows a claim does not use, of which methods, why and whom that favours; "" if it uses all of them:
+/// How many rows a claim leaves out, of which methods, why, and which method this favours; "" if it uses all rows:
 /// "; 2 of 24 rows left out, not solved on the wanted branch, in favour of tangent (2: N = 8, 16)".
 [[nodiscard]] std::string left_out(const Selection& all, const Selection& used,
                                    std::string_view why = "not solved on the wanted branch, in favour of");
 
-/// The same of the rows with these texts in a table of solves of which the claim reads a summary; "" where it is not
-/// there.
+/// The same for the rows with these texts in the table of solves that the claim reads a summary of; "" if this table
+/// does not exist.
 [[nodiscard]] std::string unsolved_behind(const ResultTables& tables, std::string_view table, const Texts& wanted);
 
 /// Whether a row is of the midpoint rule.

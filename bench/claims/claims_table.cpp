@@ -23,8 +23,8 @@ const Columns<JudgedClaim>& claim_columns() {
       {"where", "", "in the paper", &JudgedClaim::where},
       {"figure", "", "of the paper", &JudgedClaim::figure},
       {"whose", "", "who states it", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
-      {"states", "", "what is stated", &JudgedClaim::states},
-      {"measured", "", "what was measured", &JudgedClaim::measured},
+      {"states", "", "the statement", &JudgedClaim::states},
+      {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
       {"verdict", "", "by the tables", [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
       {"reason", "", "why it differs, or when it holds", &JudgedClaim::reason},
       {"evidence", "", "tables and figures", &JudgedClaim::evidence},
@@ -33,7 +33,7 @@ const Columns<JudgedClaim>& claim_columns() {
   return all;
 }
 
-/// What the claims of a source are called: in the closing lines and as a heading.
+/// The name of the claims of a source in the closing lines and as a heading.
 struct Title {
   const char* line;
   const char* heading;
@@ -42,8 +42,8 @@ struct Title {
 Title title_of(Whose whose) {
   constexpr std::array titles{
       Title{"the paper's statements and remarks", "The paper's statements and remarks"},
-      Title{"findings of ours", "Findings of ours: sharper forms, and what the paper leaves open"},
-      Title{"misprints", "Misprints: what is printed, and what is meant"},
+      Title{"findings of ours", "Findings of ours: sharper forms, and questions that the paper leaves open"},
+      Title{"misprints", "Misprints: the printed and the intended statement"},
       Title{"extensions", "Extensions of the suite"}};
   return titles[static_cast<std::size_t>(whose)];
 }
@@ -68,7 +68,7 @@ std::string escaped(const std::string& field) {
 std::string markdown_table(const std::vector<JudgedClaim>& claims) {
   const Table table = claims_table(claims);
   std::vector<std::string> names = table.columns();
-  std::erase(names, "whose");  // the heading says it
+  std::erase(names, "whose");  // the heading states it
   std::string text = fmt::format("| {} |\n|", fmt::join(names, " | "));
   for (std::size_t i = 0; i < names.size(); ++i) text += "---|";
   for (const Row& claim : table.rows()) {
@@ -90,8 +90,7 @@ std::string bullet(const JudgedClaim& claim) {
                      claim.states, claim.measured, claim.reason.empty() ? "" : " Why: ", claim.reason);
 }
 
-/// What a reader has to know first: the counts, each statement of the paper that is not reproduced, our findings that
-/// matter most.
+/// The summary: the counts, each statement of the paper that is not reproduced, and our most important findings.
 std::string summary_markdown(const std::vector<JudgedClaim>& claims) {
   std::string text = fmt::format("## Summary\n\n- {}\n", fmt::join(closing_lines(claims), "\n- "));
   const auto append = [&](const char* heading, const auto& is_wanted) {
@@ -135,11 +134,11 @@ Table claims_table(const std::vector<JudgedClaim>& claims) { return table_of(cla
 
 std::string claims_markdown(const std::vector<JudgedClaim>& claims) {
   std::string text =
-      "# Claims, measured\n\nA predicate on the tables next to this file decides on every verdict. *Reproduced*: it "
-      "holds. *Differs*: it does not. *Undecided*: the interval of what was measured reaches to both sides of what "
-      "decides. *Floor*: only rounding was measured. *Measured*: a finding that draws no line, its numbers are the "
-      "answer. *Not judged*: a table, a number or usable rows are lacking; solves that fail decide nothing. *Sure* is "
-      "*exact* where no time and no choice at random is judged.\n\n" +
+      "# Claims, measured\n\nEach verdict is computed by a predicate on the tables next to this file. *Reproduced*: it "
+      "holds. *Differs*: it does not. *Undecided*: the interval of the measurement contains the threshold. *Floor*: "
+      "only rounding was measured. *Measured*: a finding without a threshold, whose numbers are the result. *Not "
+      "judged*: a table, a number or usable rows are missing; failed solves do not affect verdicts. *Sure* is *exact* "
+      "if the verdict depends neither on times nor on random numbers.\n\n" +
       summary_markdown(claims);
   for (const Whose whose : all_sources) {
     const std::vector<JudgedClaim> of_source = stated_by(claims, whose);

@@ -12,19 +12,19 @@ namespace dmocbench {
 /// The judged claims as claims.csv has them, a row each in their order.
 [[nodiscard]] Table claims_table(const std::vector<JudgedClaim>& claims);
 
-/// Behind which claim stand which rows of which tables, as claims_rows.csv has it: a row per claim and table, with the
-/// records and the columns that were read ("2-5 9", the header is record 1).
+/// The table rows that each claim is based on, written as claims_rows.csv: one row per claim and table, with the
+/// records and columns that were read ("2-5 9", the header is record 1).
 [[nodiscard]] Table claims_rows_table(const std::vector<JudgedClaim>& claims);
 
-/// The claims for readers: what the paper states, its remarks, what is ours and the misprints, each in a table of its
-/// own below a heading, then the closing lines.
+/// The claims for readers: the paper's statements, its remarks, our findings and the misprints, each in its own table
+/// below a heading, then the closing lines.
 [[nodiscard]] std::string claims_markdown(const std::vector<JudgedClaim>& claims);
 
 /// How many claims have which verdict, a line for the paper's statements, its remarks, ours and the misprints:
-/// "the paper's statements: 21 reproduced, 4 differ". What nobody claims has no line.
+/// "the paper's statements: 21 reproduced, 4 differ". Groups without claims have no line.
 [[nodiscard]] std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims);
 
-/// Writes "(not there)" behind every file of the evidence that a results folder lacks.
+/// Appends "(not there)" to every file of the evidence that is missing from a results folder.
 void tell_missing_evidence(std::vector<JudgedClaim>& claims, const std::filesystem::path& folder);
 
 /// Claims that are not reproduced, a sentence each, of those with certain names. Throws `Error` on a name that no claim

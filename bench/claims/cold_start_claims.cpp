@@ -1,4 +1,4 @@
-// Cold starts: how often a method is solved from the problem's guess and near it, which no warm start tells.
+// Cold starts: how often a method converges from the problem's guess and near it, which warm starts cannot show.
 #include <algorithm>
 
 #include "bench/claims/claim.hpp"
@@ -9,14 +9,14 @@ namespace dmocbench {
 
 namespace {
 
-/// What the interval of a difference says.
+/// The interval of a difference in words.
 const char* in_words(const ShareInterval& difference) {
   if (difference.lower > 0.0) return "DMOC more often";
   return difference.upper < 0.0 ? "DMOC less often" : "no difference shown";
 }
 
-/// How often DMOC succeeds beside every kind of collocation, by interior_point. The same starts are taken for all
-/// methods; the interval counts them as independent, which makes it rather too wide.
+/// How often DMOC succeeds compared with each kind of collocation, by interior_point. All methods use the same starts;
+/// the interval treats them as independent, which makes it slightly too wide.
 Finding how_often(const ResultTables& tables, const std::string& problem, const char* column) {
   const Selection rows = tables.rows("cold_start_shares", problem).where("solver", "interior_point");
   const Selection dmoc = midpoint(rows, "dmoc");
@@ -26,7 +26,7 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
   std::string words = fmt::format("dmoc {} of {} cold starts", own.hits, own.trials);
   for (const std::string method : {"hamiltonian", "tangent"}) {
     const Selection others = midpoint(rows, method).matching(dmoc.front(), {"intervals", "derivatives"});
-    require(others.size() == 1, "cold_start_shares.csv has {} rows of {} by {} beside that of dmoc, not one",
+    require(others.size() == 1, "cold_start_shares.csv has {} rows of {} by {} to compare with dmoc, not one",
             others.size(), problem, method);
     const ShareCount count = count_of_cold_starts(others.front(), column);
     const ShareInterval difference = difference_interval(own, count);

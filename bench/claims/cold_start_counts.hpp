@@ -5,8 +5,8 @@
 
 namespace dmocbench {
 
-/// How many of the cold starts of a row are counted in a column. Throws `Error` if the row is not about cold starts,
-/// has none, or counts more than there were or parts of one.
+/// The number of a row's cold starts that a column counts. Throws `Error` if the row is not about cold starts, has no
+/// starts, or if the count exceeds their number or is not an integer.
 [[nodiscard]] ShareCount count_of_cold_starts(const Row& row, const char* column);
 
 }  // namespace dmocbench

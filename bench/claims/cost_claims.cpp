@@ -1,5 +1,5 @@
-// What DMOC saves: variables and constraints ("needs less discrete variables and less constraints"), time ("numerically
-// more expensive"), and what is left of that where the methods are equally accurate.
+// The savings of DMOC: variables and constraints ("needs less discrete variables and less constraints"), time
+// ("numerically more expensive"), and how much remains when the methods are equally accurate.
 #include <functional>
 
 #include "bench/claims/timed_ratios.hpp"
@@ -9,7 +9,7 @@ namespace dmocbench {
 
 namespace {
 
-/// What costs as much as DMOC is not more expensive.
+/// A method that costs as much as DMOC is not more expensive.
 constexpr double more_expensive = 1.0;
 
 /// Hamiltonian collocation to DMOC by one quantity.
@@ -53,8 +53,8 @@ void add_finest_grid(TimedRatios& ratios, const Selection& rows) {
     ratios.add(fmt::format("{} N = {}", way_of(row), row.text("intervals")), rounds_of(row));
 }
 
-/// The grids below the finest together, each way by itself: the smallest program alone takes less time than the clock
-/// tells apart from one run to the next.
+/// The grids coarser than the finest one together, for each way separately: the smallest program alone takes less time
+/// than the variation between runs.
 void add_coarse_grids(TimedRatios& ratios, const Selection& rows) {
   const std::string finest = rows.sorted_by("intervals").back().text("intervals");
   const Selection coarse = rows.where([&](const Row& row) { return row.text("intervals") != finest; });
@@ -67,7 +67,7 @@ void add_coarse_grids(TimedRatios& ratios, const Selection& rows) {
   }
 }
 
-/// The counts of (rem:savings) for n configurations and s stages; those of DMOC without the 2n conditions of the ends.
+/// The counts of (rem:savings) for n configurations and s stages; for DMOC without the 2n conditions at the ends.
 Finding counts_of_remark(const ResultTables& tables, const std::string& problem) {
   const double n = 2.0;
   const double m = problem == orbit ? 1.0 : 2.0;

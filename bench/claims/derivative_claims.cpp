@@ -1,4 +1,4 @@
-// What automatic differentiation saves: "the optimization process performs in a faster and more robust way when
+// The savings of automatic differentiation: "the optimization process performs in a faster and more robust way when
 // providing the derivatives by automatic differentiation rather than via finite differences" (section 4.1).
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ Selection by_ipopt(const ResultTables& tables, const char* table, const std::str
   return tables.rows(table, problem).where("solver", "ipopt");
 }
 
-/// The row of the same program, solved to the same tolerance with the same Hessian; a row without fields if there is
-/// none.
+/// The row of the same program, solved to the same tolerance with the same Hessian; a row without fields if no such
+/// row exists.
 const Row& partner_of(const Row& row, const Selection& others) {
   return others.matching(row, {"method", "tableau", "stages", "intervals", "tolerance", "hessian"}).front();
 }
@@ -127,13 +127,13 @@ std::string add_ratio(TimedRatios& ratios, const Selection& rows, const std::str
   return left_out(slower, timed, fmt::format("not solved by {} or {}, in favour of {} by", slow, fast, slow));
 }
 
-/// "0.2 to 2.1": what an evaluation costs in residuals by a back end.
+/// "0.2 to 2.1": the cost of an evaluation by a back end, in units of residual evaluations.
 std::string cost_of(const Selection& rows, const char* derivatives, const std::string& column) {
   const Selection costs = rows.where("derivatives", derivatives).where("hessian", "exact").with_number(column);
   return costs.empty() ? "(not measured)" : fmt::format("{:.3g} to {:.3g}", costs.min(column), costs.max(column));
 }
 
-/// Why: what a Jacobian costs, with what dense differences would by counting.
+/// The reason: the cost of a Jacobian, with the cost of dense differences by counting.
 std::string costs_of_jacobians(const ResultTables& tables, const std::string& problem) {
   if (!tables.has(warm)) return "";
   const Selection rows = by_ipopt(tables, warm, problem);
@@ -186,7 +186,7 @@ Claims derivative_claims() {
   const char* const section = "section 4.1, Automatic Differentiation";
   const char* const setting =
       "forward differences and quasi-Newton updates are our inference of what fmincon and nag_opt_nlp_sparse did; by "
-      "Ipopt, and by the suite's own tape, whose derivatives are those of ADOL-C to rounding";
+      "Ipopt, and by the suite's own tape, whose derivatives agree with ADOL-C's to rounding";
   return {{.id = "automatic_differentiation_more_robust",
            .where = section,
            .whose = Whose::paper,
@@ -203,7 +203,7 @@ Claims derivative_claims() {
            .evidence = {"derivatives_quasi_newton.csv", "derivatives.csv", "figures/{}_derivatives.svg"}},
           {.id = "derivatives_beside_central_differences",
            .where = section,
-           .states = "what second derivatives by the tape and by ADOL-C save beside central differences that use the "
+           .states = "time saved by second derivatives from the tape and ADOL-C over central differences that use the "
                      "structure of the program",
            .judge = times_beside_central_differences,
            .condition = "warm, from the common start",

@@ -20,7 +20,7 @@ Selection of_truncations(const Selection& slopes, const std::string& quantity, s
   return rows;
 }
 
-/// The number behind the last "_" of a quantity.
+/// The number after the last "_" of a quantity.
 double truncation_of(const Row& row) {
   const std::string& quantity = row.text("quantity");
   return std::stod(quantity.substr(quantity.rfind('_') + 1));
@@ -46,8 +46,8 @@ Finding gap_beside_tangent(const ResultTables& tables, const std::string& proble
           problem);
   const bool is_as_stated = problem == two_link ? most < 1.0 : least > 1.0;
   return found(is_as_stated,
-               "largest |change of energy - work| of tangent over that of DMOC: {:.2f} to {:.2f} on {} grids", least,
-               most, dmoc.size());
+               "largest |change of energy - work|, ratio of tangent to DMOC: {:.2f} to {:.2f} on {} grids", least, most,
+               dmoc.size());
 }
 
 Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*problem*/) {

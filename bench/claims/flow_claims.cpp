@@ -15,7 +15,7 @@ constexpr const char* beyond_most_stages =
 /// Largest momentum defects of 400 steps that are rounding, in double and in long double.
 constexpr double rounding_in_double = 1e-11;
 constexpr double rounding_in_long_double = 1e-14;
-/// Forces along the group that do less work show nothing.
+/// Forces along the group must do at least this work to be conclusive.
 constexpr double some_work = 1e-6;
 
 /// Errors of two quantities fall with h^(r + 1).
@@ -45,7 +45,7 @@ Predicate has_order_of_consistency(const char* one, const char* other) {
   };
 }
 
-/// The largest defect of collocation on the tangent space beside it, which says that the simulations can tell.
+/// The largest defect of tangent-space collocation for comparison, which shows that the simulations can distinguish.
 std::string beside_tangent(const Selection& rows) {
   const Selection tangent = rows.where("method", "tangent");
   return tangent.empty() ? "" : fmt::format("; tangent up to {:.1e}", tangent.max("defect"));
@@ -58,7 +58,7 @@ Selection simulations(const ResultTables& tables, const char* force) {
   return rows;
 }
 
-/// The change of momentum is the work of f_d, whose own column is read, and that work is not nothing.
+/// The change of momentum equals the work of f_d, which is read from its own column, and this work is not zero.
 Finding forced_noether(const ResultTables& tables, const std::string& /*problem*/) {
   const Selection rows = simulations(tables, "along");
   const Selection dmoc = rows.where("method", "dmoc");
@@ -173,7 +173,7 @@ Claims flow_claims() {
                  "Runge-Kutta methods and Radau",
        .judge = energy_oscillates,
        .condition = "the energy and not a modified one; in Cartesian coordinates the mass matrix is constant and the "
-                    "paper's three methods coincide, so that this says nothing about collocation",
+                    "paper's three methods coincide, so that this does not concern collocation",
        .evidence = {"structure_energy_behaviour.csv", "figures/kepler_energy.svg"}}};
 }
 

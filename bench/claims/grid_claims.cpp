@@ -89,11 +89,12 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
           problem);
   const bool is_identical = difference < identical_costs;
   const ClaimVerdict verdict = ratios.empty() ? ClaimVerdict::floor : verdict_on(is_identical && are_equal);
-  return found(verdict,
-               "J of dmoc and hamiltonian differ by {:.0e} relative; error of tangent to that of dmoc, N = {} to {}: "
-               "{}; {} grids at the rounding of J left out{}",
-               difference, used.front().text("intervals"), used.back().text("intervals"), fmt::join(ratios, ", "),
-               at_floor, left_out(dmoc, used, "not solved by all, in favour of"))
+  return found(
+             verdict,
+             "J of dmoc and hamiltonian differ by {:.0e} relative; error of tangent over error of dmoc, N = {} to {}: "
+             "{}; {} grids at the rounding of J left out{}",
+             difference, used.front().text("intervals"), used.back().text("intervals"), fmt::join(ratios, ", "),
+             at_floor, left_out(dmoc, used, "not solved by all, in favour of"))
       .because(reason);
 }
 

@@ -15,8 +15,8 @@ namespace {
 /// One unit of the last digit of "about 1.7" and "about 1.5".
 constexpr double last_digit = 0.1;
 
-/// What a ratio may be, and the coarsest grid that counts: on coarser ones the ends of the motion and the first major
-/// iterations weigh as much as the variables between them.
+/// The permitted range of a ratio and the coarsest grid that counts: on coarser grids the ends of the motion and the
+/// first major iterations weigh as much as the variables between them.
 struct PublishedRange {
   double lowest = 0.0;
   double highest = std::numeric_limits<double>::infinity();
@@ -170,7 +170,7 @@ Finding minor_iterations_by_updates_of_the_identity(const ResultTables& tables, 
                fmt::join(ratios.words, "; "), fmt::join(ratios.majors, "; "));
 }
 
-/// SLSQP tells no minor iterations. Its steps are counted by the evaluations that it asks for.
+/// SLSQP does not report minor iterations. Its steps are counted by its evaluations.
 Finding evaluations_by_slsqp(const ResultTables& tables, const std::string& problem) {
   std::vector<std::string> words;
   for (const auto& [table, start] :
@@ -187,8 +187,8 @@ Finding evaluations_by_slsqp(const ResultTables& tables, const std::string& prob
   return found(ClaimVerdict::measured, "evaluations, collocation to DMOC {}", fmt::join(words, "; "));
 }
 
-/// Where bounds are active: minor iterations of collocation to DMOC's beside the variables that they are said to
-/// reflect.
+/// With active bounds: the ratio of collocation's minor iterations to DMOC's, next to the ratio of the numbers of
+/// variables that they should reflect.
 Finding minor_iterations_with_active_bounds(const ResultTables& tables, const std::string& /*problem*/) {
   const PublishedRange all_grids;
   std::vector<std::string> words;
@@ -283,7 +283,7 @@ Claims iteration_claims() {
        .figure = figure,
        .states = "how many times as many evaluations SLSQP of NLopt needs for collocation as for DMOC",
        .judge = evaluations_by_slsqp,
-       .condition = "its least-squares subproblems are dense, and it tells no minor iterations",
+       .condition = "its least-squares subproblems are dense, and it does not report minor iterations",
        .evidence = {"iterations_slsqp.csv", "iterations_slsqp_common.csv"}},
   };
 }

@@ -35,8 +35,8 @@ std::string in_library(const ResultTables& tables) {
                      counted(all, "problem"), several, 100.0 * share.lower, 100.0 * share.upper);
 }
 
-/// "Different initial guesses can lead to different solutions": reproduced by one of the paper's problems; differs if
-/// on none of them many starts show a second minimum, so that a share of more than 3 % of them is ruled out.
+/// "Different initial guesses can lead to different solutions": reproduced if one of the paper's problems has a second
+/// minimum; differs if many starts find no second minimum on any of them, which rules out a share of more than 3 %.
 Finding local_minima(const ResultTables& tables, const std::string& /*problem*/) {
   constexpr double enough_starts = 100.0;  // three over it is the limit (95 %) of a share that was never seen
   const Selection rows = tables.rows("local_minima_minima");
@@ -59,19 +59,19 @@ Finding local_minima(const ResultTables& tables, const std::string& /*problem*/)
         shared.empty() ? "(none)" : shared.in_words(", ", objective), minima.where("is_motion", "no").size()));
   }
   require(are_several || are_enough,
-          "local_minima_shares.csv: less than {:g} starts of a problem are solved and none shows a second minimum",
+          "local_minima_shares.csv: a problem has less than {:g} solved starts, without a second minimum among them",
           enough_starts);
   return found(are_several, "{}{}", fmt::join(words, "; "), in_library(tables));
 }
 
-/// Throws `Error` if some of the rows tell a measure and others do not. Some solvers never tell one.
+/// Throws `Error` if some of the rows have a measure and others do not. Some solvers never report one.
 void require_told(const Selection& successes, const std::string& measure) {
   const auto tells = [&](const Row& row) { return !row.text(measure).empty(); };
   if (std::ranges::any_of(successes, tells)) static_cast<void>(successes.max(measure));
 }
 
 /// Holds if, by every solver, a competitor of DMOC's is the best on more instances than any of collocation's. Solvers
-/// are not compared with each other: their counters and speed are no property of a method.
+/// are not compared with each other: their counters and speed are not properties of a method.
 Predicate dmoc_best_by(const std::string& measure) {
   return [wins = "wins_" + measure, measure](const ResultTables& tables, const std::string&) -> Finding {
     const Selection rows = tables.rows("profile");

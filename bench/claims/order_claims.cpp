@@ -1,5 +1,5 @@
-// Convergence of states, costates and controls (main_theorem) and the adjoint scheme behind it (th:orderapp), for every
-// tableau against the indirect solution.
+// Convergence of states, costates and controls (main_theorem) and the adjoint scheme that it rests on (th:orderapp),
+// for every tableau against the indirect solution.
 #include <map>
 #include <utility>
 
@@ -44,7 +44,7 @@ Selection fitted_of(const Selection& orders) {
   return orders.where([](const Row& row) { return fitted_order(row).has_value(); });
 }
 
-/// What is not in the orders: those without a fit, and the solves that no fit could use.
+/// The rows missing from the orders: orders without a fit, and solves that no fit could use.
 std::string not_in(const Selection& orders, const ResultTables& tables, const std::string& problem) {
   return left_out(orders, fitted_of(orders),
                   "without a fit (few grids above rounding, or no four that agree), in favour of the claim:") +
@@ -95,8 +95,8 @@ std::string in_words(const Selection& orders) {
   return words;
 }
 
-/// Whether orders are as expected, if other things hold too; `floor` if less than half of them could be fitted, or none
-/// of a quantity, or none of a tableau of second and of fourth order. An error that never falls looks like a floor.
+/// Whether orders are as expected, if other things hold too; `floor` if less than half of them could be fitted, or if
+/// a quantity, or the tableaus of second or of fourth order, have no fit. An error that never falls looks like a floor.
 ClaimVerdict verdict_on_orders(const Selection& orders, bool others_hold = true) {
   const Selection fitted = fitted_of(orders);
   const auto is_expected = [](const Row& row) { return verdict_on_order(row, expected_order(row)); };
@@ -213,13 +213,13 @@ Claims order_claims() {
       {.id = "order_of_adjoint_scheme",
        .where = "section 3.5, th:orderapp, eq:stateco5-eq:stateco9",
        .whose = Whose::paper,
-       .states = "the adjoint scheme is that of the states with both halves exchanged, and has its order",
+       .states = "the adjoint scheme is the scheme of the states with both halves exchanged, and has the same order",
        .judge = order_of_adjoint_scheme,
-       .condition = "Gauss is its own exchange, so that Lobatto alone can tell",
+       .condition = "Gauss is its own exchange, so that only Lobatto can distinguish the two",
        .evidence = {"equivalence.csv", "convergence_indirect_slopes.csv", "figures/{}_adjoint.svg"}},
       {.id = "stability_constant",
        .where = "section 3.6, abstract_result",
-       .states = "what consistency errors of the state equations are multiplied by in the error of the optimum, as the "
+       .states = "the factor by which consistency errors of the state equations enter the error of the optimum, as the "
                  "grid is refined",
        .judge = stability_constant,
        .condition = "it bounds the constant of (abstract_result) from below, in this direction of errors alone; the "
@@ -232,7 +232,7 @@ Claims stage_control_claims() {
   // Not the orbit: its costate is nearly constant, and so the low-order terms of its stages are too small to be seen.
   return {{.id = "order_of_stage_controls",
            .problems = only_two_link,
-           .where = "section 3.6, remark behind main_theorem",
+           .where = "section 3.6, remark after main_theorem",
            .whose = Whose::paper,
            .states = "the estimate holds for u(x_k, psi_k), not for the controls u_k of the stages",
            .judge = order_of_stage_controls,

@@ -18,7 +18,7 @@ Finding exact_transforms_agree(const ResultTables& tables, const std::string& pr
                rows.max(defect));
 }
 
-/// What has to have which order of error in (th:ordercalculation).
+/// A quantity and its order of error in (th:ordercalculation).
 struct Statement {
   const char* name;
   std::vector<const char*> quantities;
@@ -66,7 +66,8 @@ Claims order_theorem_claims() {
       {.id = "exact_legendre_transform",
        .where = "section 2.3, the Lemma",
        .whose = Whose::paper,
-       .states = "the forced discrete Legendre transforms of L_d^E are those of L at the ends of the exact motion",
+       .states = "the forced discrete Legendre transforms of L_d^E equal the transforms of L at the ends of the exact "
+                 "motion",
        .judge = exact_transforms_agree,
        .evidence = {"consistency_order_transforms.csv"}},
       {.id = "order_theorem",

@@ -12,10 +12,10 @@ namespace dmocbench {
 
 namespace {
 
-/// What was read of the rows of one table, by their records.
+/// The fields read from the rows of one table, by their records.
 using RowsOfTable = std::map<std::size_t, const ReadFields::OfRow*>;
 
-/// The rows by their tables: each stands where its place, "objective.csv, record 2", says.
+/// The rows grouped by table, according to their places ("objective.csv, record 2").
 std::map<std::string, RowsOfTable> by_tables(const ReadFields& fields) {
   constexpr std::string_view mark = ", record ";
   std::map<std::string, RowsOfTable> tables;

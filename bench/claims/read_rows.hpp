@@ -20,7 +20,7 @@ struct ReadRows {
 /// The columns that were read, by the files of their tables; also those by which rows were only chosen.
 [[nodiscard]] std::map<std::string, std::set<std::string>> read_columns(const ReadFields& fields);
 
-/// What was read, table by table. Of a table no number of which was read, the rows whose texts were.
+/// The rows read, table by table. For a table from which only texts were read, the rows of these texts.
 [[nodiscard]] std::vector<ReadRows> read_rows(const ReadFields& fields);
 
 /// Whole numbers in order as a text: "2-5 9".

@@ -23,9 +23,9 @@ bool is_of_numbers(const JsonPlace& property) {
   return (has("number") || has("integer")) && !has("string");
 }
 
-/// Throws `Error` unless the table has its columns, those of its key among them, each once.
+/// Throws `Error` unless the table has each of its columns once, including the columns of its key.
 void check_columns(const Table& table, const std::string& file, const ColumnNames& key) {
-  if (key.empty()) throw Error(fmt::format("nobody has said by which columns the rows of {} are told apart", file));
+  if (key.empty()) throw Error(fmt::format("the key columns that distinguish the rows of {} are not declared", file));
   ColumnNames columns = key;
   columns.insert(columns.end(), table.columns().begin(), table.columns().end());
   for (const std::string& column : columns) {
@@ -46,8 +46,8 @@ void check_keys(const Table& table, const ColumnNames& key) {
   }
 }
 
-/// Throws `Error` unless the table is as the JSON Schema of its rows says: its columns, a key of its own in every row,
-/// and finite numbers, of which none is missing in the key.
+/// Throws `Error` unless the table agrees with the JSON Schema of its rows: its columns, a unique key in every row, and
+/// finite numbers, which must not be missing in the key.
 void check(const Table& table, const std::string& file, const JsonPlace& schema) {
   const ColumnNames key = schema.at("primaryKey").texts();
   check_columns(table, file, key);
@@ -62,7 +62,7 @@ void check(const Table& table, const std::string& file, const JsonPlace& schema)
 }
 
 /// The longest beginning of a table's name, up to its end or a "_", that is the name of a run with such a file or
-/// folder; empty if there is none.
+/// folder; empty if there is no such file.
 std::string run_of(const std::filesystem::path& folder, std::string name, const char* ending) {
   std::error_code unknown;
   while (!name.empty() && !std::filesystem::exists(folder / (name + ending), unknown)) {
@@ -75,7 +75,7 @@ std::string run_of(const std::filesystem::path& folder, std::string name, const 
 std::string content_of(const std::filesystem::path& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown))
-    throw Error(fmt::format("{} is no regular file", path.filename().string()));
+    throw Error(fmt::format("{} is not a regular file", path.filename().string()));
   return read_file(path);
 }
 
@@ -91,22 +91,22 @@ nlohmann::ordered_json metadata_of_whole_run(const std::filesystem::path& folder
   nlohmann::ordered_json metadata = nlohmann::ordered_json::parse(content_of(folder / file), nullptr, false);
   const auto complete = metadata.is_object() ? metadata.find("complete") : metadata.end();
   if (!metadata.is_object() || complete == metadata.end() || !complete->is_boolean()) {
-    throw Error(fmt::format("{} does not tell whether the run came to its end", file));
+    throw Error(fmt::format("{} does not state whether the run was completed", file));
   }
-  if (!complete->get<bool>()) throw Error(fmt::format("the run was interrupted, as {} says; run it again", file));
+  if (!complete->get<bool>()) throw Error(fmt::format("the run was interrupted according to {}; run it again", file));
   if (metadata.contains("cases") && metadata["cases"] != metadata.value("rows", nlohmann::ordered_json())) {
     throw Error(
-        fmt::format("{} tells of {} cases, not all of which have a row; run it again", file, metadata["cases"].dump()));
+        fmt::format("{} lists {} cases, not all of which have a row; run it again", file, metadata["cases"].dump()));
   }
   return metadata;
 }
 
 /// Throws `Error` unless the run that wrote the table came to its end, wrote this content, and the content is as the
-/// JSON Schema beside it says.
+/// agrees with the JSON Schema next to it.
 void check_run(const std::filesystem::path& folder, const std::string& name, const Table& table,
                const std::string& content) {
   const std::string run = run_of(folder, name, ".json");
-  if (run.empty()) throw Error("there is no .json beside it, which tells whether its run came to its end");
+  if (run.empty()) throw Error("there is no .json next to it, which would state whether its run was completed");
   const std::string source = run + ".json";
   const nlohmann::ordered_json metadata = metadata_of_whole_run(folder, source);
   const std::string file = name + ".csv";
@@ -143,7 +143,7 @@ ResultTables ResultTables::read(const std::filesystem::path& folder) {
 }
 
 ResultTables::Sought ResultTables::sought_in(const std::filesystem::path& folder, const std::string& name) {
-  const ReadFields no_evidence;  // what is read here is read of every table
+  const ReadFields no_evidence;  // these fields are read from every table
   Sought sought;
   const std::string file = name + ".csv";
   try {

@@ -12,12 +12,12 @@
 
 namespace dmocbench {
 
-/// The tables of a results folder by their names without ".csv", each read when it is asked for.
+/// The tables of a results folder by their names without ".csv", each read on first use.
 ///
-/// The run that wrote a table is the one whose name the table's begins with; its metadata have to state that the run
-/// was complete and wrote this content, and the JSON Schema of the rows there tells the key and the numbers. Of a
-/// problem with rows of several settings only those without settings count. A table that is not as described throws
-/// when its rows are asked for, so that it stops no claim but those that need it.
+/// The name of a table begins with the name of the run that wrote it. The run's metadata must state that the run was
+/// complete and wrote this content; their JSON Schema of the rows gives the key and the numeric columns. For a problem
+/// with rows of several settings only the rows without settings count. A table that does not meet this description
+/// throws when its rows are requested, so that it affects only the claims that need it.
 class ResultTables {
  public:
   ResultTables() = default;
@@ -26,24 +26,24 @@ class ResultTables {
 
   /// Adds a table, or puts it in the place of one. Errors in numbers name the table and the record.
   void add(const std::string& name, Table table);
-  /// Reads a table again when it is asked for the next time.
+  /// Reads a table again on its next use.
   void forget(const std::string& name) { sought_.erase(name); }
-  /// Whether there is such a table, be it as it should or not.
+  /// Whether there is such a table, valid or not.
   [[nodiscard]] bool has(std::string_view table) const;
-  /// Whether there is any of the tables that were asked for.
+  /// Whether any of the requested tables exists.
   [[nodiscard]] bool has_any() const;
-  /// The rows of a table. Throws `Error` that says what is wrong with it, or that it is not there.
+  /// The rows of a table. Throws `Error` with the fault of the table, or if it does not exist.
   [[nodiscard]] Selection rows(std::string_view table) const;
-  /// Those of one problem. Throws also if there is none.
+  /// The rows of one problem. Also throws if there are none.
   [[nodiscard]] Selection rows(std::string_view table, std::string_view problem) const;
   /// Throws `Error` that names a column which was read, by name, of a table that does not have it.
   void require_columns(const ReadFields& fields) const;
 
  private:
-  /// What was found of a table that was asked for.
+  /// The result of looking for a table.
   struct Sought {
-    std::optional<Table> table;  ///< none if it is not there
-    std::string fault;           ///< what is wrong with it, in a sentence
+    std::optional<Table> table;  ///< empty if it does not exist
+    std::string fault;           ///< its fault, in a sentence
   };
   [[nodiscard]] static Sought sought_in(const std::filesystem::path& folder, const std::string& name);
   [[nodiscard]] const Sought& sought(std::string_view table) const;

@@ -1,5 +1,5 @@
-// Section 3.3 names the rivals of DMOC among the direct methods: shooting and multiple shooting. What they reach, at
-// what cost, and how sure they are to reach it.
+// Section 3.3 names the rivals of DMOC among the direct methods: shooting and multiple shooting. Their accuracy, cost
+// and reliability.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -117,7 +117,7 @@ Curves timed_curves(const ResultTables& tables, const std::string& problem, cons
   for (const Row& row : rows) {
     const std::vector<double> seconds = row.numbers("round_seconds");
     const double error = row.needed("objective_error");
-    require(error > 0.0, "{}, column objective_error: {} is no error", row.place(), error);
+    require(error > 0.0, "{}, column objective_error: {} is not an error", row.place(), error);
     if (&row == &rows.front()) curves.resize(seconds.size());
     curves.resize(std::min(curves.size(), seconds.size()));
     for (std::size_t round = 0; round < curves.size(); ++round) {
@@ -155,7 +155,7 @@ Predicate costs_more(const char* method) {
 
 }  // namespace
 
-/// Direct shooting beside DMOC.
+/// Claims that compare direct shooting with DMOC.
 Claims shooting_claims() {
   const std::vector<std::string> programs{"shooting.csv", "figures/{}_shooting.svg"};
   const std::vector<std::string> cold{"cold_start_shooting_shares.csv", "figures/{}_shooting.svg"};

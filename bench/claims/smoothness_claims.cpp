@@ -1,4 +1,4 @@
-// Convergence where the optimal control is not smooth, free final states, and coercivity: what (main_theorem) assumes.
+// Convergence for nonsmooth optimal controls, free final states, and coercivity: the assumptions of (main_theorem).
 #include <cmath>
 #include <limits>
 
@@ -8,7 +8,7 @@ namespace dmocbench {
 
 namespace {
 
-/// What (main_theorem) speaks of; psi^q jumps where a bound on the state becomes active.
+/// The quantities in (main_theorem); psi^q jumps where a bound on the state becomes active.
 const std::vector<std::string> of_theorem{"state", "costate_p", "node_control"};
 
 /// Slopes of DMOC with so many stages, of some quantities, in situations that are picked.
@@ -19,9 +19,8 @@ Selection orders_of(const ResultTables& tables, const char* stages, const std::v
   const Selection rows = tables.rows("smoothness_slopes").where("method", "dmoc").where("stages", stages).where(picks);
   for (const std::string& quantity : quantities) {
     const Selection of_quantity = rows.where("quantity", quantity);
-    require(!of_quantity.empty(),
-            "smoothness_slopes.csv has no slope of {} with {} stages in a situation that is asked for", quantity,
-            stages);
+    require(!of_quantity.empty(), "smoothness_slopes.csv has no slope of {} with {} stages in a required situation",
+            quantity, stages);
     orders.append(of_quantity);
   }
   return orders;
@@ -132,7 +131,7 @@ Finding not_coercive(const ResultTables& tables, const std::string& /*problem*/)
 Claims coercivity_claims() {
   return {{.id = "coercive",
            .where = "section 3.5, assumption of coercivity",
-           .states = "what main_theorem assumes holds along the discrete optima: the second variation is coercive",
+           .states = "the assumption of main_theorem holds along the discrete optima: the second variation is coercive",
            .judge = coercive,
            .condition =
                "measured on the discrete optima: the largest alpha_h with d^2 L >= alpha_h h sum b_i |dU_i|^2 is "

@@ -44,8 +44,8 @@ struct MomentumBalance {
     };
     return std::max(dmoc.max(relative), hamiltonian.max(relative)) < rounding_of_balance;
   }
-  /// On every grid the defects of tangent-space collocation add up to far more than those of the other methods. A
-  /// single interval cannot tell on fine grids, where its defect of order h^3 falls below rounding.
+  /// On every grid the defects of tangent-space collocation add up to far more than the defects of the other methods. A
+  /// single interval is inconclusive on fine grids, where its defect of order h^3 falls below rounding.
   [[nodiscard]] bool is_missed_by_tangent() const {
     return std::ranges::all_of(tangent, [&](const Row& row) {
       const double rounding = std::max(structured(dmoc, row), structured(hamiltonian, row));
@@ -70,7 +70,7 @@ struct MomentumBalance {
   }
 };
 
-/// Judged at the tightest tolerance: it is what "numerical accuracy" means. The others are told.
+/// Judged at the tightest tolerance, which "numerical accuracy" refers to. The others are reported.
 Finding momentum_consistency(const ResultTables& tables, const std::string& problem) {
   Selection rows = tables.rows("consistency", problem);
   if (tables.has("consistency_tolerances")) rows.append(tables.rows("consistency_tolerances", problem));
@@ -275,7 +275,7 @@ Claims solution_claims() {
        .evidence = {"equivalence_symmetric.csv"}},
       {.id = "tangent_differs",
        .where = section,
-       .states = "collocation on the tangent space is another discretisation: its solutions are not those of DMOC",
+       .states = "collocation on the tangent space is another discretisation: its solutions differ from DMOC's",
        .judge = tangent_differs,
        .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}},
       {.id = "dmoc_is_the_forced_form",

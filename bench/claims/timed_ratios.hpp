@@ -9,7 +9,7 @@
 
 namespace dmocbench {
 
-/// Ratios of times, measured in rounds, that a claim says to lie above a threshold.
+/// Ratios of times, measured in rounds, that a claim expects to lie above a threshold.
 ///
 /// The claim holds if every interval lies above it, does not if one lies wholly at or below it, and is undecided
 /// otherwise, or with less than `fewest_rounds` rounds.
@@ -17,7 +17,7 @@ class TimedRatios {
  public:
   explicit TimedRatios(double threshold) : threshold_(threshold) {}
 
-  /// Adds a ratio with one value per round. Throws `Error` if there is none or one is no ratio of times.
+  /// Adds a ratio with one value per round. Throws `Error` if there are no values or one is not a ratio of times.
   void add(std::string name, const std::vector<double>& of_rounds);
 
   [[nodiscard]] ClaimVerdict verdict() const;
@@ -40,7 +40,7 @@ class TimedRatios {
 /// program with the fewest rounds has. A single small program would be judged by the clock's noise.
 [[nodiscard]] std::vector<double> means_of_rounds(const std::vector<std::vector<double>>& of_programs);
 
-/// What the ratios say of a claim, in words with `before` in front and `behind` at the end.
+/// The finding on a claim from the ratios, in words with `before` in front and `behind` at the end.
 [[nodiscard]] Finding judged(const TimedRatios& ratios, const std::string& before, const std::string& behind = "");
 
 }  // namespace dmocbench
