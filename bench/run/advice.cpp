@@ -53,7 +53,7 @@ std::string next_to_try(const SolvedCase& solved, const std::string& start) {
   const Case& the_case = solved.the_case;
   const Problem& problem = *the_case.problem;
   if (is_solved(status) || is_no_motion(status) || status == Status::interrupted) return "";
-  if (status == Status::out_of_memory || status == Status::solver_error) return "";  // the message says what helps
+  if (status == Status::out_of_memory || status == Status::solver_error) return "";  // the message has the advice
   if (status == Status::time_limit) return "Try more time (--seconds) or fewer intervals.";
   if (auto degrees = angle_in_degrees(problem)) return *degrees;
   if (auto units = units_apart(problem)) return *units;

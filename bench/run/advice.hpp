@@ -6,9 +6,9 @@
 
 namespace dmocbench {
 
-/// The next thing to try where a solve has failed, in one sentence that begins with "Try", chosen from what is known of
-/// the problem and the solve: angles in degrees, units, a longer horizon, another solver or start. `start` is what
-/// --start names. Empty for a case that is solved, or that was stopped from outside.
+/// The next thing to try after a failed solve, in one sentence that begins with "Try", chosen from the properties of
+/// the problem and the solve: angles in degrees, units, a longer horizon, another solver or start. `start` is the
+/// argument of --start. Empty for a case that is solved, or that was stopped from outside.
 [[nodiscard]] std::string next_to_try(const SolvedCase& solved, const std::string& start);
 
 }  // namespace dmocbench

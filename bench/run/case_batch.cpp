@@ -49,7 +49,7 @@ bool is_near(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Places& p
   });
 }
 
-/// The optimum that Newton steps from a rounded answer lead to, judged; null if they lead to none.
+/// The optimum that Newton steps from a rounded answer converge to, judged; null if they do not converge.
 std::shared_ptr<JudgedAnswer> judged_optimum(const SolvedCase& solved, Solution optimum) {
   Transcription& program = *solved.program;
   optimum.primal = optimum.primal.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper());
@@ -89,7 +89,7 @@ const std::shared_ptr<const Problem>& program_problem(const Case& the_case) {
   return the_case.nominal ? the_case.nominal : the_case.problem;
 }
 
-/// Those of the varied parameters that can be kept open: no formula reads them as numbers.
+/// The varied parameters that can be kept open: no formula reads them as numbers.
 OpenParameters openable(const Problem& problem, const std::vector<std::string>& varied) {
   if (varied.empty()) return {};
   const TracedProblem traced(problem);
@@ -102,7 +102,7 @@ OpenParameters openable(const Problem& problem, const std::vector<std::string>& 
   return open;
 }
 
-/// Bounds of all unknowns, and behind them those of all rows.
+/// Bounds of all unknowns, followed by the bounds of all rows.
 Eigen::VectorXd joined(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& rows) {
   Eigen::VectorXd both(unknowns.size() + rows.size());
   both << unknowns, rows;
@@ -170,11 +170,11 @@ bool CaseBatch::fill(BatchedCase& one) {
     give_values_of(*one.the_case);
     if (!has_usual_bounds()) return false;
     one.instance.start = sample(*program_, one.start.motion);
-  } catch (const Error&) {  // solved alone, its row says what is wrong
+  } catch (const Error&) {  // it is then solved alone, and its row reports the error
     return false;
   }
   const Eigen::VectorXd& rows = program_->constraint_lower();
-  one.instance.equality_values = rows.array().isFinite().select(rows, 0.0);  // those of inequalities are not read
+  one.instance.equality_values = rows.array().isFinite().select(rows, 0.0);  // values of inequalities are not read
   if (!program_->traced_problem().open_parameters().empty()) one.instance.parameters = one.the_case->parameters;
   return true;
 }
@@ -221,7 +221,7 @@ SolvedCase CaseBatch::judged(const BatchedCase& one) {
 
 namespace {
 
-/// The cases of these numbers with their starts; one that has none says so when it is solved alone.
+/// The cases of these numbers with their starts; a case without a start reports this when it is solved alone.
 std::vector<BatchedCase> started(const BatchWork& work, std::span<const std::size_t> numbers) {
   std::vector<BatchedCase> group;
   for (const std::size_t number : numbers) {
@@ -235,7 +235,7 @@ std::vector<BatchedCase> started(const BatchWork& work, std::span<const std::siz
   return group;
 }
 
-/// Null where the program cannot be made; solved alone, a case says why.
+/// Null if the program cannot be made; the case reports the reason when it is solved alone.
 std::unique_ptr<CaseBatch> batch_of(const Case& the_case, const SolverOptions& options) {
   try {
     return std::make_unique<CaseBatch>(the_case, options);
@@ -263,7 +263,7 @@ void solve_cases_of_program(const BatchWork& work, std::span<const std::size_t> 
     work.show(fmt::format("{} and {} more", group.front().the_case->label(), group.size() - 1));
     batch->solve(group);
     if (batch->is_refused()) return;
-    const bool was_interrupted = interrupt_requested();  // then what is not solved was perhaps not solved to its end
+    const bool was_interrupted = interrupt_requested();  // then unsolved cases may not have been solved to their end
     for (const BatchedCase& one : group) {
       if (one.solution && (!was_interrupted || is_solved(one.solution->status))) judge_and_keep(work, *batch, one);
     }
@@ -278,7 +278,7 @@ std::vector<CaseSpan> spans_of_programs(const std::vector<Case>& cases, const st
   for (const CaseSpan& problem : problems) {
     const std::size_t before = pieces.size();
     CaseSpan piece = problem;
-    std::size_t needed = problem.end;  // the first case that one behind the border belongs to
+    std::size_t needed = problem.end;  // the first case in the group of any case after the border
     for (std::size_t border = problem.end; border-- > problem.first + 1;) {
       needed = std::min(needed, groups[border]);
       const bool is_long_enough = piece.end - border >= least && border - problem.first >= least;

@@ -20,14 +20,13 @@ namespace dmocbench {
 
 /// The answers of one program that solves from many starts end at, each judged once.
 ///
-/// Solves that end at one optimum differ by what their tolerance allows. An answer is rounded, every unknown and every
+/// Solves that end at one optimum differ within their tolerance. An answer is rounded, every unknown and every
 /// multiplier to a hundred-thousandth of the largest of its kind along the horizon, and Newton steps lead from there to
-/// the optimum, which is the one that is judged. So what is told of an answer depends on the answer alone, not on those
-/// that came before it. An answer from which no such steps lead back, to within what `settled` allows, is judged by
-/// itself.
+/// the optimum that is judged. So the judgement of an answer depends on the answer alone, not on answers before it. If
+/// these steps do not lead back to an answer within the tolerance of `settled`, it is judged by itself.
 class KnownAnswers {
  public:
-  /// The optimum of this solved case, judged; null where it has to be judged by itself. All cases must be those of one
+  /// The optimum of this solved case, judged; null where it has to be judged by itself. All cases must have the same
   /// problem, program and tolerance.
   [[nodiscard]] std::shared_ptr<JudgedAnswer> find(const SolvedCase& solved);
 
@@ -41,20 +40,20 @@ class KnownAnswers {
 /// A case of a batch on its way.
 struct BatchedCase {
   std::size_t number = 0;                           ///< of the case, for the caller
-  const Case* the_case = nullptr;                   ///< what is solved
+  const Case* the_case = nullptr;                   ///< the case to be solved
   Start start;                                      ///< where it begins
   BatchInstance instance = {};                      ///< the same as a batch takes it
-  std::optional<Solution> solution = std::nullopt;  ///< none where the batch did not solve it: it is to be solved alone
+  std::optional<Solution> solution = std::nullopt;  ///< empty if the batch did not solve it: it must be solved alone
 };
 
 /// Cases that are instances of one program, from different starts or with other parameters and ends, solved side by
-/// side (`solve_batch`). The program is made once. What becomes of a case does not depend on those beside it.
+/// side (`solve_batch`). The program is made once. The result of a case does not depend on its neighbours.
 class CaseBatch {
  public:
-  /// Whether a case asks for what batches have: `interior_point` as it is or as the first of `auto`, exact derivatives,
-  /// the Bolza form, no limit of time, no trace of iterations. `solve` checks whether the program fits.
+  /// Whether batches support a case's settings: `interior_point` by itself or as the first of `auto`, exact
+  /// derivatives, the Bolza form, no limit of time, no trace of iterations. `solve` checks whether the program fits.
   [[nodiscard]] static bool takes(const Case& the_case, const SolverOptions& options);
-  /// Whether two cases differ in nothing but starts, parameters and ends.
+  /// Whether two cases differ only in starts, parameters and ends.
   [[nodiscard]] static bool share_program(const Case& a, const Case& b);
 
   /// The program of all cases that share it with this one. Throws `Error` as `Case::transcribe` does.
@@ -67,7 +66,7 @@ class CaseBatch {
   [[nodiscard]] bool is_refused() const noexcept { return is_refused_; }
 
   /// The judged case of one that was solved. It refers to the program, which has the values of this case until the next
-  /// one is asked for.
+  /// one is requested.
   [[nodiscard]] SolvedCase judged(const BatchedCase& one);
 
  private:
@@ -87,26 +86,26 @@ class CaseBatch {
   bool is_refused_ = false;
 };
 
-/// Spans of problems, cut where one program ends and the next begins, each for a process of its own: what batches leave
-/// to be solved and judged one by one then waits for no other program. They are cut nowhere inside of a group
+/// Spans of problems, cut where one program ends and the next begins, each for its own process: cases that batches
+/// leave to be solved and judged one by one then need not wait for other programs. Spans are never cut inside a group
 /// (`groups_of`), and no piece has fewer than `least` cases.
 [[nodiscard]] std::vector<CaseSpan> spans_of_programs(const std::vector<Case>& cases,
                                                       const std::vector<CaseSpan>& problems,
                                                       const std::vector<std::size_t>& groups, std::size_t least = 256);
 
-/// What the batches of a run need of it.
+/// The data of a run that its batches need.
 struct BatchWork {
   const std::vector<Case>& cases;           ///< in the order of rows
   const std::vector<bool>& is_wanted;       ///< per case
   const SolverOptions& options;             ///< of every solve
   std::function<Start(const Case&)> start;  ///< throws `Error` where a case has none
-  /// Told of every answer, with the number of its case.
+  /// Called with every answer and the number of its case.
   std::function<void(SolvedCase& solved, std::size_t number)> keep;
-  std::function<void(const std::string& activity)> show;  ///< told what is being worked on
+  std::function<void(const std::string& activity)> show;  ///< called with a description of the current work
 };
 
-/// Solves those wanted of some cases that batches take, program after program, and keeps what is solved; what is not
-/// kept is to be solved alone, where it says why. An interrupted solve is kept by nobody. Cases of one program are
+/// Solves the wanted cases that batches support, program after program, and keeps the solved ones. Cases that are not
+/// kept must be solved alone and then report the reason. Interrupted solves are not kept. Cases of one program are
 /// solved group after group, so that finished ones are kept early and memory is bounded.
 void solve_in_batches(const BatchWork& work, const CaseSpan& span);
 

@@ -20,38 +20,38 @@ namespace dmocbench {
 
 /// The labels of the variants that a case is solved in; one that is empty leaves it as it is.
 using LabelsOfCase = std::function<std::vector<std::string>(const Case&)>;
-/// Each curve once for each of its variants, which are asked for by its first case.
+/// Each curve once for each of its variants, which its first case determines.
 [[nodiscard]] std::vector<Case> vary(const std::vector<Case>& cases, const LabelsOfCase& labels_of);
 
 /// Labels that are numbers: "0", "1", ...
 [[nodiscard]] std::vector<std::string> numbers_below(std::size_t count);
 
-/// Each case once for each of its starts, by number: `count_of` says how many it has, `motion_of` makes the motion of a
-/// number from the one that --start names, for a case's problem.
+/// Each case once for each of its starts, by number: `count_of` returns how many it has, `motion_of` makes the motion
+/// of a number from the one that --start names, for a case's problem.
 [[nodiscard]] std::vector<Case> from_starts(
     const std::vector<Case>& cases, const std::function<long long(const Case&)>& count_of,
     const std::function<Motion(const Motion& chosen, const Problem& problem, std::size_t number)>& motion_of);
 
-/// The place of the case of a curve that is solved first: that of its reference, or 0.
+/// The index of the case of a curve that is solved first: its reference, or 0.
 [[nodiscard]] std::size_t reference_of(const std::vector<Case>& curve);
 
-/// The cases once for each tolerance that is compared, curve after curve; as they are if none is.
+/// The cases once for each tolerance that is compared, curve after curve; unchanged if no tolerances are compared.
 [[nodiscard]] std::vector<Case> with_tolerances(const std::vector<Case>& cases, const std::vector<double>& tolerances);
 
 /// Cases of one problem, by number: from `first` up to `end`, which is not one of them.
 struct CaseSpan {
   std::size_t first = 0;  ///< number of the first case
-  std::size_t end = 0;    ///< number behind the last one
+  std::size_t end = 0;    ///< one past the number of the last case
 };
 
-/// Those of all problems with a case that is wanted, in their order.
+/// The spans of all problems with a wanted case, in their order.
 [[nodiscard]] std::vector<CaseSpan> spans_of_problems(const std::vector<Case>& cases,
                                                       const std::vector<bool>& is_wanted);
 
-/// The numbers of cases that are solved in turn: those of one problem, tableau, number of stages and of intervals.
+/// The numbers of the cases that are solved in turn: of one problem, tableau, number of stages and of intervals.
 [[nodiscard]] std::vector<std::vector<std::size_t>> turns_of(const std::vector<Case>& cases);
 
-/// What a case shares with the others of its curve, in words.
+/// The properties that a case shares with the others of its curve, in words.
 [[nodiscard]] std::string label_of_curve(const Case& the_case);
 
 }  // namespace dmocbench

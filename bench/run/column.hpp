@@ -47,7 +47,7 @@ class FieldReader {
   FieldReader(Function function)
       : type_(field_type<std::remove_cvref_t<std::invoke_result_t<const Function&, const Record&>>>()),
         read_(std::move(function)) {}
-  /// Of a function that writes its fields itself, and so has to say what they are.
+  /// For a function that writes its fields itself, so that their type must be given.
   template <class Function>
   FieldReader(Function function, FieldType type) : type_(type), read_(std::move(function)) {}
   /// The field of a record.
@@ -70,7 +70,7 @@ struct Column {
   bool is_key = false;       ///< whether it is part of the table's key
 };
 
-/// Behind a column's field: the column is part of the key, by which the rows of a table are told apart.
+/// Follows a column's field: the column is part of the key, which distinguishes the rows of a table.
 inline constexpr bool in_key = true;
 
 /// The columns of a table whose rows are made of records.
@@ -103,7 +103,7 @@ template <class Record>
   return key;
 }
 
-/// What columns mean by their names: "[UNIT] MEANING". Columns that another table explains are not among them.
+/// The meanings of columns by their names: "[UNIT] MEANING". Columns that another table explains are left out.
 template <class Record>
 [[nodiscard]] std::map<std::string, std::string> meanings_of(const Columns<Record>& columns) {
   std::map<std::string, std::string> meanings;
@@ -114,7 +114,7 @@ template <class Record>
   return meanings;
 }
 
-/// What columns hold by their names, where somebody says it.
+/// The types of columns by their names, where declared.
 template <class Record>
 [[nodiscard]] std::map<std::string, FieldType> types_of(const Columns<Record>& columns) {
   std::map<std::string, FieldType> types;
@@ -175,8 +175,8 @@ template <class Record, class CellOf>
   return columns;
 }
 
-/// Columns that a summary takes over from a row of what it sums up, `Record::head`; the table of that row explains
-/// them. `is_key`: they are part of the summary's key.
+/// Columns that a summary copies from a row of the table it summarizes, `Record::head`; that table explains them.
+/// `is_key`: they are part of the summary's key.
 template <class Record>
 [[nodiscard]] Columns<Record> head_columns(const std::vector<std::string>& names, bool is_key = false) {
   Columns<Record> columns;
@@ -190,7 +190,7 @@ template <class Record>
 /// How tables write that something holds.
 [[nodiscard]] constexpr const char* yes_or_no(bool holds) { return holds ? "yes" : "no"; }
 
-/// A value that need not be there: of an optional, what it holds.
+/// A value that may be missing: for an optional, the contained value.
 template <class Value>
 struct Optional {
   /// An optional that holds no other one.
@@ -225,7 +225,7 @@ template <class... Members>
   return [=](const auto& record) { return member(record, members...); };
 }
 
-/// What a row is about where nothing is solved.
+/// The scheme that a row is about in tables without solves.
 struct Scheme {
   std::string problem;      ///< its name
   std::string method;       ///< its family of elements
@@ -233,7 +233,7 @@ struct Scheme {
   Eigen::Index stages = 0;  ///< s
 };
 
-/// The columns that tell `Record::scheme`.
+/// The columns of `Record::scheme`.
 template <class Record>
 [[nodiscard]] Columns<Record> scheme_columns() {
   constexpr auto scheme = &Record::scheme;
@@ -243,12 +243,12 @@ template <class Record>
           {"stages", "", "number of stages s", from(scheme, &Scheme::stages), in_key}};
 }
 
-/// The standard error of a fitted order; none with two points.
+/// The standard error of a fitted order; empty with two points.
 [[nodiscard]] inline std::optional<double> standard_error_of(const FittedOrder& fit) {
   return fit.points > 2 ? std::optional(fit.standard_error) : std::nullopt;
 }
 
-/// The columns that tell a fitted order.
+/// The columns of a fitted order.
 template <class Record>
 [[nodiscard]] Columns<Record> fitted_order_columns(FittedOrder Record::*fit) {
   return {{"slope", "", "fitted order", from(fit, &FittedOrder::order)},

@@ -62,7 +62,7 @@ const CLI::Validator is_written_as_number(
     "");
 
 /// Files that are opened must not take the place of standard streams that are closed, or messages would end up in them.
-/// Nothing can be written to a closed standard output, which /dev/full says in its place.
+/// Writing to a closed standard output must fail, so /dev/full takes its place.
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1) continue;
@@ -115,8 +115,7 @@ std::string sentence_of(const std::exception& error) {
   const bool is_ours = dynamic_cast<const Error*>(&error) != nullptr ||
                        dynamic_cast<const Interrupted*>(&error) != nullptr ||
                        dynamic_cast<const std::system_error*>(&error) != nullptr;  // the system's words
-  return is_ours ? error.what()
-                 : fmt::format("something went wrong that should not have, please tell: {}", error.what());
+  return is_ours ? error.what() : fmt::format("internal error, please report it: {}", error.what());
 }
 
 template <class Value>
@@ -168,7 +167,7 @@ void CommandLine::refuse_empty_entries() const {
     const std::string argument = argv_[i];
     const std::size_t equals = std::min(argument.find('='), argument.size());
     if (argument.starts_with("--") && equals + 1 == argument.size()) {  // CLI11 takes the next argument for its value
-      throw CLI::ValidationError(argument.substr(0, equals), "no value is given behind =");
+      throw CLI::ValidationError(argument.substr(0, equals), "no value is given after =");
     }
     if (std::ranges::find(lists_, argument.substr(0, equals)) == lists_.end()) continue;
     if (equals == argument.size() && i + 1 == argc_) continue;  // CLI11 misses the value
@@ -212,7 +211,7 @@ std::vector<std::pair<std::string, std::string>> CommandLine::values() const {
 
 namespace {
 
-/// What CLI11 writes of options, without the value that a name that says no stands for.
+/// Formats options as CLI11 does, without the value that a negating name (`--no-...`) stands for.
 class HelpFormatter final : public CLI::Formatter {
  public:
   [[nodiscard]] std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
@@ -231,7 +230,7 @@ std::string name_in_usage(const std::string& name, std::string_view call) {
   return program == "dmocbench " + name ? std::string(program) : name;
 }
 
-/// What is wrong with a command line; a mistyped option with the name that was likely meant.
+/// The mistake in a command line; for a mistyped option also the name that was likely meant.
 std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const auto unknown = app.remaining();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || unknown.empty()) return error.what();
@@ -254,7 +253,7 @@ int run_program(const std::string& name, const std::string& description, int arg
   app.set_help_flag("-h,--help", "show this and exit")->group("Help");
   occupy_closed_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of writing
-  std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe that nobody reads: locks and parts are removed
+  std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe without a reader: locks and parts are removed
   try {
     CommandLine line(app, argc, argv);
     const int code = body(line);
@@ -276,7 +275,8 @@ int run_program(const std::string& name, const std::string& description, int arg
     const int code = report_error(name, (interrupt_requested() ? "interrupted, then: " : "") + sentence_of(error));
     return interrupt_requested() ? 130 : code;
   } catch (...) {  // from formulas of somebody else
-    return report_error(name, "a problem throws what is no std::exception; throw dmocbench::Error with a sentence");
+    return report_error(name,
+                        "a problem throws an object that is not a std::exception; throw dmocbench::Error instead");
   }
 }
 

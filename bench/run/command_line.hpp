@@ -22,11 +22,12 @@ namespace dmocbench {
 /// The options of a program: their names, the variables that take their values, and their help, which shows the values
 /// that these variables have at first.
 ///
-/// CLI11 is behind it, in command_line.cpp alone: its headers take a compiler longer than most programs do.
+/// It is implemented with CLI11, in command_line.cpp alone, because its headers take longer to compile than most
+/// programs.
 class CommandLine {
  public:
   /// Reads into `value`: int, double, string, path, and a vector of strings (the option may be repeated). A name
-  /// without dashes is that of an argument that has to be given.
+  /// without dashes names a required positional argument.
   template <class Value>
   void option(const std::string& names, Value& value, const std::string& help);
   /// Reads a number between `least` and `largest`: int, long long, std::uint64_t or double.
@@ -36,30 +37,30 @@ class CommandLine {
   /// Reads values with commas between them: int or string.
   template <class Value>
   void list(const std::string& names, std::vector<Value>& values, const std::string& help);
-  /// `names` as in "--polish,!--no-polish", where an exclamation mark stands before a name that says no.
+  /// `names` as in "--polish,!--no-polish", where an exclamation mark precedes a negating name.
   void flag(const std::string& names, bool& value, const std::string& help);
   /// The group of `--help` that options belong to from here on.
   void group(const std::string& name) { group_ = name; }
-  /// Text behind the options in `--help`.
+  /// Text after the options in `--help`.
   void footer(const std::string& text) { footer_ = text; }
   /// The options of a call that `--help` shows as an example; without one it shows the name of the program alone.
   void example(const std::string& options) { example_ = options; }
-  /// What exit code 1 stands for, in `--help`.
+  /// The meaning of exit code 1 in `--help`.
   void exit_code_1(const std::string& meaning) { meaning_of_1_ = meaning; }
   /// The values are known from here on; the name of the program and all its arguments. Throws as `check_environment`.
   std::vector<std::string> parse();
-  /// Behind `parse`: the options and their values as text, defaults included, in the order of `--help`.
+  /// After `parse`: the options and their values as text, including defaults, in the order of `--help`.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> values() const;
 
  private:
   friend int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                          const std::function<int(CommandLine&)>& body);
   CommandLine(CLI::App& app, int argc, char** argv) : app_(app), argc_(argc), argv_(argv) {}
-  /// Throws where a list has nothing between two commas, which CLI11 drops without a word, and where nothing is behind
-  /// the = of an option.
+  /// Throws if a list has an empty entry between two commas, which CLI11 drops silently, and if an option has no value
+  /// after =.
   void refuse_empty_entries() const;
 
-  /// What stands behind the options in `--help`.
+  /// The text after the options in `--help`.
   [[nodiscard]] std::string end_of_help() const;
 
   CLI::App& app_;
@@ -76,17 +77,16 @@ class CommandLine {
 inline constexpr const char* group_of_problem = "Problem";
 inline constexpr const char* group_of_output = "Output";  ///< where results go
 
-/// What went wrong, for a person: the words of our own errors; of others what they mean, where that is known.
+/// An error message for people: our own errors verbatim; other errors by their meaning, where that is known.
 [[nodiscard]] std::string sentence_of(const std::exception& error);
 
-/// A text for one line of a terminal, whoever wrote it: blanks in the place of control characters, cut where it is
-/// longer than 2000 bytes.
+/// A text of any origin for one line of a terminal: blanks in the place of control characters, cut at 2000 bytes.
 [[nodiscard]] std::string one_line(std::string_view text);
 
 /// Prints `one_line` of a text, and ends the line.
 void print_line(const std::string& text);
 
-/// True if memory was missing, of which other work may have enough.
+/// True if memory was exhausted; other work may still have enough.
 [[nodiscard]] bool is_out_of_memory(const std::exception& error) noexcept;
 
 /// Runs a program: `body` declares its options, parses them and returns the exit code. Every error becomes one line on
@@ -111,7 +111,7 @@ class ComplaintScope {
   std::string* outer_;
 };
 
-/// What is being done, on standard error: on a terminal one line that is replaced, and erased at the end; in a pipe or
+/// Progress on standard error: on a terminal one line that is replaced, and erased at the end; in a pipe or
 /// a file at most one line per minute.
 class ProgressLine {
  public:
@@ -128,7 +128,7 @@ class ProgressLine {
  private:
   std::string program_;
   bool is_silent_;
-  std::unique_ptr<std::FILE, void (*)(std::FILE*)> terminal_;  ///< empty where it is no terminal
+  std::unique_ptr<std::FILE, void (*)(std::FILE*)> terminal_;  ///< empty if it is not a terminal
   Clock::time_point begin_ = Clock::now();
   Clock::time_point last_line_ = begin_;   ///< in a pipe
   std::optional<std::size_t> first_done_;  ///< cases that were finished when the first one was shown

@@ -20,7 +20,7 @@ namespace dmocbench {
 class IndirectReference;
 class KeptRows;
 
-/// Which rows tell whether their answer is on the branch of their start (the column `branch`).
+/// Which rows state whether their answer is on the branch of their start (the column `branch`).
 enum class BranchesTold : std::uint8_t {
   of_chosen_start,  ///< those that start from the common start or from a file
   of_any_start,     ///< also those that start at the guess: methods are compared by rows of one branch, and a common
@@ -33,63 +33,63 @@ struct ExperimentCard {
   std::string name;           ///< of the binary, and of the table unless the user gives another
   std::string description;    ///< in `--help`
   ExperimentOptions options;  ///< the defaults; then the choice of the user
-  /// What `finish` puts behind the table's name, as in "_slopes.csv"; known when `cases` has returned. Those of an
-  /// earlier run are removed when the first row is written, so that old and new never stand beside each other.
+  /// The endings that `finish` appends to the table's name, as in "_slopes.csv"; known when `cases` has returned. Files
+  /// of an earlier run are removed when the first row is written, so that old and new files are never mixed.
   std::vector<std::string> further_files = {};
-  BranchesTold branches = BranchesTold::of_chosen_start;  ///< which rows tell of their branch
-  bool problems_are_independent = false;  ///< rows of one problem need nothing of another's: --jobs is offered
+  BranchesTold branches = BranchesTold::of_chosen_start;  ///< which rows state their branch
+  bool problems_are_independent = false;  ///< rows of one problem do not depend on other problems: --jobs is offered
   bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that
                              ///< other load of the machine slows all of them alike
   bool compares_tolerances = false;   ///< several tolerances make several cases: --tolerances is offered
   bool polishes = false;              ///< solved cases are tightened by Newton steps (polish.hpp)
   bool takes_batches = false;         ///< cases of one program may be solved side by side, without times and without
                                       ///< `solve`: --batch is offered
-  bool finishes_interrupted = false;  ///< `finish` is called too where a stop was asked for behind the first row
-  bool wants_motions = false;         ///< an answer that is no motion (`is_no_motion`) makes the exit code 1 too
-  /// `finish` needs nothing of solves but rows and `indirect`: --part is offered, and an interrupted run is resumed.
+  bool finishes_interrupted = false;  ///< `finish` is also called after an interrupt, if the first row is there
+  bool wants_motions = false;         ///< an answer that is not a motion (`is_no_motion`) also makes the exit code 1
+  /// `finish` needs only the rows and `indirect`: --part is offered, and an interrupted run is resumed.
   bool takes_parts = true;
   std::string example = {};  ///< options of a call that `--help` shows; by default a problem and its grids
 };
 
 /// A solve that is to be done.
 struct SolveTask {
-  Case the_case;                ///< what is solved
+  Case the_case;                ///< the case to be solved
   Start start;                  ///< where the solve begins
-  SolverOptions options;        ///< those of the command line, with the tolerance of the case
-  NamedOptions named_options;   ///< those for the solver by name
+  SolverOptions options;        ///< from the command line, with the tolerance of the case
+  NamedOptions named_options;   ///< options passed to the solver by name
   int repeats = 1;              ///< solves; times are their medians
-  bool polishes = false;        ///< as the card says
-  bool takes_costates = false;  ///< those that the start brings become start multipliers
+  bool polishes = false;        ///< as in the card
+  bool takes_costates = false;  ///< the costates of the start become start multipliers
 
   /// Solves the case as it stands here (`solve_case`).
   [[nodiscard]] SolvedCase by(const Solver& solver) const;
 };
 
-/// What an experiment writes besides its rows.
+/// The output of an experiment besides its rows.
 struct FurtherOutput {
   std::filesystem::path prefix;                           ///< folder and name of the table
   nlohmann::ordered_json& metadata;                       ///< of the run
   const KeptRows& kept;                                   ///< rows of earlier runs about other problems
-  Findings& findings;                                     ///< what is printed at the end
+  Findings& findings;                                     ///< printed at the end
   std::vector<std::filesystem::path> named_by_user = {};  ///< tables in that folder whose names are the user's
 
-  /// Writes one of the card's further files, and to the metadata what its columns mean. Rows of a problem get its
+  /// Writes one of the card's further files, and the meanings of its columns to the metadata. Rows of a problem get its
   /// library and settings, and follow the rows of other problems that earlier runs have left in the file. Throws
   /// `Error` as `write_file`.
   void write(const std::string& suffix, const Table& table);
 };
 
-/// A solved case with what was measured of it: an object of a type that the experiment chooses.
+/// A solved case with its measurements: an object of a type that the experiment chooses.
 struct MeasuredCase {
   SolvedCase& solved;  ///< as it was solved, and noted since
-  std::any measured;   ///< what the columns of the experiment read
+  std::any measured;   ///< the measurements that the experiment's columns read
 };
 
 /// The columns that an experiment adds to the core ones, and how their values are found.
 struct OwnColumns {
-  Columns<MeasuredCase> columns = {};                    ///< behind the core ones
-  std::any not_measured = {};                            ///< what is known of a case before `measure`
-  std::function<void(MeasuredCase&)> measure = nullptr;  ///< null if nothing is measured
+  Columns<MeasuredCase> columns = {};                    ///< after the core columns
+  std::any not_measured = {};                            ///< the measurements of a case before `measure`
+  std::function<void(MeasuredCase&)> measure = nullptr;  ///< null if there are no measurements
 };
 
 /// An experiment: many solves, a row for each, and files made of all rows.
@@ -99,7 +99,7 @@ struct OwnColumns {
 /// measures something of them derives from `ExperimentOf`.
 class Experiment {
  public:
-  /// An experiment with these columns behind the core ones.
+  /// An experiment with these columns after the core columns.
   explicit Experiment(ExperimentCard card, Columns<SolvedCase> columns = {});
   virtual ~Experiment() = default;
   Experiment(const Experiment&) = delete;
@@ -107,14 +107,14 @@ class Experiment {
   Experiment(Experiment&&) = delete;
   Experiment& operator=(Experiment&&) = delete;
 
-  /// What the experiment says of itself.
+  /// The description of the experiment.
   [[nodiscard]] const ExperimentCard& card() const noexcept { return card_; }
   /// Its options, as the command line has set them.
   [[nodiscard]] ExperimentOptions& options() noexcept { return card_.options; }
-  /// The indirect solutions that it compares with; null if there are none. A part of a run keeps them in its file.
+  /// The indirect solutions that it compares with, or null. A part of a run keeps them in its file.
   [[nodiscard]] IndirectReference* indirect() const noexcept { return indirect_.get(); }
 
-  /// Options behind the common ones.
+  /// Options after the common ones.
   virtual void add_options(CommandLine& /*line*/) {}
   /// The cases of the run in the order of rows, made of those that the common options name; by default these. Called
   /// once, when the command line is read and before anything is written. Throws `Error` if they do not fit.
@@ -122,14 +122,14 @@ class Experiment {
   /// Solves a case; by default by the solver of its name. Throws `NoStart` with the status for its row where there is
   /// nothing to solve.
   [[nodiscard]] virtual SolvedCase solve(SolveTask task);
-  /// The columns behind the core ones; by default those of the constructor.
+  /// The columns after the core columns; by default the constructor's.
   [[nodiscard]] virtual OwnColumns own_columns();
-  /// Writes further files when all rows are there, or as the card says; may add to the metadata, and to the rows what
-  /// they tell of each other.
+  /// Writes further files when all rows are there, or as the card specifies; may add to the metadata, and to the rows
+  /// values that depend on other rows.
   virtual void finish(Table& /*rows*/, FurtherOutput& /*output*/) {}
 
  protected:
-  /// What the experiment says of itself.
+  /// The description of the experiment.
   ExperimentCard card_;
   /// Set by `cases` where rows are compared with indirect solutions.
   std::shared_ptr<IndirectReference> indirect_;
@@ -138,18 +138,18 @@ class Experiment {
   Columns<SolvedCase> columns_;
 };
 
-/// An experiment that measures a `Measured` of each solved case; its columns are those of that record. A case of which
-/// nothing could be measured has the default one.
+/// An experiment that measures a `Measured` for each solved case; its columns are the columns of that record. A case
+/// that could not be measured has the default record.
 template <class Measured>
 class ExperimentOf : public Experiment {
  public:
   /// An experiment of this card.
   explicit ExperimentOf(ExperimentCard card) : Experiment(std::move(card)) {}
 
-  /// Columns behind the core ones. Called for `--help` and, when `cases` has returned, for the table.
+  /// Columns after the core columns. Called for `--help` and, when `cases` has returned, for the table.
   [[nodiscard]] virtual Columns<Measured> columns() const = 0;
-  /// Measures a case, solved or not, in the order of solving: cases in their order, references of curves first. What is
-  /// filled in when time or memory run out goes to the row. May add to the message of the row.
+  /// Measures a case, solved or not, in the order of solving: cases in their order, references of curves first. Values
+  /// filled in before time or memory run out go to the row. May add to the message of the row.
   virtual void measure(SolvedCase& solved, Measured& measured) = 0;
 
   /// The columns of the record.
@@ -168,8 +168,8 @@ class ExperimentOf : public Experiment {
 /// every row is a motion; else 1. It is 2 on bad input or if a file cannot be written (one line on standard error), 130
 /// if interrupted. One part of a run (--part) is 0 as soon as its file is there, which has no rows of an interrupted
 /// one. The table of an earlier run keeps its rows of other problems, libraries and settings; a table with other
-/// columns is refused. Nothing of an earlier run of that name is touched before the first row is there; from then on
-/// until all files are written, the metadata say `"complete": false`. Two runs never write one table at a time.
+/// columns is rejected. An earlier run of the same name is left untouched until the first row is there; from then on
+/// until all files are written, the metadata contain `"complete": false`. Two runs never write one table at a time.
 ///
 /// An interrupted run keeps its finished rows, and NAME.unfinished next to its table; the same command resumes it if
 /// program, libraries, options and cases are the same (`identity_of`) and --fresh is not given.

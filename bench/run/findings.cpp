@@ -53,7 +53,7 @@ void print_aligned(const std::vector<std::vector<std::string>>& lines) {
 
 void Findings::add_to(CommandLine& line) {
   line.flag("--quiet", is_quiet_, "print errors only");
-  line.flag("--json", as_json_, "print what was found as one JSON object");
+  line.flag("--json", as_json_, "print the findings as one JSON object");
 }
 
 void Findings::say(const std::string& sentence) {

@@ -10,25 +10,25 @@
 
 namespace dmocbench {
 
-/// What a run found: sentences and small tables on standard output, or with --json the same as one JSON object at the
-/// end; with --quiet nothing, so that only errors are printed.
+/// The findings of a run: sentences and small tables on standard output, or with --json one JSON object at the end.
+/// With --quiet only errors are printed.
 class Findings {
  public:
   /// Registers --quiet and --json.
   void add_to(CommandLine& line);
 
-  /// Whether people read what is printed: neither --quiet nor --json was given.
+  /// Whether the output is for people: neither --quiet nor --json was given.
   [[nodiscard]] bool are_for_people() const noexcept { return !is_quiet_ && !as_json_; }
-  /// Whether nothing but errors is printed.
+  /// Whether only errors are printed.
   [[nodiscard]] bool are_quiet() const noexcept { return is_quiet_; }
 
   /// Adds a sentence.
   void say(const std::string& sentence);
-  /// Adds some columns of a table under a name; all of them where none are named. People see the first of its rows,
-  /// with five digits, and the file that has all.
+  /// Adds some columns of a table under a name; all columns if `columns` is empty. The output for people has the first
+  /// of its rows, with five digits, and the file with all rows.
   void show(const std::string& name, const Table& table, const std::vector<std::string>& columns = {},
             const std::string& file = "", std::size_t most_rows = 12);
-  /// Ends with the run's outcome: prints the object, or nothing unless --json was given.
+  /// Ends with the run's outcome: prints the object if --json was given.
   void end(const nlohmann::ordered_json& outcome) const;
 
  private:

@@ -85,7 +85,7 @@ void require_near(const Problem& problem, const IndirectSolution& solution, cons
               "grids");
 }
 
-/// The solution in a file; none if there is no such file or it is not one of this problem on this branch.
+/// The solution in a file; empty if there is no such file or it is not a solution of this problem on this branch.
 std::optional<IndirectSolution> read_solution(const std::filesystem::path& path, const Problem& problem,
                                               const Trajectory& direct) {
   constexpr double rounding = 1e-11;
@@ -140,7 +140,7 @@ const Columns<Entry> reference_columns{
     {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
 };
 
-/// What table and metadata tell of a solution.
+/// The entry of a solution in table and metadata.
 Json account_of(const Entry& entry) {
   Row row = row_of(reference_columns, entry);
   Json metadata{{"problem", entry.problem},
@@ -225,7 +225,7 @@ Table IndirectReference::table() const {
   table.explain(meanings_of(reference_columns));
   table.declare(types_of(reference_columns));
   table.set_key(key_of(reference_columns));
-  for (const std::string& name : names) {  // what the columns above do not explain
+  for (const std::string& name : names) {  // names that the columns above do not explain
     table.explain({{name, "costate at t = 0"}});
     table.declare({{name, {FieldKind::number, true}}});
   }
@@ -252,7 +252,7 @@ std::vector<std::string> IndirectReference::notes() const {
     const double digits = account.at("metadata").at("certified_digits");
     if (digits >= wanted_digits) continue;
     notes.push_back(fmt::format(
-        "{}: the indirect reference is certified to {:.1f} digits only; smaller relative errors say nothing", problem,
+        "{}: the indirect reference is certified to {:.1f} digits only; smaller relative errors mean nothing", problem,
         digits));
   }
   return notes;

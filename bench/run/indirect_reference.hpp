@@ -21,7 +21,7 @@ namespace dmocbench {
 struct CheckedIndirectSolution {
   std::string problem;            ///< its name
   IndirectSolution solution;      ///< the certified answer
-  std::optional<double> seconds;  ///< none where a file was used
+  std::optional<double> seconds;  ///< empty if the solution was read from a file
   double replay_error = 0.0;      ///< distance from the final state at which a replay ends
   double shooting_defect = 0.0;   ///< largest jump between neighbouring intervals that are integrated alone
   std::vector<std::pair<std::string, double>> initial_costate;  ///< with the names of their columns
@@ -37,16 +37,16 @@ class IndirectReference {
   /// `folder` is where the files are; it exists when `near` is called.
   explicit IndirectReference(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// The solution near a direct one. Throws `Error` if there is none (see `solve_indirect`) or the problem's reference
-  /// is on another branch.
+  /// The solution near a direct one. Throws `Error` if no solution is found (see `solve_indirect`) or the problem's
+  /// reference is on another branch.
   [[nodiscard]] const IndirectSolution& near(const Problem& problem, const Trajectory& direct);
 
   /// All that table, metadata and notes are made of, an object per problem, and the same found by other parts of a run.
   [[nodiscard]] nlohmann::ordered_json findings() const;
-  /// Adds what another part has found. Throws `Error` if it is not what `findings` returns.
+  /// Adds the findings of another part. Throws `Error` if they do not have the form that `findings` returns.
   void add_findings(const JsonPlace& findings);
 
-  /// A row per problem that was asked for; the last columns are the costate at t = 0, psi_q_NAME and psi_p_NAME of
+  /// A row per requested problem; the last columns are the costate at t = 0, psi_q_NAME and psi_p_NAME of
   /// every configuration.
   [[nodiscard]] Table table() const;
   /// The same for metadata: an array with an object per problem.

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::string_view experiments = " " DMOCBENCH_EXPERIMENTS " ";
 
-/// Options of experiments whose values are numbers or names of what there is.
+/// Options of experiments whose values are numbers or known names.
 constexpr std::string_view harmless_options =
     " --problem --method --integrator --substeps --tableau --controls --stages --solver --derivatives --intervals "
     "--set --form --start-seconds --tolerance --tolerances --iterations --seconds --repeats --verbose --jobs --batch "
@@ -48,7 +48,7 @@ struct GivenOption {
   std::vector<std::string> values;
 };
 
-/// The options of the command line in a part. Throws `Error` on a word that belongs to none.
+/// The options of the command line in a part. Throws `Error` on a word that belongs to no option.
 std::vector<GivenOption> options_of(const PartFile& part) {
   const auto words = JsonPlace(part.description, part.path.string()).at("command_line").texts();
   std::vector<GivenOption> options;
@@ -68,7 +68,7 @@ std::vector<GivenOption> options_of(const PartFile& part) {
   return options;
 }
 
-/// True if an option that may name files names none.
+/// True if an option that may name files does not name any.
 bool names_no_file(const GivenOption& option) {
   const auto is_harmless = [&option](const std::string& value) {
     if (option.name == "--start") return value == "common" || value == "guess";
@@ -77,8 +77,8 @@ bool names_no_file(const GivenOption& option) {
   return !option.values.empty() && std::ranges::all_of(option.values, is_harmless);
 }
 
-/// The options of a part that a run which joins it may take over. Throws `Error` if one is of no experiment, or names a
-/// file or the like and `own`, what `merge` was given, does not have it.
+/// The options of a part that a joining run may take over. Throws `Error` if one belongs to no experiment, or if it
+/// names a file or the like and is missing from `own`, the options of `merge`.
 std::vector<std::string> taken_over(const PartFile& part, const std::vector<GivenOption>& own) {
   std::vector<std::string> words;
   for (const GivenOption& option : options_of(part)) {
@@ -90,8 +90,8 @@ std::vector<std::string> taken_over(const PartFile& part, const std::vector<Give
       words.insert(words.end(), values.begin(), values.end());
     } else if (may_have_files) {
       throw Error(
-          fmt::format("{} was made with {} {}; merge takes that from its own command line only: if you know what "
-                      "it names, add it there",
+          fmt::format("{} was made with {} {}; merge accepts this option only from its own command line: if you trust "
+                      "the value, add it there",
                       part.path.string(), name, fmt::join(values, " ")));
     } else if (!is_in(set_by_merge, name)) {
       throw Error(fmt::format("{}: no experiment that has parts takes {}; remove that part", part.path.string(), name));
@@ -112,13 +112,13 @@ void require_libraries(const PartFile& part, std::vector<std::string> given) {
     };
     if (std::ranges::any_of(given, has_name)) continue;
     throw Error(
-        fmt::format("{} was made with the library of problems {}; merge loads none that it is not given: add "
-                    "--library with the path that it has here",
+        fmt::format("{} was made with the library of problems {}; merge loads only libraries that it is given: add "
+                    "--library with the path on this machine",
                     part.path.string(), name));
   }
 }
 
-/// What starts the experiment that wrote a part.
+/// The words that start the experiment that wrote a part.
 std::vector<std::string> program_of(const PartFile& part) {
   const std::string experiment = JsonPlace(part.description, part.path.string()).at("identity").at("experiment").text();
   if (!is_in(experiments, experiment)) {
@@ -148,7 +148,7 @@ std::vector<GivenOption> own_options(const JoiningOptions& options) {
 void require_name(const std::string& name, const std::filesystem::path& out) {
   if (!name.empty()) return require_name_of_table(name);
   std::vector<std::string> names;
-  std::error_code none;  // a folder that is not there has none
+  std::error_code none;  // a folder that does not exist has no parts
   for (const auto& entry : std::filesystem::directory_iterator(out, none)) {
     if (entry.path().extension() == ".parts") names.push_back(entry.path().stem().string());
   }

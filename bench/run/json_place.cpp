@@ -9,7 +9,7 @@ namespace dmocbench {
 
 namespace {
 
-/// What stands at a place, cut short for a sentence.
+/// The JSON at a place, cut short for a sentence.
 std::string shown(const nlohmann::ordered_json& json) {
   constexpr std::size_t most_shown = 40;
   if (json.is_structured()) return json.is_object() ? "an object" : "an array";
@@ -94,7 +94,7 @@ nlohmann::ordered_json json_in(const std::string& text, const std::string& file)
   constexpr int deepest = 16;
   const auto keeps = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) { return depth <= deepest; };
   Json json = Json::parse(text, keeps, false);
-  if (json.is_discarded()) throw Error(fmt::format("{} is no JSON, or was cut off", file));
+  if (json.is_discarded()) throw Error(fmt::format("{} is not JSON, or was cut off", file));
   return json;
 }
 

@@ -8,8 +8,8 @@
 
 namespace dmocbench {
 
-/// A value in a JSON file that others may have written: what is missing, or of another type than is read, is an `Error`
-/// that names the file, the place and what stands there. It refers to the JSON, which has to outlive it.
+/// A value in a JSON file that others may have written: a missing value, or one of another type than expected, throws
+/// `Error` with the file, the place and the value there. It refers to the JSON, which must outlive it.
 class JsonPlace {
  public:
   /// The whole of `json`; `file` is its name for errors.
@@ -17,11 +17,11 @@ class JsonPlace {
 
   /// True of an object that has this key.
   [[nodiscard]] bool has(const std::string& key) const;
-  /// The value of a key. Throws `Error` if this is no object or lacks it.
+  /// The value of a key. Throws `Error` if this is not an object or lacks the key.
   [[nodiscard]] JsonPlace at(const std::string& key) const;
-  /// The keys of an object and their values. Throws `Error` if this is none.
+  /// The keys of an object and their values. Throws `Error` if this is not an object.
   [[nodiscard]] std::vector<std::pair<std::string, JsonPlace>> members() const;
-  /// The entries of an array. Throws `Error` if this is none.
+  /// The entries of an array. Throws `Error` if this is not an array.
   [[nodiscard]] std::vector<JsonPlace> entries() const;
   [[nodiscard]] std::string text() const;  ///< the value; throws `Error` if it is not a text
   [[nodiscard]] double number() const;     ///< the value; throws `Error` if it is not a number
@@ -32,7 +32,7 @@ class JsonPlace {
   [[nodiscard]] std::vector<std::string> texts() const;
   /// The entries of an array of numbers.
   [[nodiscard]] std::vector<double> numbers() const;
-  /// What stands there.
+  /// The JSON at this place.
   [[nodiscard]] const nlohmann::ordered_json& json() const noexcept { return *json_; }
 
  private:
@@ -47,8 +47,8 @@ class JsonPlace {
   std::string path_;  // keys with spaces between them; empty for the whole
 };
 
-/// The JSON in a text, without what is nested deeper than any of ours: copying and writing it recurse. Throws `Error`
-/// that names `file` if it is none.
+/// The JSON in a text, without values that are nested deeper than in our own files, since copying and writing recurse.
+/// Throws `Error` that names `file` if it is not JSON.
 [[nodiscard]] nlohmann::ordered_json json_in(const std::string& text, const std::string& file);
 
 }  // namespace dmocbench

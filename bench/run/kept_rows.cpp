@@ -79,7 +79,7 @@ Table with_statements(const Table& table, const std::set<Statement>& statements)
 KeptRows::KeptRows(std::filesystem::path prefix, std::set<Statement> own, bool any_settings)
     : prefix_(std::move(prefix)), own_(std::move(own)), any_settings_(any_settings) {
   const std::filesystem::path metadata = prefix_.string() + ".json";
-  std::error_code none;  // what is not there is no regular file
+  std::error_code none;  // a missing file is not a regular file
   if (!std::filesystem::is_regular_file(metadata, none)) return;
   earlier_ = Json::parse(read_file(metadata), nullptr, false);
   if (!earlier_.is_object())
@@ -87,7 +87,7 @@ KeptRows::KeptRows(std::filesystem::path prefix, std::set<Statement> own, bool a
 }
 
 void KeptRows::read(const std::filesystem::path& file) {
-  std::error_code none;  // what is not there is no regular file
+  std::error_code none;  // a missing file is not a regular file
   if (!std::filesystem::is_regular_file(file, none)) return;
   const Table table = read_table(file);
   if (!has_column(table, "problem") || !has_column(table, "settings")) return;
@@ -123,7 +123,7 @@ void KeptRows::require_described(const std::filesystem::path& file) const {
 }
 
 void KeptRows::require_columns(const std::filesystem::path& file, const std::vector<std::string>& columns) const {
-  std::error_code none;  // what is not there is no regular file
+  std::error_code none;  // a missing file is not a regular file
   if (!std::filesystem::is_regular_file(file, none) || std::filesystem::is_empty(file)) return;
   if (read_table(file).columns() == columns) return;
   throw Error(fmt::format("{} has other columns than this run writes; move it away, or choose another --name or --out",

@@ -31,8 +31,8 @@ struct Statement {
 /// from the statement of their problem. A table without the column `problem`, or that has the others, stays as it is.
 [[nodiscard]] Table with_statements(const Table& table, const std::set<Statement>& statements);
 
-/// The rows that earlier runs of other statements have left in the tables FOLDER/NAME*.csv, and what the metadata
-/// FOLDER/NAME.json say of those runs.
+/// The rows that earlier runs of other statements have left in the tables FOLDER/NAME*.csv, and the description of
+/// those runs in the metadata FOLDER/NAME.json.
 class KeptRows {
  public:
   /// No rows.
@@ -53,15 +53,15 @@ class KeptRows {
   [[nodiscard]] std::size_t count(const std::filesystem::path& file) const;
   /// The kept rows of a file, followed by the rows of a table. Rows of a file with other columns are not kept.
   [[nodiscard]] Table joined(const std::filesystem::path& file, const Table& own) const;
-  /// The kept rows of a file alone; without columns if none are kept.
+  /// The kept rows of a file alone; without columns if no rows are kept.
   [[nodiscard]] Table alone(const std::filesystem::path& file) const;
   /// Notes the own statements in the metadata of a run, and under "earlier_runs" the runs whose rows are kept.
   void describe_runs(nlohmann::ordered_json& metadata) const;
   /// Writes to the metadata whether the run came to its end ("run_complete"), and whether all runs did whose rows the
   /// tables hold ("complete").
   void describe_end(bool is_complete, nlohmann::ordered_json& metadata) const;
-  /// Adds what the earlier metadata say of tables and motions that still exist and that the run does not write: `own`
-  /// are the names of the files that it does.
+  /// Adds the earlier metadata of tables and motions that still exist and that the run does not write: `own` are the
+  /// names of the files that it writes.
   void describe_files(const std::set<std::string>& own, nlohmann::ordered_json& metadata) const;
 
  private:

@@ -27,7 +27,7 @@ Json status_names() {
   return names;
 }
 
-/// True of the column of solved cases, which holds nothing else; other tables say more in theirs.
+/// True for the status column of solved cases, which holds only a status; other tables have more in theirs.
 bool is_status_of_solve(const DeclaredColumn& column) {
   return column.name == "status" && std::ranges::any_of(core_columns(), [&](const Column<SolvedCase>& core) {
            return core.name == column.name && core.meaning == column.meaning;
@@ -43,7 +43,7 @@ DeclaredColumn declared(const std::string& name, const std::string& meaning, Fie
   return {name, meaning.substr(1, end - 1), meaning.substr(end + 2), type};
 }
 
-/// What `add_meanings` has noted of a column of a file, or else what the columns of the run's own rows mean.
+/// The meaning that `add_meanings` has noted for a column of a file, or else its meaning in the run's own rows.
 std::string meaning_of(const std::string& column, const Json& of_file, const Table& rows) {
   const Json meanings = of_file.value("meanings", Json::object());
   if (meanings.contains(column)) return meanings.at(column).get<std::string>();
@@ -51,7 +51,7 @@ std::string meaning_of(const std::string& column, const Json& of_file, const Tab
   return of_rows == rows.meanings().end() ? "" : of_rows->second;
 }
 
-/// Likewise what it holds. A summary may leave a column of the rows empty.
+/// Likewise its type. A summary may leave a column of the rows empty.
 FieldType type_of(const std::string& column, const Json& of_file, const Table& rows) {
   const Json types = of_file.value("types", Json::object());
   if (types.contains(column)) {
@@ -137,15 +137,16 @@ nlohmann::ordered_json row_schema(const std::string& title, const std::vector<De
     }
     names.push_back(column.name);
   }
-  return {{"$schema", draft},
-          {"title", title},
-          {"description",
-           "a row; empty fields are null, those of columns of texts texts, others that read as numbers numbers"},
-          {"type", "object"},
-          {"properties", properties},
-          {"required", names},
-          {"primaryKey", key},
-          {"additionalProperties", false}};
+  return {
+      {"$schema", draft},
+      {"title", title},
+      {"description",
+       "a row; empty fields are null, fields of text columns are texts, other fields that parse as numbers numbers"},
+      {"type", "object"},
+      {"properties", properties},
+      {"required", names},
+      {"primaryKey", key},
+      {"additionalProperties", false}};
 }
 
 nlohmann::ordered_json row_schema(const std::string& title, const Table& table) {
@@ -206,7 +207,7 @@ nlohmann::ordered_json metadata_schema() {
   return {
       {"$schema", draft},
       {"title", "metadata of a run"},
-      {"description", "NAME.json beside the tables of a run; experiments add properties of their own"},
+      {"description", "NAME.json next to the tables of a run; experiments add their own properties"},
       {"type", "object"},
       {"properties", properties},
       {"required",

@@ -11,17 +11,18 @@
 
 namespace dmocbench {
 
-/// Adds what the columns of a table mean, "[s] median time of a solve", what they hold and which are its key to what a
-/// run's metadata tell of its file, as `metadata["tables"][FILE]["meanings"]`, `["types"]` and `["key"]`, which
+/// Adds the meanings of a table's columns, "[s] median time of a solve", their types and its key to the entry of its
+/// file in a run's metadata, as `metadata["tables"][FILE]["meanings"]`, `["types"]` and `["key"]`, which
 /// `describe_tables_of_run` reads.
 /// Columns that the table lacks are left out.
 void add_meanings(nlohmann::ordered_json& metadata, const std::filesystem::path& file, const Table& table);
 
-/// Writes a table as a file, and what its columns mean to the metadata of its run. Throws `Error` as `write_file`.
+/// Writes a table as a file, and the meanings of its columns to the metadata of its run. Throws `Error` as
+/// `write_file`.
 void write_table(const std::filesystem::path& file, const Table& table, nlohmann::ordered_json& metadata);
 
-/// `metadata["tables"]` becomes what `describe_tables` tells of the files, with the meanings of their columns: those
-/// that `write_table` noted, or else those of `rows`, a table with the columns of the run's own rows; and with the JSON
+/// Sets `metadata["tables"]` to the description of the files by `describe_tables`, with the meanings of their columns
+/// (noted by `write_table`, or else from `rows`, a table with the columns of the run's own rows) and with the JSON
 /// Schema of their rows (`row_schema`).
 void describe_tables_of_run(const std::vector<std::filesystem::path>& files, const Table& rows,
                             nlohmann::ordered_json& metadata);
@@ -34,21 +35,21 @@ struct DeclaredColumn {
   std::string unit;
   /// In words.
   std::string meaning;
-  /// What it holds.
+  /// Its type.
   FieldType type = {};
 };
 
 /// The JSON Schema (draft 2020-12) of a row as an object: a property per column with its type, its meaning and, as
-/// "unit", its unit, where they are known; all are required, others are not allowed. Empty fields are null, those of
-/// columns of texts texts, others that read as numbers numbers; booleans are 0 or 1. "primaryKey" names the columns of
-/// the key, by which rows are told apart; none where nobody has said it.
+/// "unit", its unit, where they are known; all are required, others are not allowed. Empty fields are null, fields of
+/// text columns are texts, other fields that parse as numbers are numbers; booleans are 0 or 1. "primaryKey" names the
+/// columns of the key, which distinguishes rows; it is absent if no key is declared.
 [[nodiscard]] nlohmann::ordered_json row_schema(const std::string& title, const std::vector<DeclaredColumn>& columns,
                                                 const std::vector<std::string>& key = {});
 
-/// The JSON Schema of the rows of a table, by what it says of its columns itself.
+/// The JSON Schema of the rows of a table, from its own declarations of its columns.
 [[nodiscard]] nlohmann::ordered_json row_schema(const std::string& title, const Table& table);
 
-/// The JSON Schema of a run's metadata, NAME.json: what every run tells, and the schema of what it tells of its tables.
+/// The JSON Schema of a run's metadata, NAME.json: the properties that every run has, including its tables' entries.
 [[nodiscard]] nlohmann::ordered_json metadata_schema();
 
 }  // namespace dmocbench

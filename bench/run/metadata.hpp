@@ -14,11 +14,11 @@ namespace dmocbench {
 /// The compiler of this build, with its version.
 [[nodiscard]] std::string compiler();
 
-/// What a reader needs to judge or repeat a table: compiler, flags, processor, memory, versions of the libraries,
-/// libraries of problems, commit, command line, UTC time.
+/// The data needed to judge or repeat a table: compiler, flags, processor, memory, versions of the libraries, libraries
+/// of problems, commit, command line, UTC time.
 [[nodiscard]] nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line);
 
-/// Writes a description as a file; what is no text (UTF-8) in it is replaced.
+/// Writes a description as a file; invalid UTF-8 in it is replaced.
 void write_metadata(const std::filesystem::path& file, const nlohmann::ordered_json& description);
 
 }  // namespace dmocbench

@@ -10,7 +10,7 @@
 
 namespace dmocbench {
 
-/// What follows PREFIX in the names of a motion's files: "_nodes.csv", "_stages.csv" and so on.
+/// The endings that follow PREFIX in the names of a motion's files: "_nodes.csv", "_stages.csv" and so on.
 [[nodiscard]] std::vector<std::string> endings_of_motion_files();
 
 /// Writes the motion of a case, solved or as far as its solver came: PREFIX_nodes.csv (t, q, v, p, psi),

@@ -26,7 +26,7 @@ namespace dmocbench {
 
 namespace {
 
-/// What a user wrote, in quotes, fit for a line on a terminal: cut short, without control characters.
+/// A user's text in quotes, fit for a line on a terminal: cut short, without control characters.
 std::string as_shown(std::string_view text) {
   constexpr std::size_t most_shown = 40;
   std::string shown(text.substr(0, most_shown));
@@ -44,7 +44,7 @@ long long parse_count(std::string_view option, std::string_view text) {
   return *count;
 }
 
-/// Returns the text before the separator and moves `rest` behind it.
+/// Returns the text before the separator and moves `rest` past it.
 std::string_view take_part(std::string_view& rest, char separator) {
   const std::size_t end = std::min(rest.find(separator), rest.size());
   const std::string_view part = rest.substr(0, end);
@@ -52,7 +52,7 @@ std::string_view take_part(std::string_view& rest, char separator) {
   return part;
 }
 
-/// The chosen names in the order of `known`, each once; all if none is chosen. Throws `Error` on one that is not known.
+/// The chosen names in the order of `known`, each once; all if no name is chosen. Throws `Error` on an unknown name.
 std::vector<std::string> in_order(const std::string& kind, const std::vector<std::string>& chosen,
                                   const std::vector<std::string>& known) {
   if (chosen.empty()) return known;
@@ -113,7 +113,7 @@ std::vector<std::string> chosen_methods(const ExperimentOptions& options) {
     }
   }
   if (!integrates && !(options.integrators.empty() && options.substeps.empty())) {
-    throw Error("--integrator and --substeps are those of shooting; add --method multiple_shooting");
+    throw Error("--integrator and --substeps apply to shooting only; add --method multiple_shooting");
   }
   return methods;
 }
@@ -137,8 +137,8 @@ std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
 /// A family of tableaus and a number of stages.
 using FamilyAndStages = std::pair<std::string, int>;
 
-/// The chosen families with those of the chosen numbers of stages that each is offered with, ascending. Throws `Error`
-/// if no family is offered with one of the numbers.
+/// The chosen families, each with the chosen numbers of stages that it supports, ascending. Throws `Error` if no family
+/// supports one of the numbers.
 std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
   const auto families = in_order("tableau", chosen_tableaus(options), tableau_names());
   std::vector<FamilyAndStages> schemes;
@@ -224,7 +224,7 @@ void add_part_options(CommandLine& line, ExperimentOptions& options) {
       "i/n: work on the i-th of n parts alone and write OUT/NAME.parts/i-of-n.part, whole or not at all; a part "
       "that is there already stays. The exit code is 0 whatever its solves did. `merge` joins all parts");
   line.option("--missing-parts", options.missing_parts,
-              "n: print which of n parts of this very run are missing, a number per line, and do nothing else");
+              "n: only print which of n parts of this very run are missing, one number per line");
   line.option(
       "--join", options.join,
       "results folder whose parts are joined to the one table instead of solving anything, as `merge` calls it; "
@@ -308,7 +308,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const CostForm form = cost_form_named(options.form);
   std::vector<Case> cases;
   for (const auto& problem : selected_problems(options.problems, options.settings)) {
-    // All methods have as many degrees of freedom on a grid, and more stages have more: one program per family tells
+    // All methods have the same degrees of freedom on a grid, and more stages have more: one program per family shows
     // whether the problem is well posed and the coarsest grid fine enough.
     std::set<std::string> checked;
     for (const auto& [tableau, stages] : schemes) {

@@ -40,13 +40,13 @@ struct ExperimentOptions {
   bool verbose = false;  ///< shows the solver's own output
   bool fresh = false;    ///< solves all cases anew where an interrupted run would be resumed
   std::filesystem::path out = "results";  ///< folder for results
-  std::string name = {};                  ///< of the table and the files beside it
+  std::string name = {};                  ///< of the table and its accompanying files
   std::string part = {};                  ///< "i/n": solve the i-th of n parts of the cases; empty: all
-  std::string missing_parts = {};         ///< n: solve nothing, but name the parts of n that are missing; empty: do not
+  std::string missing_parts = {};         ///< n: only name the missing parts of n, without solving; empty: solve
   std::vector<std::string> join = {};     ///< results folders whose parts are joined instead of solving; empty: solve
 };
 
-/// The numbers of `tolerances`. Throws `Error` if one is no number or out of range.
+/// The numbers in `tolerances`. Throws `Error` if one is not a number or out of range.
 [[nodiscard]] std::vector<double> chosen_tolerances(const ExperimentOptions& options);
 
 /// Registers the options with their help.
@@ -63,12 +63,11 @@ void add_batch_option(CommandLine& line, ExperimentOptions& options);
 
 /// The solver options among them; an interrupt stops the solver. Throws `Error` if one is out of range.
 [[nodiscard]] SolverOptions solver_options(const ExperimentOptions& options);
-/// Those of the solver by name. Throws `Error` if one has no "=" or no name.
+/// The options passed to the solver by name. Throws `Error` if one has no "=" or no name.
 [[nodiscard]] NamedOptions named_options(const ExperimentOptions& options);
 
 /// All cases in the order of rows: problem, method, tableau, stages, solver, derivatives, intervals ascending. Problems
-/// of equal name are the same object. Throws `Error` on anything unknown or out of range; nothing has been written by
-/// then.
+/// of equal name are the same object. Throws `Error` on anything unknown or out of range, before any file is written.
 [[nodiscard]] std::vector<Case> expand_cases(const ExperimentOptions& options);
 
 /// Problems with the settings applied, in the order of the registry; the name "all" stands for every one. A setting
@@ -82,7 +81,7 @@ struct ProblemOptions {
   std::vector<std::string> settings = {};   ///< "parameter=value"
   std::vector<std::string> libraries = {};  ///< paths
 
-  /// Registers the options; what they hold is the default.
+  /// Registers the options; their current values are the defaults.
   void add_to(CommandLine& line);
   /// The problems, after the command line was read: loads the libraries first. Throws `Error` as `selected_problems`
   /// and `load_problem_libraries`.

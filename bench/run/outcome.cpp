@@ -16,7 +16,7 @@ namespace dmocbench {
 
 namespace {
 
-/// ", 3 too coarse (dmoc 1, tangent 2)"; nothing where there are none.
+/// ", 3 too coarse (dmoc 1, tangent 2)"; empty if the count is 0.
 std::string counted_by_method(Status status, const std::map<std::string, std::ptrdiff_t>& by_method) {
   std::ptrdiff_t all = 0;
   std::vector<std::string> counts;

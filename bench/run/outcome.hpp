@@ -15,11 +15,10 @@ struct Outcome {
   std::ptrdiff_t too_coarse = 0;    ///< rows whose intervals do not join
   std::ptrdiff_t violating = 0;     ///< rows whose motions violate constraints between stages
   std::ptrdiff_t other_branch = 0;  ///< rows whose answers are on another branch than their start
-  /// Curves without a usable row; those of a curve agree in problem, method, tableau, stages, solver, back
-  /// end.
+  /// Curves without a usable row; the rows of a curve agree in problem, method, tableau, stages, solver and back end.
   std::ptrdiff_t unusable_curves = 0;
-  /// ", 3 too coarse (dmoc 1, tangent 2)", and the same of those that violate between stages; nothing where no answer
-  /// is.
+  /// ", 3 too coarse (dmoc 1, tangent 2)", and the same for answers that violate constraints between stages; empty if
+  /// there are no such answers.
   std::string no_motions_by_method;
 };
 

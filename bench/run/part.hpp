@@ -29,8 +29,8 @@ inline constexpr std::size_t most_parts_of_a_run = 1000000;
 /// `most_parts_of_a_run`.
 [[nodiscard]] Part parse_part(std::string_view option, std::string_view text);
 
-/// Says in words what a case shares with others; cases of equal words need something of each other (a reference, a
-/// branch, a common start), empty words share nothing.
+/// Returns a text that identifies what a case shares with others; cases with equal texts depend on each other (by a
+/// reference, a branch, a common start), and an empty text means that nothing is shared.
 using SharedBy = std::function<std::string(const Case&)>;
 
 /// For every case the number of the first one that it shares something with, in one respect or another, directly or

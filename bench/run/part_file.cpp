@@ -21,20 +21,20 @@ std::string checksum_in_words(const std::string& description, const std::string&
   return fmt::format("{:08x}", crc_32(description + table));
 }
 
-/// The place of an entry in words, from what `diff` calls "/options/--tolerance".
+/// The place of an entry in words, from a path of `diff` such as "/options/--tolerance".
 std::string entry_in_words(std::string path) {
   std::ranges::replace(path, '/', ' ');
   return path.substr(std::min<std::size_t>(1, path.size()));
 }
 
-/// What stands at a place; "nothing" where there is none.
+/// The value at a place; "nothing" if there is no value.
 std::string value_at(const Json& json, const std::string& path) {
   const Json::json_pointer place(path);
   return json.contains(place) ? json.at(place).dump() : "nothing";
 }
 
-/// Throws `Error` unless a description has all that is read of it, of the right types: a checksum tells damage, not who
-/// has written the file.
+/// Throws `Error` unless a description has all entries that are read, of the right types: a checksum detects damage,
+/// but not files written by others.
 void require_whole(const JsonPlace& description) {
   static_cast<void>(parse_part("the part", description.at("part").text()));
   for (const char* const key : {"commit", "utc_time"}) static_cast<void>(description.at(key).text());
@@ -52,7 +52,7 @@ std::vector<std::filesystem::path> part_files_in(const std::vector<std::filesyst
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(parts, none)) {
       const std::filesystem::path& path = entry.path();
-      std::error_code unknown;  // what is no file may never end
+      std::error_code unknown;  // reading anything but a regular file may never end
       const bool is_file = entry.is_regular_file(unknown);
       if (is_file && path.extension() == ".part" && !path.filename().string().starts_with('.')) files.push_back(path);
     }
@@ -108,7 +108,7 @@ PartFile read_part(const std::filesystem::path& path) {
                 .description = Json::parse(description, nullptr, false),
                 .table = content.substr(std::min(line + 1, content.size()))};
   if (content.substr(0, space) != checksum_in_words(description, file.table) || !file.description.is_object()) {
-    throw Error(fmt::format("{} is no part as it was written; remove it and run that part again", path.string()));
+    throw Error(fmt::format("{} is damaged or not a part; remove it and run that part again", path.string()));
   }
   require_whole({file.description, path.string()});
   return file;
@@ -121,7 +121,7 @@ std::vector<PartFile> read_all_parts(const std::vector<std::filesystem::path>& f
   const PartFile& first = files.front();
   for (const PartFile& file : files) {
     if (file.part().of != first.part().of) {
-      throw Error(fmt::format("{} is one of {} parts and {} one of {}: remove those of one run", file.path.string(),
+      throw Error(fmt::format("{} is one of {} parts and {} one of {}: remove the parts of one run", file.path.string(),
                               file.part().of, first.path.string(), first.part().of));
     }
     require_same_run(fmt::format("{} is of another run than {}", file.path.string(), first.path.filename().string()),

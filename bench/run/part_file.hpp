@@ -11,35 +11,35 @@
 
 namespace dmocbench {
 
-/// What one part of a run leaves behind, in one file, so that it is whole or absent: a line of JSON that describes it,
-/// then a table of its rows, each with the number of its case in front. No program takes that for the table of a run.
+/// The output of one part of a run, in one file, so that it is whole or absent: a line of JSON that describes it, then
+/// a table of its rows, each with the number of its case in front. No program mistakes it for the table of a run.
 struct PartFile {
   std::filesystem::path path;          ///< where it lies
-  nlohmann::ordered_json description;  ///< what it says of its run
+  nlohmann::ordered_json description;  ///< the description of its run
   std::string table;                   ///< as comma-separated values
 
-  /// Which part it is, as the description says.
+  /// Which part it is, according to the description.
   [[nodiscard]] Part part() const;
 };
 
-/// The folder of all parts of a run, NAME.parts beside its table NAME.csv. `prefix`: folder and name of the table.
+/// The folder of all parts of a run, NAME.parts next to its table NAME.csv. `prefix`: folder and name of the table.
 [[nodiscard]] std::filesystem::path folder_of_parts(const std::filesystem::path& prefix);
 
-/// Writes the file whole or not at all, with what it is known by again added to the description. Throws `Error` as
-/// `write_file` does.
+/// Writes the file whole or not at all, and adds its checksum. Throws `Error` as `write_file` does.
 void write_part(const PartFile& file);
 
-/// Throws `Error` that names the file, and how to mend it, if it cannot be read or is no part as it was written.
+/// Throws `Error` that names the file and the remedy if it cannot be read, is damaged or is not a part.
 [[nodiscard]] PartFile read_part(const std::filesystem::path& path);
 
-/// The parts of a run in some results folders, in the order of their numbers. Throws `Error` if there is none, one is
-/// damaged, they are not of the same run (which is what `identity` in their description is for), one is there twice, or
-/// one is missing; the sentence names it.
+/// The parts of a run in some results folders, in the order of their numbers. Throws `Error` that names the part if one
+/// is damaged, missing or present twice, or if the parts are not of the same run (by `identity` in their description);
+/// also throws if there are no parts.
 [[nodiscard]] std::vector<PartFile> read_all_parts(const std::vector<std::filesystem::path>& folders,
                                                    const std::string& name);
 
-/// Throws `Error` that says in what two runs differ: "parameters orbital_transfer revolutions is 3, not 2". `who`
-/// begins it. Both are descriptions with a `commit`, which is only named, and an `identity`, which is compared.
+/// Throws `Error` with the difference between two runs: "parameters orbital_transfer revolutions is 3, not 2". The
+/// message begins with `who`. Both are descriptions with a `commit`, which is only named, and an `identity`, which is
+/// compared.
 void require_same_run(const std::string& who, const nlohmann::ordered_json& description,
                       const nlohmann::ordered_json& wanted);
 

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* case_column = "case";
 
-/// In what respects cases of one experiment need each other.
+/// The respects in which cases of one experiment depend on each other.
 std::vector<SharedBy> respects_of(const Experiment& experiment) {
   const auto scheme = [](const Case& c) { return fmt::format("{} {} {}", c.problem->name(), c.tableau, c.stages); };
   const ExperimentCard& card = experiment.card();
@@ -45,7 +45,7 @@ std::vector<SharedBy> respects_of_parts(const Experiment& experiment) {
   return respects;
 }
 
-/// Throws `Error` if a row holds what no run writes: a number that is none, or an answer without its cost.
+/// Throws `Error` if a row has a value that no run writes: an invalid number, or an answer without its cost.
 void require_measured(const Row& row, const std::vector<std::string>& columns, const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& column) {
     throw Error(fmt::format("{}: {} of case {} is {}, which no run writes; remove the file and run that part again",
@@ -59,7 +59,7 @@ void require_measured(const Row& row, const std::vector<std::string>& columns, c
   if (is_solved(status_named(row.text("status"))) && !row.number("objective")) refuse("objective");
 }
 
-/// What the metadata of the whole run tell of its parts and of the machines that they ran on.
+/// Describes the parts of the whole run and the machines that they ran on in its metadata.
 void describe_parts(const std::vector<PartFile>& files, Json& metadata) {
   Json machines = Json::array();
   std::vector<std::vector<std::size_t>> numbers;
@@ -75,7 +75,7 @@ void describe_parts(const std::vector<PartFile>& files, Json& metadata) {
     numbers[position].push_back(file.part().number);
     times.push_back(file.description.at("utc_time"));
   }
-  // Times in the table are those of these machines, not of the one that joins them.
+  // Times in the table were measured on these machines, not on the one that joins the parts.
   for (const char* const key : keys_of_machine) {
     const Json& first = machines.front().at(key);
     const auto is_equal = [key, &first](const Json& machine) { return machine.at(key) == first; };
@@ -87,7 +87,7 @@ void describe_parts(const std::vector<PartFile>& files, Json& metadata) {
       {"of", files.size()}, {"first_utc_time", first}, {"last_utc_time", last}, {"machines", std::move(machines)}};
 }
 
-/// The command line of the whole run, from that of one that joins parts.
+/// The command line of the whole run, from the command line that joins parts.
 void forget_joining(Json& command_line) {
   Json words = Json::array();
   for (std::size_t i = 0; i < command_line.size(); ++i) {
@@ -146,7 +146,7 @@ void PartsOfRun::save(const std::filesystem::path& file, const RowsOfCases& rows
 
 RowsOfCases PartsOfRun::resume(const std::filesystem::path& file) const {
   RowsOfCases rows(cases_.size());
-  std::error_code none;  // what is not there is no run to resume
+  std::error_code none;  // a missing file means that there is no run to resume
   if (!std::filesystem::is_regular_file(file, none)) return rows;
   try {
     const PartFile part = read_part(file);

@@ -15,18 +15,18 @@ namespace dmocbench {
 /// The cases of a run by number; a row for each that is solved.
 using RowsOfCases = std::vector<std::optional<Row>>;
 
-/// A run whose cases are dealt out to parts: what each of them works on, writes and is joined from. An unfinished run
-/// is kept as a part, too.
+/// A run whose cases are distributed over parts: the cases of each part, its file, and the joined rows. An unfinished
+/// run is kept as a part, too.
 class PartsOfRun {
  public:
-  /// `options`: names and values of the command line; `columns`: names of those of the table. Throws `Error` if
-  /// --part or --missing-parts is no part or number of parts.
+  /// `options`: names and values of the command line; `columns`: names of the table's columns. Throws `Error` if --part
+  /// is not a part or --missing-parts is not a number of parts.
   PartsOfRun(Experiment& experiment, const std::vector<Case>& cases, const nlohmann::ordered_json& metadata,
              const std::vector<std::pair<std::string, std::string>>& options, std::vector<std::string> columns);
 
-  /// Whether this run is one part, asked for by --part.
+  /// Whether this run is one part, requested by --part.
   [[nodiscard]] bool is_one() const noexcept { return part_.has_value(); }
-  /// For every case whether this run works on it: all, or those of its part.
+  /// For every case whether this run works on it: all cases, or the cases of its part.
   [[nodiscard]] std::vector<bool> own_cases() const;
   /// For every case the first one that it shares something with (`groups_of`).
   [[nodiscard]] std::vector<std::size_t> groups() const;
@@ -40,16 +40,16 @@ class PartsOfRun {
   /// The parts of n (--missing-parts) that are not there.
   [[nodiscard]] std::vector<std::size_t> missing() const;
 
-  /// The rows of all cases from the parts in some folders; hands the experiment their findings, and says in the
-  /// metadata what they were made by. Throws `Error` that names it if a part is missing, damaged, there twice, of
-  /// another run, or has what no run writes.
+  /// The rows of all cases from the parts in some folders; passes their findings to the experiment and describes their
+  /// origin in the metadata. Throws `Error` that names the part if one is missing, damaged, present twice, of another
+  /// run, or has values that no run writes.
   [[nodiscard]] RowsOfCases join(nlohmann::ordered_json& metadata) const;
 
   /// Writes the rows that an unfinished run has so far to a file, from which `resume` takes them. Throws `Error` if it
   /// cannot be written.
   void save(const std::filesystem::path& file, const RowsOfCases& rows, const nlohmann::ordered_json& metadata) const;
-  /// The rows of an unfinished run of this very identity in a file. Cases that need something of a case without a row,
-  /// or were interrupted, have none. No rows at all if there is no such file, or it is damaged or of another run.
+  /// The rows of an unfinished run of this very identity in a file. Cases that depend on a case without a row, or were
+  /// interrupted, have no row. There are no rows at all if the file is missing, damaged or of another run.
   [[nodiscard]] RowsOfCases resume(const std::filesystem::path& file) const;
 
  private:

@@ -23,7 +23,7 @@ Json values(const Eigen::VectorXd& vector) {
 
 Json interval(double lower, double upper) { return {{"lower", finite(lower)}, {"upper", finite(upper)}}; }
 
-/// One entry per quantity; no entries where nothing is bounded.
+/// One entry per quantity; no entries if there are no bounds.
 Json bounds_of(const Bounds& bounds) {
   Json list = Json::array();
   for (Eigen::Index i = 0; i < bounds.lower.size(); ++i) list.push_back(interval(bounds.lower[i], bounds.upper[i]));
@@ -148,8 +148,8 @@ nlohmann::ordered_json problem_cards_schema() {
        {"configurations", described(list_of(text()), "q_1 .. q_n")},
        {"controls", described(list_of(text()), "u_1 .. u_m")},
        {"first_order_states", described(list_of(text()), "y_1 .. y_l")},
-       {"configuration_units", described(list_of(text()), "of q_1 .. q_n; empty where none are stated")},
-       {"control_units", described(list_of(text()), "of u_1 .. u_m; empty where none are stated")},
+       {"configuration_units", described(list_of(text()), "of q_1 .. q_n; empty if not stated")},
+       {"control_units", described(list_of(text()), "of u_1 .. u_m; empty if not stated")},
        {"parameters", list_of(parameter)},
        {"time_unit", described(object_of({{"name", text()}, {"factor", number()}}),
                                "one unit of the problem's time is so many of these")},
@@ -158,7 +158,7 @@ nlohmann::ordered_json problem_cards_schema() {
        {"start", state},
        {"end", state},
        {"bounds", described(object_of({{"q", bounds}, {"v", bounds}, {"u", bounds}}),
-                            "along the motion, an entry per quantity; empty where there are none")},
+                            "along the motion, an entry per quantity; empty if there are no bounds")},
        {"path_constraints", described(count(), "how many")},
        {"boundary_conditions", described(count(), "how many")},
        {"integral_constraints", described(count(), "how many")},

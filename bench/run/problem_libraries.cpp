@@ -44,7 +44,7 @@ void load(const std::filesystem::path& file) {
 
 std::vector<std::string> libraries_of_environment() {
   std::vector<std::string> libraries;
-  const char* const value = std::getenv("DMOCBENCH_LIBRARIES");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  const char* const value = std::getenv("DMOCBENCH_LIBRARIES");  // NOLINT(concurrency-mt-unsafe): it is never set here
   std::string_view rest = value == nullptr ? "" : value;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(':'), rest.size());

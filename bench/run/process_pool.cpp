@@ -32,7 +32,7 @@ extern "C" void on_signal(int signal) {
   std::signal(signal, SIG_DFL);  // the next one ends the program
 }
 
-/// A process that works: its number, and where it tells what went wrong.
+/// A worker process: its number, and the pipe for its error message.
 struct Worker {
   std::size_t number = 0;
   int complaint = -1;
@@ -53,8 +53,8 @@ struct Worker {
   _exit(code);  // the parent's buffers and exit handlers are not ours
 }
 
-/// Waits for one of the children; hands an interrupt on while waiting. The terminal tells all processes of Ctrl-C; a
-/// signal to this one alone would not reach them. Returns it, and how it failed: empty if it ended as it should.
+/// Waits for one of the children and forwards interrupts meanwhile. The terminal sends Ctrl-C to all processes, but a
+/// signal to this one alone would not reach them. Returns the child and its error, which is empty on success.
 std::pair<Worker, std::string> wait_for_one(std::map<pid_t, Worker>& running) {
   constexpr std::chrono::milliseconds pause(20);
   for (bool told = false;; std::this_thread::sleep_for(pause)) {
@@ -130,8 +130,8 @@ void for_each_in_processes(std::size_t count, std::size_t jobs, const std::funct
     const auto [worker, reason] = wait_for_one(running);
     attempt([&reason = reason] {
       if (reason.empty() || interrupt_requested()) return;
-      throw Error(
-          fmt::format("a process that worked on some rows ended with an error: {}; what it finished is kept", reason));
+      throw Error(fmt::format("a process that worked on some rows ended with an error: {}; its finished rows are kept",
+                              reason));
     });
     attempt([&, number = worker.number] { done(number); });
   }

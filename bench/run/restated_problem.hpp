@@ -14,12 +14,12 @@ namespace dmocbench {
 /// ends.
 class RestatedProblem final : public Problem {
  public:
-  /// What differs from the problem.
+  /// The differences from the problem.
   struct Changes {
     std::optional<Bounds> control = std::nullopt;  ///< bounds on u
     /// w: the final state is free and the cost has the further term ½w(|q(T) - q^T|² + |q̇(T) - q̇^T|²).
     std::optional<double> final_weight = std::nullopt;
-    /// What is fixed at an end takes these values, what is free stays free. The guess is moved with the ends.
+    /// Fixed quantities at an end take these values, free ones stay free. The guess is moved with the ends.
     std::optional<BoundaryState> initial = std::nullopt;
     std::optional<BoundaryState> final = std::nullopt;  ///< the state at T
     std::optional<double> cost_scale = std::nullopt;    ///< factor of the cost

@@ -59,14 +59,14 @@ bool is_same(const std::filesystem::path& path, int descriptor) {
          named.st_ino == open.st_ino;
 }
 
-/// True if a file of that name would be written into, not replaced.
+/// True if a file at this path would be written into, not replaced.
 bool is_special(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::is_other(path, ignored) || is_same(path, STDOUT_FILENO);
 }
 
 void write_into(const std::filesystem::path& path, std::string_view content) {
-  std::fflush(stdout);  // what was printed comes first
+  std::fflush(stdout);  // earlier output comes first
   const bool is_own_output = is_same(path, STDOUT_FILENO);
   const int descriptor = is_own_output ? ::dup(STDOUT_FILENO) : open_to_write(path, O_NONBLOCK);
   // A pipe without a reader was not waited for; one with a reader is.
@@ -84,7 +84,7 @@ void remove_leftovers(const std::filesystem::path& folder) {
       return is_of_this_host ? parsed<pid_t>(name.extension().string().erase(0, 1)) : std::nullopt;
     };
     const pid_t process = number().value_or(0);
-    while (number()) name = name.stem().stem();  // a process may have been writing what another left
+    while (number()) name = name.stem().stem();  // a process may have been rewriting another's leftover
     const std::string kind = name.extension().string();
     if (!name.string().starts_with('.') || (kind != ".csv" && kind != ".json" && kind != ".md" && kind != ".part"))
       continue;
@@ -94,7 +94,7 @@ void remove_leftovers(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// From the other constructor, so that what was made is removed also where this one throws.
+// Delegates to the other constructor, so that created folders are removed also if this one throws.
 OutputFolder::OutputFolder(const std::filesystem::path& folder, bool leftovers_stay) : OutputFolder() {
   std::error_code error;
   const auto is_missing = [](const std::filesystem::path& part) {  // a link that leads nowhere is not
@@ -108,7 +108,7 @@ OutputFolder::OutputFolder(const std::filesystem::path& folder, bool leftovers_s
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) {
     throw Error(fmt::format("cannot make the output folder {}: {}", folder.string(),
-                            error ? error.message() : "a file of that name is in the way"));
+                            error ? error.message() : "a file with this name exists"));
   }
   if (::access(folder.c_str(), W_OK) != 0) {
     throw Error(fmt::format("cannot write to the output folder {}: {}", folder.string(), reason()));
@@ -122,7 +122,7 @@ OutputFolder::~OutputFolder() {
 }
 
 void require_name_of_table(const std::string& name) {
-  constexpr std::size_t longest = 100;  // what names of files begin with
+  constexpr std::size_t longest = 100;  // since names of files begin with it
   const auto does_not_fit = [](unsigned char letter) { return letter == '/' || std::iscntrl(letter) != 0; };
   if (name.empty() || name.starts_with('.') || name.starts_with('-') || std::ranges::any_of(name, does_not_fit)) {
     throw Error(
@@ -152,7 +152,7 @@ std::filesystem::path temporary_name(const std::filesystem::path& file) {
 }
 
 void require_writable(const std::filesystem::path& path) {
-  std::error_code none;  // what the system refuses to look up shows when it is written
+  std::error_code none;  // a failed lookup shows when the file is written
   if (std::filesystem::is_directory(path, none)) {
     throw Error(fmt::format("cannot write {}: it is a folder; name a file in it", path.string()));
   }

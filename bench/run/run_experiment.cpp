@@ -212,7 +212,7 @@ class Run {
     std::filesystem::remove(unfinished_file(), none);
   }
 
-  /// What stays of earlier runs in the tables that this one writes.
+  /// Reads the rows of earlier runs that stay in the tables of this one.
   void read_kept_rows() {
     kept_ = KeptRows(prefix_, statements_of(cases_), has_instances(cases_));
     kept_.require_columns(table_file(), names_);
@@ -235,7 +235,7 @@ class Run {
   /// True in a process that works for another one.
   [[nodiscard]] bool is_child() const { return !table_of_child_.empty(); }
 
-  /// One part of the run: nothing is written before all its rows are there.
+  /// Runs one part: its file is written only when all its rows are there.
   int run_part() {
     const std::string& name = experiment_.card().name;
     if (parts_.is_there()) {
@@ -316,7 +316,7 @@ class Run {
     }
   }
 
-  /// What batches leave is solved alone.
+  /// Cases that batches do not solve are solved alone.
   void solve_batches(std::size_t first, std::size_t end) {
     solve_in_batches({.cases = cases_,
                       .is_wanted = is_own_,
@@ -347,8 +347,8 @@ class Run {
     }
   }
 
-  /// The solved case. Without a start or memory, or where a library fails, its row says so, and the run goes
-  /// on; what is wrong with the first case is wrong with the run, unless it is an instance with values of its own.
+  /// The solved case. Without a start or memory, or if a library fails, its row reports this, and the run goes on. An
+  /// error in the first case is an error of the run, unless the case is an instance with its own values.
   SolvedCase solve(std::size_t number, int repeats) {
     const Case& the_case = cases_[number];
     SolvedCase unsolved{.the_case = the_case};
@@ -375,18 +375,18 @@ class Run {
     return unsolved;
   }
 
-  /// The row of a solved case, with what the experiment measures; without memory or time for that its message says so.
+  /// The row of a solved case with the experiment's measurements; if memory or time run out, its message reports this.
   Row completed(SolvedCase& solved) {
     MeasuredCase measured{solved, own_columns_.not_measured};
     try {
       const StopScope scope(interrupt_requested, solved.seconds_left);
       if (own_columns_.measure) own_columns_.measure(measured);
     } catch (const Stopped&) {
-      note_stop(solved, "What is measured of the answer is missing");
+      note_stop(solved, "Measurements of the answer are missing");
     } catch (const Error&) {
       throw;
     } catch (const std::exception& error) {
-      solved.note(fmt::format("What is measured of the answer is missing: {}.", sentence_of(error)));
+      solved.note(fmt::format("Measurements of the answer are missing: {}.", sentence_of(error)));
     }
     if (const std::string advice = next_to_try(solved, options_.start); !advice.empty()) solved.note(advice);
     return row_of(columns_, measured);
@@ -452,7 +452,7 @@ class Run {
     const auto work = [&](std::size_t i) {
       table_of_child_ = files[i];
       has_file_ = true;
-      rows_.assign(cases_.size(), std::nullopt);  // those of other problems are the parent's
+      rows_.assign(cases_.size(), std::nullopt);  // rows of other problems belong to the parent
       // In a pipe one of all processes reports.
       progress_ = ProgressLine(experiment_.card().name, findings_.are_quiet() || (i > 0 && !progress_.is_shown()));
       done_ = 0;
@@ -503,7 +503,7 @@ class Run {
   Clock::time_point last_saved_ = Clock::now();  ///< the unfinished run
   std::size_t resumed_ = 0;                      ///< rows taken over from an interrupted run
   std::size_t done_ = 0;                         ///< cases
-  std::size_t shown_cases_ = 0;                  ///< that progress counts: those of this process
+  std::size_t shown_cases_ = 0;                  ///< cases that progress counts: only this process's
   std::size_t first_solved_ = 0;                 ///< the case that the whole run begins with
   bool has_file_ = false;                        ///< a row has been written to the table's file
 };
@@ -518,7 +518,7 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     line.example(!card.example.empty()
                      ? card.example
                      : fmt::format("--problem {} --intervals {}", defaults.problems.front(), defaults.intervals));
-    line.exit_code_1(card.wants_motions ? "a row is not solved, or is no motion"
+    line.exit_code_1(card.wants_motions ? "a row is not solved, or is not a motion"
                                         : "a curve has no usable row (its rows have the reasons)");
     add_options(line, experiment.options());
     Findings findings;

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Options that change no row but by its times, and where libraries of problems are: what they hold is compared.
+/// Options that change only the times in rows, and the paths of problem libraries, whose contents are compared instead.
 bool is_about_the_machine(const std::string& option) {
   constexpr std::array names{"--help", "--out",     "--name",  "--jobs",  "--verbose", "--part",   "--missing-parts",
                              "--join", "--library", "--fresh", "--quiet", "--json",    "--version"};
@@ -37,7 +37,7 @@ std::string checksum_of(const std::vector<Case>& cases) {
   return fmt::format("{:08x}", crc.checksum());
 }
 
-/// Those of the libraries of problems by their names without folder, which may be another one on another machine.
+/// The checksums of problem libraries by their names without folder, which may differ between machines.
 Json checksums_of(const Json& metadata) {
   Json checksums = Json::object();
   for (const Json& library : metadata.at("problem_libraries")) {
@@ -76,7 +76,7 @@ Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, con
     if (!is_about_the_machine(name)) identity["options"][name] = value;
   }
   const std::string& start = card.options.start;
-  std::error_code none;  // a start that is no file is refused where it is read
+  std::error_code none;  // a start that is not a file is rejected where it is read
   if (start != "common" && start != "guess" && std::filesystem::is_regular_file(start, none))
     identity["start"] = fmt::format("{:08x}", crc_32(read_file(start)));
   identity["cases"] = cases.size();

@@ -11,15 +11,15 @@
 
 namespace dmocbench {
 
-/// What two parts must have in common to be parts of the same run: program, compiler, instruction set, libraries
-/// (those of problems by name and checksum), parameters of the problems, options (except those that say where and how
-/// fast: --out, --name, --jobs, --library, --verbose and the like), the cases, and the file that solves start
+/// The properties that all parts of a run have in common: program, compiler, instruction set, libraries (of problems by
+/// name and checksum), parameters of the problems, options (except options that affect only place and speed:
+/// --out, --name, --jobs, --library, --verbose and the like), the cases, and the file that solves start
 /// from. `metadata` describes the run (`describe_run`), `options` are names and values of the command line.
 [[nodiscard]] nlohmann::ordered_json identity_of(const ExperimentCard& card, const std::vector<Case>& cases,
                                                  const nlohmann::ordered_json& metadata,
                                                  const std::vector<std::pair<std::string, std::string>>& options);
 
-/// What metadata tell of a machine.
+/// The keys of metadata that describe a machine.
 inline constexpr std::array keys_of_machine{"processor", "cores", "memory_gib", "operating_system"};
 
 /// The machine that a part ran on, from its metadata: those keys and "host".

@@ -31,7 +31,7 @@ class TimeOfCase {
  public:
   explicit TimeOfCase(const SolverOptions& options) : options_(options) {}
 
-  /// Infinite without a limit, at least a moment with one, since 0 would be none.
+  /// Infinite without a limit; with a limit at least a moment, since 0 would mean no limit.
   [[nodiscard]] double left() const {
     constexpr double moment = 1e-9;
     if (options_.most_seconds <= 0.0) return unbounded;
@@ -68,7 +68,7 @@ void repeat(SolvedCase& solved, const Start& start, const Solver& solver, const 
 }
 
 /// Settles an answer that needs it (`settle`). If the solver's derivatives are not exact the answer is judged again by
-/// exact ones first; where the solver's own denied its word, that word counts again.
+/// exact ones first; if confirmation failed only with the solver's derivatives, the solver's status is restored.
 int settle_exactly(Case the_case, Transcription& program, double tolerance, Solution& solution) {
   if (the_case.derivatives == "tape") return settle(program, tolerance, solution);
   the_case.derivatives = "tape";
@@ -78,12 +78,13 @@ int settle_exactly(Case the_case, Transcription& program, double tolerance, Solu
   const auto exact = the_case.transcribe();
   solution.correction.reset();
   confirm(*exact, tolerance, solution);
-  // Exact Newton steps may settle what the residuals do not show; a residual that differences leave is their result.
+  // Exact Newton steps may settle errors that the residuals do not show; a residual left by differences is their
+  // result.
   if (is_solved(solution.status) || !solution.correction) return 0;
   return settle(*exact, tolerance, solution);
 }
 
-/// Measures what the motion violates between stages; one that leaves its constraints there is not solved.
+/// Measures violations between stages; a motion that violates its constraints there is not solved.
 void judge_between_stages(SolvedCase& solved, const Trajectory& motion) {
   const Problem& problem = *solved.the_case.problem;
   const ViolationBetweenStages found = violation_between_stages(problem, solved.program->traced_problem(), motion);
@@ -94,7 +95,7 @@ void judge_between_stages(SolvedCase& solved, const Trajectory& motion) {
       std::string(sentence_of(solved.solution.status)) + found.words(motion, problem.card().time_unit.factor);
 }
 
-/// Replays the intervals of a solved case one by one; an answer that is no motion is not solved but too coarse.
+/// Replays the intervals of a solved case one by one; an answer that is not a motion is too coarse instead of solved.
 void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   const Accuracy found = accuracy(solved.program->traced_problem(), motion);
   solved.accuracy = found;
@@ -118,7 +119,7 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
                   found.relative_jump);
 }
 
-/// Says so where the cost that the solver saw differs from 1 by three orders of magnitude.
+/// Notes if the scaled cost of the solver differs from 1 by three orders of magnitude.
 void note_cost_scale(SolvedCase& solved, double optimum) {
   constexpr double far = 1e3;
   const double cost = std::abs(optimum);
@@ -129,10 +130,10 @@ void note_cost_scale(SolvedCase& solved, double optimum) {
                           std::pow(10.0, -std::round(std::log10(cost))), scale));
 }
 
-/// Names what solvers see of the motion at a size that differs from 1 by four orders of magnitude.
+/// Names the scaled variables of the motion whose size differs from 1 by four orders of magnitude.
 void note_variable_sizes(SolvedCase& solved, const Trajectory& motion) {
   constexpr double far = 1e4;
-  constexpr double zero = 1e-9;  // what is smaller is rounding
+  constexpr double zero = 1e-9;  // smaller values are rounding errors
   if (!is_solved(solved.solution.status)) return;
   std::vector<std::string> found;
   const auto look = [&](const char* prefix, const Eigen::MatrixXd& values, const std::vector<std::string>& names) {
@@ -171,7 +172,7 @@ void note_solver(SolvedCase& solved) {
     solved.note("interior_point failed; ipopt continued from its last point.");
 }
 
-/// Says on which branch the answer is, and why it did not begin at the start that was asked for.
+/// Notes the branch of the answer, and the reason if it did not begin at the requested start.
 void tell_start(SolvedCase& solved, const Start& start) {
   if (start.branch && solved.trajectory) {
     solved.branch = is_on_branch(*solved.trajectory, *start.branch) ? "same" : "other";
@@ -181,7 +182,7 @@ void tell_start(SolvedCase& solved, const Start& start) {
   solved.note(start.note);
 }
 
-/// Reads the trajectory of an answer, judges it and says what went wrong.
+/// Reads the trajectory of an answer, judges it and notes errors.
 void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& time) {
   Solution& solution = solved.solution;
   Transcription& program = *solved.program;
@@ -189,7 +190,7 @@ void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& ti
     try {
       solved.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
     } catch (const Error& error) {
-      if (is_solved(solution.status)) solution.status = Status::not_confirmed;  // nothing tells whether it is a motion
+      if (is_solved(solution.status)) solution.status = Status::not_confirmed;  // whether it is a motion is unknown
       solved.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
     }
   }
@@ -362,7 +363,7 @@ namespace {
 /// True of answers that a solver found, motions or not.
 bool is_judged(Status status) { return is_solved(status) || is_no_motion(status); }
 
-/// Those of the answer, found out once for all cases that end at it.
+/// The checks of the answer, computed once for all cases that end at it.
 IndependentChecks shared_checks(SolvedCase& solved) {
   SolvedCase& judged = solved.answer->judged;
   const std::string before = judged.solution.message;

@@ -75,7 +75,7 @@ const Columns<SolvedCase>& core_columns() {
        count([](P p) { return p.hessian_structure().size(); })},
       {"status", "", "how the solve ended, as our own residuals confirm it",
        [](const SolvedCase& s) { return name_of(s.solution.status); }},
-      {"branch", "", "same or other than that of the start; unknown: no common start found; empty: none looked for",
+      {"branch", "", "same as the start's or other; unknown: no common start found; empty: not searched for",
        from(&SolvedCase::branch)},
       {"objective", "cost", "cost of the trajectory", from(&SolvedCase::trajectory, &Trajectory::cost)},
       {"tolerance",
@@ -87,7 +87,7 @@ const Columns<SolvedCase>& core_columns() {
       {"constraint_violation", "", "largest violation of a constraint",
        from(&SolvedCase::solution, &Solution::constraint_violation)},
       {"major_iterations", "", "iterations of the solver", from(&SolvedCase::solution, &Solution::major_iterations)},
-      {"minor_iterations", "", "those of its quadratic programs",
+      {"minor_iterations", "", "iterations of its quadratic programs",
        from(&SolvedCase::solution, &Solution::minor_iterations)},
       {"setup_seconds", "s", "transcription: tracing, differentiation, structure; empty of one of a batch",
        from(&SolvedCase::setup_seconds)},
@@ -103,7 +103,7 @@ const Columns<SolvedCase>& core_columns() {
       {"answered_by", "",
        "whose answer it is: the solver itself, the one that auto ended with, or batch: interior_point in lanes",
        from(&SolvedCase::solution, &Solution::solver)},
-      {"message", "", "what happened, in words", from(&SolvedCase::solution, &Solution::message)},
+      {"message", "", "outcome of the solve, in words", from(&SolvedCase::solution, &Solution::message)},
   };
   return columns;
 }
@@ -132,7 +132,7 @@ Columns<IndependentChecks> check_columns() {
            &Checks::interval_cost},
           {"violation_between_nodes", "", "of bounds and path constraints, where no point imposes them",
            &Checks::violation_between_nodes},
-          {"free_horizon_residual", "", "what is left of the condition on T; empty for a fixed horizon",
+          {"free_horizon_residual", "", "residual of the condition on T; empty for a fixed horizon",
            &Checks::free_horizon_residual}};
 }
 

@@ -39,7 +39,7 @@ std::string identity_of(const std::string& problem, const std::string& settings,
   return fmt::format("{} {} {} {} {} {}", problem, settings, method, tableau, stages, intervals);
 }
 
-/// The metadata in a file; null if it holds none, whatever else it is.
+/// The metadata in a file; null if it does not contain metadata.
 nlohmann::json metadata_in(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) return {};
@@ -50,7 +50,7 @@ nlohmann::json metadata_in(const std::filesystem::path& file) {
   }
 }
 
-/// The identity of the solve that wrote a node file, if metadata tell it; empty otherwise.
+/// The identity of the solve that wrote a node file, if the metadata contain it; empty otherwise.
 std::string origin_in(const nlohmann::json& metadata, const std::string& nodes) {
   try {
     if (!metadata.is_object() || !metadata.contains("motions")) return {};
@@ -61,12 +61,12 @@ std::string origin_in(const nlohmann::json& metadata, const std::string& nodes) 
       return identity_of(motion.at("problem"), motion.value("settings", std::string()), motion.at("method"),
                          motion.at("tableau"), motion.at("stages"), motion.at("intervals"));
     }
-  } catch (const nlohmann::json::exception&) {  // it is no metadata of a solve
+  } catch (const nlohmann::json::exception&) {  // these are not the metadata of a solve
   }
   return {};
 }
 
-/// The JSON files beside a node file, those whose name it begins with, as its run's does, first.
+/// The JSON files next to a node file; files whose name it begins with, as with its run's, come first.
 std::vector<std::filesystem::path> metadata_beside(const std::filesystem::path& nodes_file) {
   std::vector<std::filesystem::path> files;
   const std::filesystem::path folder = nodes_file.has_parent_path() ? nodes_file.parent_path() : ".";
@@ -79,8 +79,8 @@ std::vector<std::filesystem::path> metadata_beside(const std::filesystem::path& 
   return files;
 }
 
-/// The identity of the solve that wrote a node file, as the metadata beside it tell; empty if none do. Throws `Error`
-/// if they tell of another content, as that of a file that was cut short.
+/// The identity of the solve that wrote a node file, according to the metadata next to it; empty if there are none.
+/// Throws `Error` if they describe another content, for example because the file was cut short.
 std::string origin_of(const std::filesystem::path& nodes_file, const MotionTexts& texts) {
   const std::string nodes = nodes_file.filename().string();
   for (const std::filesystem::path& file : metadata_beside(nodes_file)) {
@@ -101,7 +101,8 @@ std::string origin_of(const std::filesystem::path& nodes_file, const MotionTexts
   return {};
 }
 
-/// The least order of the jumps of an answer (`accuracy`): one more than that of the nodes, or of the stage controls.
+/// The least order of the jumps of an answer (`accuracy`): one more than the order of the nodes, or of the stage
+/// controls.
 int order_of_jumps(const Tableau& tableau) {
   return std::min(tableau.order + 1, static_cast<int>(tableau.stages()) + 2);
 }
@@ -192,7 +193,7 @@ class StartProvider::Search {
     return provider_.options_.stop_requested && provider_.options_.stop_requested();
   }
 
-  /// Asked between the iterations of all solves.
+  /// Called between the iterations of all solves.
   [[nodiscard]] bool must_stop() {
     constexpr double seconds_of_silence = 5.0;
     const double seconds = seconds_since(begin_);
@@ -286,7 +287,7 @@ void StartProvider::check(const std::vector<Case>& cases) {
 const Trajectory& StartProvider::motion_in_file(const Problem& problem) {
   if (const auto known = files_.find(problem.name()); known != files_.end()) return known->second;
   if (!texts_) {
-    std::error_code none;  // what cannot be looked up is not there
+    std::error_code none;  // a failed lookup counts as missing
     if (!std::filesystem::exists(rules_.start, none))
       throw Error(fmt::format("--start {} is neither common nor guess nor a file", rules_.start));
     texts_ = read_motion_texts(rules_.start);
@@ -321,7 +322,7 @@ Start StartProvider::start_in_file(const Case& the_case) {
   const Trajectory& tables = motion_in_file(the_case.nominal ? *the_case.nominal : *the_case.problem);
   if (origin_ == identity_of(the_case.problem->name(), the_case.problem->settings(), the_case.method, the_case.tableau,
                              the_case.stages, the_case.intervals())) {
-    throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
+    throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would be meaningless",
                               rules_.start, the_case.label()));
   }
   const Motion motion = smooth_motion(tables);

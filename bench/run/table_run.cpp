@@ -20,7 +20,7 @@ std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, Fi
   line.option("--out", out, "folder for the results");
   findings.add_to(line);
   std::vector<std::string> command_line = line.parse();
-  listen_for_interrupt();  // what the folder is made of goes when the run ends
+  listen_for_interrupt();  // created folders are removed when the run ends
   return command_line;
 }
 

@@ -25,23 +25,22 @@ namespace dmocbench {
 /// A table and the file that holds it.
 struct TableFile {
   std::filesystem::path file;  ///< with its folder, NAME.csv
-  Table table;                 ///< with what its columns mean
+  Table table;                 ///< with the meanings of its columns
 };
 
-/// Writes tables, and beside them the metadata of their run with the JSON Schema of their rows. Columns that a table
-/// leaves unexplained mean what the first table says. Rows that are kept of earlier runs stand before the others. The
-/// metadata say `"complete": false` until all tables are there.
+/// Writes tables, and next to them the metadata of their run with the JSON Schema of their rows. Columns that a table
+/// leaves unexplained have the meanings of the first table. Rows kept from earlier runs precede the others. The
+/// metadata contain `"complete": false` until all tables are there.
 /// Throws `Error` if a file cannot be written.
 void write_tables(const std::vector<TableFile>& tables, const std::filesystem::path& metadata_file,
                   const std::vector<std::string>& command_line, const KeptRows& kept = {});
 
 /// A run of an experiment without cases (those have experiment.hpp): whole tables, written when all of them are there.
-/// As long as it exists, an interrupt ends what this thread computes (`StopScope`).
+/// As long as it exists, an interrupt ends this thread's computations (`StopScope`).
 class TableRun {
  public:
-  /// Adds the options `--out`, `--quiet` and `--json`, reads the command line and takes the results `name` of that
-  /// folder, so that no other run writes them meanwhile. Throws `Error` on bad input, or if nothing can be written
-  /// there.
+  /// Adds the options `--out`, `--quiet` and `--json`, reads the command line and locks the results `name` of the
+  /// output folder against other runs. Throws `Error` on bad input, or if files cannot be written there.
   TableRun(std::string name, CommandLine& line);
 
   /// Options for solvers, which stop if the run is to stop.
@@ -49,21 +48,21 @@ class TableRun {
   /// The problems that a user chose; their libraries and settings are written to the rows. Throws `Error` as
   /// `ProblemOptions::selected`.
   [[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected(const ProblemOptions& asked);
-  /// Says on a terminal what is being measured. Throws `Interrupted` if the run is to stop.
+  /// Shows on a terminal what is being measured. Throws `Interrupted` if a stop was requested.
   void show(const std::string& activity) const;
-  /// What is printed when the run ends.
+  /// The findings, printed when the run ends.
   [[nodiscard]] Findings& findings() noexcept { return findings_; }
-  /// Adds the table of a file, named without folder and ending. `not_measured`: rows that say why they lack a number.
+  /// Adds the table of a file, named without folder and ending. `not_measured`: rows that state why they lack a number.
   void add(const std::string& file, const Table& table, std::ptrdiff_t not_measured = 0);
-  /// The same with what its columns mean, for the metadata.
+  /// The same with the meanings of its columns, for the metadata.
   template <class Record>
   void add(const std::string& file, const Columns<Record>& columns, const std::vector<Record>& records,
            std::ptrdiff_t not_measured = 0) {
     add(file, table_of(columns, records), not_measured);
   }
-  /// Writes all tables and their metadata, NAME.json, which say `"complete": false` meanwhile. Rows of a problem get
-  /// its library and settings, and follow the rows of other problems that earlier runs have left in the file. Returns
-  /// the exit code: 1 if a row was not measured. Throws `Error` if a file cannot be written.
+  /// Writes all tables and their metadata, NAME.json, which contain `"complete": false` meanwhile. Rows of a problem
+  /// get its library and settings, and follow the rows of other problems that earlier runs have left in the file.
+  /// Returns the exit code: 1 if a row was not measured. Throws `Error` if a file cannot be written.
   [[nodiscard]] int write() const;
 
  private:
@@ -81,8 +80,8 @@ class TableRun {
   std::ptrdiff_t not_measured_ = 0;          ///< rows of all tables
 };
 
-/// What `measure()` returns, or the sentence of the `Error` by which it refuses. Throws `Stopped` on, because a stop
-/// that was asked for is no finding.
+/// The result of `measure()`, or the sentence of the `Error` that it throws. Rethrows `Stopped`, because a requested
+/// stop is not a finding.
 template <class Measure>
 [[nodiscard]] tl::expected<std::invoke_result_t<const Measure&>, std::string> measured_or_reason(
     const Measure& measure) {

@@ -18,7 +18,7 @@ namespace {
 
 std::string checksum_in_words(std::string_view content) { return fmt::format("{:08x}", crc_32(content)); }
 
-/// What metadata tell of a table; null where they do not.
+/// The entry of a table in metadata; null if there is no such entry.
 nlohmann::json told_of(const nlohmann::json& metadata, const std::string& table) {
   const auto tables = metadata.is_object() ? metadata.find("tables") : metadata.end();
   if (tables == metadata.end() || !tables->is_object() || !tables->contains(table)) return {};
@@ -33,7 +33,7 @@ nlohmann::json told_of(const nlohmann::json& metadata, const std::string& table)
   return is_whole ? told : nlohmann::json();
 }
 
-/// The first name that the others lack, in quotes; empty if none.
+/// The first name that is missing from the others, in quotes; empty if there is no such name.
 std::string lacked(const std::vector<std::string>& names, const std::vector<std::string>& others) {
   const auto found = std::ranges::find_if(
       names, [&](const std::string& name) { return std::ranges::find(others, name) == others.end(); });
@@ -51,7 +51,7 @@ std::uint32_t crc_32(std::string_view text) {
 nlohmann::ordered_json describe_tables(const std::vector<std::filesystem::path>& files) {
   nlohmann::ordered_json tables = nlohmann::ordered_json::object();
   for (const std::filesystem::path& file : files) {
-    std::error_code none;  // what is not there is no regular file
+    std::error_code none;  // a missing file is not a regular file
     if (file.extension() != ".csv" || !std::filesystem::is_regular_file(file, none)) continue;
     const std::string content = read_file(file);
     const Table table = Table::from_csv(content);
@@ -69,19 +69,19 @@ nlohmann::ordered_json describe_tables(const std::vector<std::filesystem::path>&
 void require_as_written(const nlohmann::json& metadata, const std::string& source, const std::string& table,
                         std::string_view content) {
   const nlohmann::json told = told_of(metadata, table);
-  if (told.is_null()) throw Error(fmt::format("{} does not tell of {}: they are of different runs", source, table));
+  if (told.is_null()) throw Error(fmt::format("{} does not list {}: they are of different runs", source, table));
   const Table found = Table::from_csv(content);
   const auto columns = told["columns"].get<std::vector<std::string>>();
   if (const std::string more = lacked(found.columns(), columns); !more.empty())
-    throw Error(fmt::format("{} has the column {}, of which {} does not tell", table, more, source));
+    throw Error(fmt::format("{} has the column {}, which {} does not list", table, more, source));
   if (const std::string missing = lacked(columns, found.columns()); !missing.empty())
-    throw Error(fmt::format("{} lacks the column {}, of which {} tells", table, missing, source));
+    throw Error(fmt::format("{} lacks the column {}, which {} lists", table, missing, source));
   if (told["rows"] != found.rows().size()) {
-    throw Error(fmt::format("{} tells of {} and {} has {}: they are of different runs, or rows are lost", source,
+    throw Error(fmt::format("{} states {} and {} has {}: they are of different runs, or rows are lost", source,
                             counted(told["rows"].get<long long>(), "row"), table, found.rows().size()));
   }
   if (const std::string checksum = checksum_in_words(content); told["crc32"] != checksum) {
-    throw Error(fmt::format("{} is not as its run wrote it: its checksum is {}, and {} tells of {}", table, checksum,
+    throw Error(fmt::format("{} is not as its run wrote it: its checksum is {}, and {} states {}", table, checksum,
                             source, told["crc32"].get<std::string>()));
   }
 }

@@ -288,7 +288,7 @@ TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
   slip_in("objective", fewer, rows);
   expect("objective.csv lacks the column \"objective\"");
   write_file(folder() / "objective.json", R"({"complete": true})");
-  expect("objective.json does not tell of objective.csv");
+  expect("objective.json does not list objective.csv");
   write_file(folder() / "objective.json", R"({"complete": true, "cases": 8, "rows": 6})");
   expect("8 cases");
   EXPECT_EQ(judge()["orbital_transfer/objective_evolution"].verdict, ClaimVerdict::reproduced);
