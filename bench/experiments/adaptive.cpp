@@ -16,13 +16,13 @@
 
 namespace dmocbench::adaptive_program {
 
-/// Slow and fast by turns: what adaptive grids are for.
+/// Alternately slow and fast motions, for which adaptive grids are made.
 const std::vector<std::string> uneven{"eccentric_transfer", "hypersensitive"};
 
 /// The paper's, with several minima near the guess.
 const std::vector<std::string> with_several_minima{"orbital_transfer", "two_link_manipulator"};
 
-/// The problems unless others are asked for: the paper's, the uneven ones and eight of the library.
+/// The default problems: the paper's, the uneven ones and eight of the library.
 const std::vector<std::string> all_problems{"orbital_transfer",  "two_link_manipulator", "eccentric_transfer",
                                             "hypersensitive",    "kepler_cartesian",     "link_chain",
                                             "double_integrator", "forced_oscillator",    "cart_pole",
@@ -38,14 +38,14 @@ struct Tables {
   std::vector<StepOfGrid> steps;
 };
 
-/// Adapted grids and, if asked, uniform ones for the same accuracy.
+/// Adapted grids and, on request, uniform grids for the same accuracy.
 void compare_grids(const TableRun& run, const CertifiedProblem& certified, bool with_uniform, int rounds,
                    const std::string& solver, Tables& tables) {
   constexpr double accuracy = 1e-8;
   const std::string name = certified.problem().name();
   const SolverOptions options = TableRun::solver_options();
   const bool has_several_minima = is_one_of(with_several_minima, name);
-  // What is timed begins where a user begins.
+  // Timed solves begin where a user begins.
   const Motion start = has_several_minima ? smooth_motion(certified.motion()) : guessed_motion(certified.problem());
   for (const std::string& method : paper_families()) {
     for (const int stages : {2, 3, 4}) {
@@ -80,9 +80,9 @@ int measure_all(CommandLine& line) {
   asked.add_to(line);
   line.number("--rounds", rounds, 0, 10000, "times that a whole way from the first grid to the last is timed");
   line.option("--solver", solver, "solver, as `list` names them");
-  line.flag("--quick", is_quick, "the uneven problems alone, unless others are asked for");
+  line.flag("--quick", is_quick, "the uneven problems alone, unless --problem names others");
   TableRun run("adaptive", line);
-  static_cast<void>(make_solver(solver));  // refuses names of none before anything is solved
+  static_cast<void>(make_solver(solver));  // rejects unknown names before anything is solved
   const bool is_named = asked.problems != all_problems;
   Tables tables;
   for (const std::shared_ptr<const Problem>& problem : run.selected(asked)) {
@@ -110,8 +110,8 @@ int run(int argc, char** argv) {
   return run_program(
       "adaptive",
       "Grids adapted to an accuracy by an estimate of the error: adaptive_effectivity.csv holds the estimate against "
-      "the true error, which is that against the indirect solution; adaptive.csv tells how many intervals reach 1e-8 "
-      "on adapted and on uniform grids, and how long the whole way takes; adaptive_steps.csv has the steps.",
+      "the true error, measured against the indirect solution; adaptive.csv holds the number of intervals that reach "
+      "1e-8 on adapted and on uniform grids, and the time of the whole refinement; adaptive_steps.csv has the steps.",
       argc, argv, measure_all);
 }
 

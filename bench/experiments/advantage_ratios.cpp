@@ -12,16 +12,16 @@ namespace dmocbench {
 namespace {
 
 constexpr double same_objective = 1e-6;
-/// Errors of the objective that are equal but for rounding, as logarithms.
+/// Errors of the objective that are equal up to rounding, as logarithms.
 constexpr double same_error = 1e-4;
 
 struct Quantity {
   const char* name = "";
   const char* column = "";
   const char* rounds = "";  ///< column with the times of the rounds, and
-  const char* parts = "";   ///< what they are divided by, if anything
+  const char* parts = "";   ///< column of their divisor; may be empty
 
-  /// The ratios to another row, one of each round; none where the quantity is no time.
+  /// The ratios to another row, one per round; empty if the quantity is not a time.
   [[nodiscard]] std::vector<double> ratios(const Row& row, const Row& other) const {
     std::vector<double> ratios = round_ratios(row.numbers(rounds), other.numbers(rounds));
     const double divisor = std::string_view(parts).empty() ? 1.0 : row.needed(parts) / other.needed(parts);
@@ -72,7 +72,7 @@ Table advantage_ratios(const Selection& advantage) {
   }
   return table_of(
       compared_cost_columns({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals"},
-                            "quantity", "what is compared"),
+                            "quantity", "the quantity that is compared"),
       costs);
 }
 

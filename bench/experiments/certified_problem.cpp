@@ -32,7 +32,7 @@ Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const So
                           solved.solution.message));
 }
 
-/// Bounds that a parameter can switch off are switched off: the indirect method knows none.
+/// Bounds that a parameter can switch off are switched off: the indirect method does not support bounds.
 std::shared_ptr<const Problem> without_bounds(std::shared_ptr<const Problem> problem) {
   const auto is_switch = [](const Parameter& parameter) { return parameter.name == "bounded"; };
   const std::vector<Parameter>& parameters = problem->parameters();

@@ -138,7 +138,7 @@ Columns<Certificate> certificate_columns(const std::vector<std::string>& routes)
              {"message", "", "why there is no indirect solution", from(&Certificate::message)}};
 }
 
-/// The cost of the motion of a solved case, its intervals replayed one by one; none, with the reason in the row's
+/// The cost of the motion of a solved case, its intervals replayed one by one; empty, with the reason in the row's
 /// message, if that fails.
 std::optional<double> replayed_objective(SolvedCase& solved, const Trajectory& motion) {
   try {
@@ -182,12 +182,12 @@ class Certify final : public ExperimentOf<Measured> {
         replay_error_column(&Measured::replay),
         {"replay_objective", "cost", "cost of the motion, its intervals replayed one by one",
          &Measured::replay_objective},
-        {"polish_steps", "", "Newton steps behind the solver", &Measured::polish_steps},
+        {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
         {"indirect_objective", "cost", "cost by the indirect method",
          from(&Measured::indirect, &IndirectSolution::cost)},
         {"indirect_digits", "", "digits of it that are certified",
          from(&Measured::indirect, &IndirectSolution::certified_digits)},
-        {"indirect_message", "", "why there is none", &Measured::indirect_message},
+        {"indirect_message", "", "why the indirect method has no solution", &Measured::indirect_message},
     };
   }
   void add_options(CommandLine& line) override {

@@ -1,4 +1,4 @@
-// Coercivity of the discrete optimum over the number of intervals: the assumption behind (main_theorem), section 3.5.
+// Coercivity of the discrete optimum over the number of intervals: the assumption of (main_theorem), section 3.5.
 #include <memory>
 
 #include "bench/experiments/smallest_curvature.hpp"

@@ -1,5 +1,5 @@
 // How often a solve from a guess, or from a perturbed one, succeeds: every problem by every method, as users meet them,
-// none from a solution. How many starts are solved, confirmed, on the best branch, and what that takes.
+// never from a solution. How many starts are solved, confirmed, and on the best branch, and at which cost.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -26,7 +26,7 @@
 
 namespace dmocbench::cold_start_program {
 
-/// The counts of each problem, method and solver; those of all problems together where that is more than a screen.
+/// The counts of each problem, method and solver; the counts of all problems together if the rows exceed a screen.
 Table summed_up(const Table& shares) {
   constexpr std::size_t most_rows = 12;
   ColumnNames keys{"problem", "method", "solver"};
@@ -77,7 +77,7 @@ class ColdStart final : public Experiment {
                  "methods. NAME_shares.csv: how many starts are solved, confirmed by a replay of each interval, and on "
                  "the best branch, with intervals of confidence, and quartiles of iterations, evaluations and seconds "
                  "to there. NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of "
-                 "evaluations alone where solves are those of a batch). A start that is lost keeps its row and counts. "
+                 "evaluations alone for solves in a batch). A failed start keeps its row and counts. "
                  "NAME_indirect.csv: from how many of the same motions, with costates 0, the indirect method "
                  "converges.",
              .options = {.problems = {"all"},
@@ -156,8 +156,8 @@ class ColdStart final : public Experiment {
     if (the_case.solver == "interior_point" || the_case.solver == "auto") return is_papers ? starts_ : library_starts_;
     return is_papers ? other_starts_ : other_library_starts_;
   }
-  /// The boundary value problem of the maximum principle from the motions of the direct methods' starts. Nothing is
-  /// known of the costates there, so that they begin at 0.
+  /// The boundary value problem of the maximum principle from the motions of the direct methods' starts. Costates are
+  /// unknown there, so that they begin at 0.
   [[nodiscard]] IndirectStarts by_indirect_method(const std::shared_ptr<const Problem>& problem) const {
     constexpr long long intervals = 64;
     constexpr double agreement = 1e-6;
@@ -196,7 +196,7 @@ class ColdStart final : public Experiment {
   std::uint64_t seed_ = 1;
   double amplitude_ = 0.3;
   double objective_tolerance_ = 0.02;
-  std::map<std::string, std::string> varied_;  // what starts vary, by problem
+  std::map<std::string, std::string> varied_;  // the quantities that starts vary, by problem
   std::map<std::string, std::shared_ptr<const Problem>> problems_;
 };
 

@@ -55,7 +55,7 @@ std::vector<BoundaryState> initial_conditions(const Problem& problem) {
   return starts;
 }
 
-/// A measured error, or a fitted order, and what it is of.
+/// A measured error, or a fitted order, of a quantity.
 template <class Value>
 struct Measured {
   std::string problem;
@@ -73,10 +73,10 @@ Columns<Record> first_columns() {
           {"tableau", "", "family of Butcher tableaus", &Record::tableau, in_key},
           {"stages", "", "number of stages", &Record::stages, in_key},
           {"order", "", "the tableau's order", &Record::order, in_key},
-          {"quantity", "", "what is compared with the exact one", &Record::quantity, in_key}};
+          {"quantity", "", "the quantity that is compared with the exact one", &Record::quantity, in_key}};
 }
 
-/// What was measured on one step; no error where an equation has no solution for it.
+/// The error measured on one step; empty if an equation has no solution for it.
 struct ErrorOfStep {
   double h = 0.0;
   std::optional<double> error;
@@ -89,7 +89,7 @@ const Columns<MeasuredError> error_columns =
     Columns<MeasuredError>{
         {"h", "", "step", from(&MeasuredError::value, &ErrorOfStep::h), in_key},
         {"error", "", "largest error over the initial conditions", from(&MeasuredError::value, &ErrorOfStep::error)},
-        {"message", "", "why there is none", from(&MeasuredError::value, &ErrorOfStep::message)}};
+        {"message", "", "why the error is missing", from(&MeasuredError::value, &ErrorOfStep::message)}};
 
 using MeasuredOrder = Measured<FittedOrder>;
 const Columns<MeasuredOrder> order_columns =
@@ -100,9 +100,9 @@ struct Results {
   std::vector<MeasuredOrder> orders;
 };
 
-/// A line through the finest six points that are clear of rounding. Errors below that are those of the tableau's
-/// coefficients, which are double. Six points span a factor of six in h; more would take in coarse steps, where the
-/// next power of h still counts.
+/// A line through the finest six points that are clear of rounding. Errors below are due to the tableau's coefficients,
+/// which are double. Six points span a factor of six in h; more would include coarse steps, where the next power of h
+/// still counts.
 std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
   constexpr double rounding = 1e-15;
   constexpr std::size_t fitted = 6;
@@ -147,7 +147,7 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Re
 struct ExactTransform {
   std::string problem;
   double h = 0.0;
-  std::optional<double> left{};  ///< none of the three where the exact motion could not be found
+  std::optional<double> left{};  ///< all three are empty if the exact motion could not be found
   std::optional<double> right{};
   std::optional<double> momentum{};
 };
@@ -195,7 +195,7 @@ ExactTransform exact_transform(const Problem& problem, long long intervals) {
     }
   } catch (const Stopped&) {
     throw;
-  } catch (const Error&) {  // the errors of the same step, measured before, say why
+  } catch (const Error&) {  // the errors of the same step, measured before, have the reason
     result.left = result.right = result.momentum = std::nullopt;
   }
   return result;
@@ -231,7 +231,7 @@ int run(int argc, char** argv) {
       "consistency_order",
       "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
       "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
-      "(consistency_order_slopes.csv); and the exact discrete Legendre transforms against those of L, on the coarsest "
+      "(consistency_order_slopes.csv); and the exact discrete Legendre transforms against L's, on the coarsest "
       "and the finest step (consistency_order_transforms.csv).",
       argc, argv, measure_all);
 }

@@ -39,7 +39,7 @@ struct Measured {
   std::vector<double> round_seconds;
 };
 
-/// A row per curve: of each error the fitted order and the grids that it is fitted over, or why there is none; and
+/// A row per curve: for each error the fitted order and the grids that it is fitted over, or why it is missing; and
 /// whether bounds are active, which lower orders.
 Table orders_by_curve(const Table& orders) {
   const std::vector<std::string> quantities{"state", "momentum", "control", "costate", "objective"};
@@ -92,7 +92,7 @@ class Convergence final : public ExperimentOf<Measured> {
         {"control_from_costate_error", "",
          "largest error of the control recomputed from state and costate at the nodes",
          &Measured::control_from_costate_error},
-        {"polish_steps", "", "Newton steps behind the solver", &Measured::polish_steps},
+        {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
         {"active", "",
          "what the bounds and path constraints that the motion meets read: control, state, control and state",
          &Measured::active},
@@ -105,11 +105,11 @@ class Convergence final : public ExperimentOf<Measured> {
   }
   void add_options(CommandLine& line) override {
     line.option("--reference", reference_text_,
-                "what errors are measured against: N of a grid of the same method (default: the finest one of each "
+                "reference of the errors: N of a grid of the same method (default: the finest one of each "
                 "curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
                 "kept in the output folder");
     line.flag("--polish,!--no-polish", card_.polishes,
-              "tighten answers by Newton steps, so that errors are those of the method and not of the solver");
+              "tighten answers by Newton steps, so that errors are due to the method and not to the solver");
     line.option(
         "--fit", fit_,
         "slopes are fitted from N = a to b, written a:b; default: the finest four or more grids above rounding whose "
@@ -143,7 +143,7 @@ class Convergence final : public ExperimentOf<Measured> {
     measured.round_seconds = seconds_of_rounds(solved);
     if (!solved.trajectory) return;
     measured.replay = replay(solved);
-    // The error of an answer that is no motion is drawn, hollow, but nothing is fitted to it or measured by it.
+    // The error of an answer that is not a motion is drawn with open symbols, but excluded from fits and references.
     if (!is_discrete_optimum(solved)) return;
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& trajectory = *solved.trajectory;

@@ -1,4 +1,4 @@
-// What exact derivatives are worth beside differences: section 4.1, "Automatic Differentiation", of the paper.
+// The value of exact derivatives compared with differences: section 4.1, "Automatic Differentiation", of the paper.
 #include <algorithm>
 #include <optional>
 #include <random>
@@ -32,7 +32,7 @@ struct Measured {
   std::optional<double> answer_difference;
 };
 
-/// A getter of the time of an evaluation in those of a residual.
+/// A getter of the time of an evaluation in units of residual evaluations.
 auto over_residual(double EvaluationTimes::*evaluation) {
   return [evaluation](const Measured& measured) {
     const bool is_wanted = evaluation != &EvaluationTimes::hessian || measured.is_exact;
@@ -50,9 +50,9 @@ class Derivatives final : public ExperimentOf<Measured> {
             {.name = "derivatives",
              .description =
                  "Back ends of derivatives: error of Jacobian and Hessian against long double, time relative to one "
-                 "residual, and what a solve with them takes and reaches. Column hessian: exact is that of the back "
-                 "end, limited_memory Ipopt's quasi-Newton one, with first derivatives by tape and by forward "
-                 "differences. Solves but those by tape and adolc end after 150 iterations.",
+                 "residual, and cost and accuracy of a solve with them. Column hessian: exact is the back end's "
+                 "Hessian, limited_memory Ipopt's quasi-Newton one, with first derivatives by tape and by forward "
+                 "differences. All solves except by tape and adolc end after 150 iterations.",
              .options = {.derivatives = derivative_back_end_names(), .intervals = "16:1024"},
              .takes_turns = true,
              .compares_tolerances = true}) {}
@@ -61,8 +61,7 @@ class Derivatives final : public ExperimentOf<Measured> {
         {"hessian", "", "exact, or limited_memory",
          [](const Measured& measured) { return measured.is_exact ? "exact" : limited_memory; }, in_key},
         {"jacobian_error", "", "largest error of an entry, relative to the largest entry", &Measured::jacobian_error},
-        {"hessian_error", "", "the same of the Hessian; empty where the solver was given none",
-         &Measured::hessian_error},
+        {"hessian_error", "", "the same of the Hessian; empty if the solver does not use it", &Measured::hessian_error},
         {"residual_seconds", "s", "one evaluation of all constraints",
          from(&Measured::seconds, &EvaluationTimes::residual)},
         {"gradient_over_residual", "", "time of a gradient over that", over_residual(&EvaluationTimes::gradient)},
@@ -75,7 +74,7 @@ class Derivatives final : public ExperimentOf<Measured> {
 
   void add_options(CommandLine& line) override {
     line.list("--hessian", hessians_,
-              "exact: that of the back end; limited_memory: Ipopt's quasi-Newton one, by tape and forward differences");
+              "exact: the back end's; limited_memory: Ipopt's quasi-Newton one, by tape and forward differences");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
@@ -137,7 +136,7 @@ class Derivatives final : public ExperimentOf<Measured> {
     measured.hessian_error = relative_error(hessian, reference.hessian);
   }
 
-  /// q of the tape's answer to the same program; null if there is none.
+  /// q of the tape's answer to the same program, or null.
   [[nodiscard]] const Eigen::MatrixXd* answer_by_tape(Case the_case) const {
     the_case.derivatives = "tape";
     the_case.variant = {};

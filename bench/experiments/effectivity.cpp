@@ -14,7 +14,7 @@ namespace dmocbench {
 
 namespace {
 
-/// True errors that are smaller, relative to the size of the quantity, are rounding and what solvers leave.
+/// Smaller true errors, relative to the size of the quantity, are due to rounding and the solver's tolerance.
 constexpr double share_of_rounding = 1e-10;
 
 double size_of(const Eigen::MatrixXd& one) { return one.rowwise().norm().maxCoeff(); }

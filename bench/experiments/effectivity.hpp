@@ -9,7 +9,7 @@
 
 namespace dmocbench {
 
-/// An estimated error beside the true one.
+/// An estimated error and the true error.
 struct MeasuredEffectivity {
   Scheme scheme;
   std::string grid = {};  ///< "uniform" or "adapted"
@@ -22,7 +22,7 @@ struct MeasuredEffectivity {
   std::optional<double> relative = std::nullopt;
   std::string verdict = {};  ///< "measured"; "floor" where the true error is not far above rounding
 
-  /// Estimated error / true error; none where either is missing or the true error is 0.
+  /// Estimated error / true error; empty if either is missing or the true error is 0.
   [[nodiscard]] std::optional<double> effectivity() const {
     return estimated && true_error && *true_error > 0.0 ? std::optional(*estimated / *true_error) : std::nullopt;
   }

@@ -28,12 +28,12 @@ namespace dmocbench {
 namespace {
 
 constexpr std::array truncations{2, 4, 6};
-/// Below these shares of the largest work a gap is what solver and rounding leave: that of the solved motion, and that
-/// of its replay in long double.
+/// Below these shares of the largest work a gap is due to solver and rounding: for the solved motion, and for its
+/// replay in long double.
 constexpr double share_of_solver = 1e-10;
 constexpr double share_of_replay = 1e-16;
 
-/// The midpoint rule of one family of elements on one problem, in long double, with all that is asked of its energy.
+/// The midpoint rule of one family of elements on one problem, in long double, with its energies.
 class FollowedEnergy {
  public:
   /// Largest distances from the first energy, with and without the work taken off, per order of truncation.
@@ -98,7 +98,8 @@ struct FittedQuantity {
 
 const Columns<FittedQuantity> fitted_columns =
     scheme_columns<FittedQuantity>() +
-    Columns<FittedQuantity>{{"quantity", "", "what shrinks with the step", &FittedQuantity::quantity, in_key}} +
+    Columns<FittedQuantity>{
+        {"quantity", "", "quantity that shrinks with the step", &FittedQuantity::quantity, in_key}} +
     fitted_order_columns(&FittedQuantity::fit);
 
 /// Points of several curves of one scheme, by the names of their quantities.
@@ -199,7 +200,7 @@ struct EnergyWorkRows {
   std::vector<FittedQuantity> fits;
 };
 
-/// What is measured along one optimal motion.
+/// The measurements along one optimal motion.
 struct EnergyAlongMotion {
   double h = 0.0;
   EnergyBalance balance;

@@ -20,7 +20,7 @@ struct ModifiedEnergyTables {
 /// Energy against the virtual work of the forces along the optimal motions of some problems, by the midpoint rule in
 /// every family of elements.
 struct EnergyWorkTables {
-  std::ptrdiff_t unsolved = 0;  ///< rows of `plain` whose motion was not solved on the common branch: they say why
+  std::ptrdiff_t unsolved = 0;  ///< rows of `plain`, with reasons, whose motion was not solved on the common branch
   Table plain;                  ///< the energy itself, a row per problem, method and grid
   Table modified;               ///< the truncated modified energies, a row per order of truncation too
   Table orders;                 ///< fitted orders of the gaps of both, where solver and rounding leave less

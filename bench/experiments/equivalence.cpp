@@ -1,6 +1,6 @@
 // DMOC and Hamiltonian collocation with the same tableau describe the same discrete solutions (th:equi): both are
-// solved separately from the common start and compared, tangent-space collocation beside them as the control. The
-// costates of each are put into the adjoint scheme (th:orderapp).
+// solved separately from the common start and compared, with tangent-space collocation as the control. The costates of
+// each are put into the adjoint scheme (th:orderapp).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -35,7 +35,7 @@ ForeignViolation violation_in(Case other, const std::string& method, const Traje
   other.derivatives = "tape";
   other.form = CostForm::bolza;
   const auto program = other.transcribe();
-  // The floor is that of a momentum; collocation has constraints of force, differences of momenta divided by the step,
+  // The floor is a momentum's; collocation has constraints of force, differences of momenta divided by the step,
   // and its last stage rate is such a difference divided by its weight.
   const bool has_constraints_of_force = program->layout().node_state() != NodeState::configuration;
   const double last_weight = program->tableau().b[program->tableau().stages() - 1];
@@ -45,7 +45,7 @@ ForeignViolation violation_in(Case other, const std::string& method, const Traje
           .rounding = program->rounding_floors().largest / divisor};
 }
 
-/// The largest relative difference of some tables of two trajectories; none where one lacks them.
+/// The largest relative difference of some tables of two trajectories; empty if one lacks them.
 template <class... Tables>
 std::optional<double> difference(const Trajectory& a, const Trajectory& b, Tables... tables) {
   const bool both_have = (((a.*tables).size() > 0 && (b.*tables).size() > 0) && ...);
@@ -82,8 +82,8 @@ class Equivalence final : public ExperimentOf<Measured> {
       : ExperimentOf({.name = "equivalence",
                       .description =
                           "Solves every method separately and compares with DMOC on the same grid: largest differences "
-                          "relative to each quantity's largest value, what each answer leaves in the other's rows, and "
-                          "what costates leave in the adjoint Runge-Kutta scheme; slopes of the differences of "
+                          "relative to each quantity's largest value, residuals of each answer in the other's rows, "
+                          "and of the costates in the adjoint Runge-Kutta scheme; slopes of the differences of "
                           "tangent-space collocation (NAME_slopes.csv).",
                       .options = {.intervals = "16:1024"},
                       .further_files = {"_slopes.csv"},
@@ -97,19 +97,19 @@ class Equivalence final : public ExperimentOf<Measured> {
         {"control_difference", "", "of the stage controls", &Measured::control},
         {"costate_difference", "", "of psi", &Measured::costate},
         {"objective_difference", "", "of the cost", &Measured::objective},
-        {"violation_in_rows_of_dmoc", "", "what the answer leaves in DMOC's constraints",
+        {"violation_in_rows_of_dmoc", "", "residual of the answer in DMOC's constraints",
          from(in_dmoc, &ForeignViolation::violation)},
-        {"rounding_in_rows_of_dmoc", "", "what rounding may leave there", from(in_dmoc, &ForeignViolation::rounding)},
-        {"violation_of_dmoc_here", "", "what DMOC's answer leaves in this method's constraints",
+        {"rounding_in_rows_of_dmoc", "", "bound on rounding errors there", from(in_dmoc, &ForeignViolation::rounding)},
+        {"violation_of_dmoc_here", "", "residual of DMOC's answer in this method's constraints",
          from(of_dmoc, &ForeignViolation::violation)},
-        {"rounding_here", "", "what rounding may leave there", from(of_dmoc, &ForeignViolation::rounding)},
+        {"rounding_here", "", "bound on rounding errors there", from(of_dmoc, &ForeignViolation::rounding)},
         {"stage_costate_difference", "", "of Psi_i", &Measured::stage_costate},
-        {"adjoint_residual", "", "what the costates leave in the adjoint scheme", &Measured::adjoint_residual},
+        {"adjoint_residual", "", "residual of the costates in the adjoint scheme", &Measured::adjoint_residual},
         {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
          &Measured::plain_residual},
         {"costate_momentum_spread", "", "how far the momentum of the costates moves along the motion, relative",
          &Measured::costate_momentum_spread},
-        {"polish_steps", "", "Newton steps behind the solver", &Measured::polish_steps},
+        {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
         {"horizon_difference", "", "of T", &Measured::horizon},
         {"forced_form_residual", "",
          "residual in the discrete Euler-Lagrange equations of the control Lagrangian C + xi F + xi' L_v, F = L_q + f",
@@ -134,7 +134,7 @@ class Equivalence final : public ExperimentOf<Measured> {
     if (trajectory.has_costates() && TracedProblem(*here.problem).has_symmetry())
       measured.costate_momentum_spread = costate_momentum(*here.problem, trajectory).spread;
     if (trajectory.has_stage_costates()) {
-      // By the coefficients that the theorem predicts, and by those of the state scheme without exchanging the halves.
+      // By the coefficients that the theorem predicts, and by the state scheme's without exchanging the halves.
       const Tableau& tableau = trajectory.tableau;
       const auto residual = [&](const AdjointCoefficients& coefficients) {
         return adjoint_residual(*here.problem, trajectory, coefficients).largest();

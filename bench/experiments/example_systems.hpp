@@ -12,8 +12,8 @@
 
 namespace dmocbench {
 
-/// A controlled mechanical system, the state from which it is simulated, and where it is told the state to which it is
-/// steered at the least C = u²; without one what `Problem` asks beyond L and f is never used.
+/// A controlled mechanical system, the state from which it is simulated, and optionally the state to which it is
+/// steered at the least C = u². Without a final state only L and f of the `Problem` are used.
 class ExampleSystem : public Problem {
  public:
   [[nodiscard]] std::string name() const override { return name_; }
@@ -168,8 +168,8 @@ class WeightlessPendulum final : public ExampleSystem {
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
 };
 
-/// The generator of a problem's symmetry, n entries, which is the same everywhere. Throws `Error` if the problem has
-/// none, or one that depends on q.
+/// The generator of a problem's symmetry, n entries, which is the same everywhere. Throws `Error` if the problem has no
+/// symmetry, or a generator that depends on q.
 inline Eigen::VectorXd constant_generator(const Problem& problem) {
   const auto generator = problem.symmetry(input_vector(0, problem.configuration_size()));
   if (!generator) throw Error(problem.name() + " has no symmetry");

@@ -87,11 +87,11 @@ class Iterations final : public ExperimentOf<Measured> {
   void finish(Table& table, FurtherOutput& output) override { output.write("_ratios.csv", currency_ratios(table)); }
 
  private:
-  /// SLSQP is dense: a solve with more free variables takes seconds to minutes and says nothing new.
+  /// SLSQP is dense: a solve with more free variables takes seconds to minutes and gives no new information.
   static constexpr std::size_t most_free_variables_for_slsqp = 400;
 
   /// One minor iteration per free variable from the slack basis, per degree of freedom from a basis chosen for free,
-  /// and one per later major iteration (no inequality active); none for other solvers.
+  /// and one per later major iteration (no inequality active); empty for other solvers.
   static std::optional<long long> predicted(const SolvedCase& solved) {
     const Solution& solution = solved.solution;
     if (!solution.minor_iterations || !solution.major_iterations) return {};

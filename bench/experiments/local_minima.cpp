@@ -22,7 +22,7 @@ struct Measured {
   IndependentChecks checks;
 };
 
-/// How often each method finds the best minimum, and what that costs.
+/// How often each method finds the best minimum, and at which cost.
 Table minima_found(const Table& minima, const Table& shares) {
   const ColumnNames group{"problem", "tableau", "stages", "solver", "derivatives", "intervals"};
   Table found({"problem", "N", "method", "minima", "best cost", "best in", "95 % interval", "not solved"});
@@ -52,8 +52,8 @@ class LocalMinima final : public ExperimentOf<Measured> {
              .description =
                  "Solves every case from many perturbed guesses; the minima found and how often each method ends in "
                  "which (NAME_minima.csv), and how often it finds the best one, with a confidence interval "
-                 "(NAME_shares.csv). With --plane the starts are those of a plane, and NAME_basins.csv says where each "
-                 "of them ends.",
+                 "(NAME_shares.csv). With --plane the starts form a plane, and NAME_basins.csv holds the minimum that "
+                 "each start ends in.",
              .options = {.solvers = {"auto"}, .intervals = "64", .start = "guess", .jobs = 2, .batch = true},
              .further_files = {"_minima.csv", "_shares.csv", "_basins.csv"},
              .branches = BranchesTold::none,
@@ -118,7 +118,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
   }
 
  private:
-  // Costs of one minimum by different methods differ by less than this share, those of different minima by more.
+  // Costs of one minimum by different methods differ by less than this share, costs of different minima by more.
   static constexpr double separation = 0.01;
 
   /// The sizes of the bulges of a start of the plane.
@@ -134,7 +134,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
   long long plane_ = 0;  // 0: random starts
   std::uint64_t seed_ = 1;
   double amplitude_ = 0.5;
-  std::map<std::string, std::string> varied_;  // what starts vary, by problem
+  std::map<std::string, std::string> varied_;  // the quantities that starts vary, by problem
 };
 
 int run(int argc, char** argv) { return run_experiment(LocalMinima(), argc, argv); }

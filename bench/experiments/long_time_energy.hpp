@@ -13,7 +13,7 @@ namespace dmocbench {
 struct LongTimeMethod {
   enum class Kind : std::uint8_t { dmoc, radau, explicit_midpoint, runge_kutta_4 };
   Kind kind = Kind::dmoc;
-  std::string name;     ///< that of the kind
+  std::string name;     ///< of the kind
   std::string tableau;  ///< of the implicit ones; empty for the others
   int stages = 0;
   int order = 0;

@@ -39,7 +39,7 @@ class SparseSum {
 constexpr int rounds = 5;
 constexpr int rounds_of_long_evaluations = 3;
 constexpr double long_evaluation = 1e-3;
-constexpr double shortest_round = 3e-5;  // [s]; the clock tells some 3e-8
+constexpr double shortest_round = 3e-5;  // [s]; the clock resolves about 3e-8
 
 double seconds_of(const std::function<void()>& evaluation, int calls) {
   const auto start = Clock::now();

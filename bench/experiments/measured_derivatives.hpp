@@ -32,7 +32,8 @@ struct EvaluationTimes {
 };
 
 /// Medians of repeated evaluations at one point. The rounds go through all of them in turn, so that whatever slows the
-/// machine down for a while slows them all; short evaluations are repeated within a round until the clock can tell.
+/// machine down for a while slows them all; short evaluations are repeated within a round until the clock resolves
+/// them.
 [[nodiscard]] EvaluationTimes measure_evaluations(NonlinearProgram& program, const Eigen::VectorXd& x,
                                                   const Eigen::VectorXd& multipliers);
 

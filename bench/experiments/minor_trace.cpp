@@ -31,7 +31,7 @@ Table trace_table(const std::vector<MinorIteration>& trace, Eigen::Index variabl
       {"into_basis", "", "column that the basis takes up", named(&MinorIteration::into_basis)},
       {"step", "", "length of the step", &MinorIteration::step},
       {"infeasibility", "", "sum of infeasibilities", &MinorIteration::infeasibility},
-      {"objective", "", "that of the quadratic program, scaled", &MinorIteration::objective},
+      {"objective", "", "scaled objective of the quadratic program", &MinorIteration::objective},
       {"superbasics", "", "number of superbasic columns", &MinorIteration::superbasics},
       {"basic_slacks", "", "number of slacks in the basis", &MinorIteration::basic_slacks},
   };
@@ -40,7 +40,7 @@ Table trace_table(const std::vector<MinorIteration>& trace, Eigen::Index variabl
 
 /// Where a path leads, whether it is there or not.
 std::filesystem::path place_of(const std::filesystem::path& path) {
-  std::error_code none;  // what is not there has no links to follow
+  std::error_code none;  // a missing path has no links to follow
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path), none);
 }
 
@@ -52,7 +52,7 @@ bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path
 
 void MinorTrace::add_to(CommandLine& line) {
   line.option("--trace", file_,
-              "file for every minor iteration of one solve by sqp, a row each; the metadata tell of it if it is in the "
+              "file for every minor iteration of one solve by sqp, a row each; the metadata list it if it is in the "
               "folder of --out");
 }
 

@@ -16,13 +16,14 @@ class MinorTrace {
   void add_to(CommandLine& line);
   /// Whether the option was given.
   [[nodiscard]] bool is_wanted() const noexcept { return !file_.empty(); }
-  /// Throws `Error` unless the cases are one that sqp solves, and the file can be written and is none of the run's.
+  /// Throws `Error` unless there is a single case, solved by sqp, and the file can be written and is not one of the
+  /// run's.
   void check(const std::vector<Case>& cases, const ExperimentCard& card) const;
-  /// Solves the case and keeps its minor iterations; those of the last solve where it is repeated.
+  /// Solves the case and keeps its minor iterations, of the last solve if it is repeated.
   [[nodiscard]] SolvedCase solve(const SolveTask& task);
   /// Writes the file. Throws `Error` if that fails.
   void write(const SolvedCase& solved);
-  /// The metadata of the run tell of the file if it is in the run's folder.
+  /// Adds the file to the metadata of the run if it is in the run's folder.
   void describe(FurtherOutput& output) const;
 
  private:

@@ -140,7 +140,7 @@ Columns<NeededGrid> needed_columns() {
   return scheme_columns<N>() +
          Columns<N>{
              {"grid", "", "uniform, or adapted", &N::grid, in_key},
-             {"accuracy", "", "relative error of q, p and cost that is asked for", &N::accuracy},
+             {"accuracy", "", "requested relative error of q, p and cost", &N::accuracy},
              {"status", "", "of the last solve, or why there is no such grid", &N::status},
              {"intervals", "", "number of intervals N", &N::intervals},
              {"variables", "", "of the program", &N::variables},

@@ -23,7 +23,7 @@ class Neighbours {
 
   /// "receding_horizon" or "homotopy".
   [[nodiscard]] virtual std::string name() const = 0;
-  /// The problem of step 1, 2, ... behind the one whose solution is `last`.
+  /// The problem of step 1, 2, ... that follows the one whose solution is `last`.
   [[nodiscard]] virtual std::shared_ptr<const Problem> next(int step, const Trajectory& last) = 0;
   /// Gives the values of the last `next` to a program of the first problem.
   virtual void give_values(Transcription& program) const = 0;

@@ -12,9 +12,9 @@ namespace dmocbench {
 /// the velocity that it has there.
 [[nodiscard]] Motion one_interval_later(const Trajectory& trajectory);
 
-/// Multipliers of a problem that has moved on by one interval of a uniform grid: what belonged to node or interval
-/// k + 1 belongs to k. The last node and interval keep what they have, as does what belongs to one end or to the whole
-/// horizon. `values` has an entry per place.
+/// Multipliers of a problem that has moved on by one interval of a uniform grid: values of node or interval k + 1 move
+/// to k. The last node and interval keep their values, as do places at one end and of the whole horizon. `values` has
+/// an entry per place.
 [[nodiscard]] Eigen::VectorXd shifted(const Places& places, const Eigen::VectorXd& values);
 
 }  // namespace dmocbench

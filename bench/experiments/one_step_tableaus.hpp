@@ -7,8 +7,8 @@
 
 namespace dmocbench {
 
-/// Every tableau, each family with each number of stages, but for those whose neighbouring intervals share controls: on
-/// a single interval they are the same method as those that do not.
+/// Every tableau, each family with each number of stages, except tableaus whose neighbouring intervals share controls:
+/// on a single interval they are the same method as tableaus without shared controls.
 [[nodiscard]] inline std::vector<Tableau> one_step_tableaus() {
   std::vector<Tableau> tableaus;
   for (const std::string& family : tableau_names()) {

@@ -19,7 +19,7 @@ double largest_row(const Eigen::MatrixXd& difference) { return difference.rowwis
 OptimalPoint closed_form_point(const Problem& problem, double t) {
   const auto* closed = dynamic_cast<const ClosedForm*>(&problem);
   std::optional<OptimalPoint> point = closed != nullptr ? closed->optimum(t) : std::nullopt;
-  if (!point) throw Error(problem.name() + " knows no optimum in closed form");
+  if (!point) throw Error(problem.name() + " has no optimum in closed form");
   return *std::move(point);
 }
 
@@ -80,7 +80,7 @@ KnownOptimum::Sampled KnownOptimum::finer_at(const Trajectory& motion) const {
       motion.stage_u, finer_->cost};
   for (Eigen::Index k = 0; k < motion.q.rows(); ++k) {
     const auto node = node_at(finer_->node_times, motion.node_times[k]);
-    if (!node) throw Error("a node of the motion is no node of the finer one that its errors are measured against");
+    if (!node) throw Error("a node of the motion is not a node of the finer reference for its errors");
     sampled.q.row(k) = finer_->q.row(*node);
     sampled.p.row(k) = finer_->p.row(*node);
     sampled.psi_q.row(k) = finer_->psi_q.row(*node);

@@ -8,7 +8,8 @@
 
 namespace dmocbench {
 
-/// Largest errors against the optimum, Euclidean norm: what (main_theorem) speaks of, and the controls of the stages.
+/// Largest errors against the optimum, Euclidean norm: the quantities of (main_theorem), and the controls of the
+/// stages.
 struct OptimumError {
   double state = 0.0;         ///< of (q, p) over the nodes
   double costate_q = 0.0;     ///< of ψ^q over the nodes

@@ -29,7 +29,7 @@ class Profile final : public ExperimentOf<Measured> {
                  "Moré (NAME_profiles.csv) and shifted geometric means (NAME_summary.csv). Success is a KKT residual "
                  "below the tolerance and a cost within --objective-tolerance of the reference (where a problem states "
                  "none, of the best found by any method here); all else counts as never. NAME_library.csv and "
-                 "NAME_library.md hold every cost at the finest grid beside the reference.",
+                 "NAME_library.md hold every cost at the finest grid next to the reference.",
              .options = {.problems = {"all"},
                          .intervals = "32,64,128",
                          .start = "guess",

@@ -43,7 +43,7 @@ void require_no_active_inequality(const NonlinearProgram& program, const Lineari
     is_active |=
         !equalities[i] && is_near(at.constraints[j], program.constraint_lower()[j], program.constraint_upper()[j]);
   }
-  if (is_active) throw Error("the condition of a program is that of its equations, but a bound is active");
+  if (is_active) throw Error("the condition of a program is defined for its equations only, but a bound is active");
 }
 
 /// Divides rows and columns of a symmetric matrix by the roots of their largest entries until all of these are 1.
@@ -63,7 +63,7 @@ std::optional<double> kkt_condition(NonlinearProgram& program, const Solution& s
   const std::vector<bool> free = free_variables(program);
   const std::vector<bool> equalities = equalities_of(program);
   require_no_active_inequality(program, at, free, equalities);
-  // Unit rows stand for what is left out: their eigenvalues are between the others.
+  // Unit rows stand for the variables and rows left out: their eigenvalues are between the others.
   const Eigen::SparseMatrix<double> lower =
       kkt_matrix(hessian_at(program, solution.primal, solution.multipliers), 0.0, at.jacobian, free, equalities);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(lower.rows(), lower.cols());

@@ -13,7 +13,7 @@ namespace dmocbench {
 ///
 /// Rows and columns are first brought to the same size (D K D with all largest entries 1), as solvers do, so that the
 /// units of the problem do not count. Dense, for programs of up to some thousand unknowns. No inequality and no bound
-/// may be active: throws `Error` where one is. Nothing where the matrix is singular.
+/// may be active: throws `Error` if one is. Empty if the matrix is singular.
 [[nodiscard]] std::optional<double> kkt_condition(NonlinearProgram& program, const Solution& solution);
 
 }  // namespace dmocbench

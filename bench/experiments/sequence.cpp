@@ -33,7 +33,7 @@ struct SequenceOptions {
   std::string over = {};
 };
 
-/// The homotopy of a problem: what the user names, else a parameter of the paper's problems; none of others.
+/// The homotopy of a problem: the user's quantity, or else a parameter of the paper's problems; empty for others.
 std::optional<SweptQuantity> homotopy_of(const SequenceOptions& options, const Problem& problem) {
   if (!options.over.empty()) {
     const SweptQuantity quantity = parse_over(options.over, true);

@@ -109,9 +109,8 @@ int run(int argc, char** argv) {
   return run_program(
       "shooting",
       "The programs of DMOC, multiple shooting and single shooting (rk4, one step per interval) at one optimum: "
-      "shooting.csv holds their sizes and the condition of their KKT matrices. How often they are solved from cold "
-      "starts, and how accurate they are, tell cold_start and convergence with --method "
-      "multiple_shooting,single_shooting.",
+      "shooting.csv holds their sizes and the condition of their KKT matrices. Their reliability from cold starts and "
+      "their accuracy are measured by cold_start and convergence with --method multiple_shooting,single_shooting.",
       argc, argv, measure_all);
 }
 

@@ -42,7 +42,7 @@ std::vector<Invariant> invariant_systems() {
           {links, false, 1.0, bent_links(), 0.02}};
 }
 
-/// Neither smooth nor random: the theorem asks nothing of the controls.
+/// Neither smooth nor random: the theorem makes no assumption on the controls.
 Eigen::MatrixXd arbitrary_controls(Eigen::Index stages, Eigen::Index m, int step, double amplitude) {
   return Eigen::MatrixXd::NullaryExpr(stages, m, [=](Eigen::Index i, Eigen::Index j) {
     return amplitude * std::sin(1.0 + 7.3 * step + 2.1 * static_cast<double>(i) + 3.7 * static_cast<double>(j));

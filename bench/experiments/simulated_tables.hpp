@@ -15,7 +15,7 @@ namespace dmocbench {
 /// source.
 [[nodiscard]] Table noether_table(int steps);
 
-/// Where one-step maps are asked whether they are symplectic.
+/// The states at which one-step maps are tested for symplecticity.
 struct MappedStates {
   std::shared_ptr<const Problem> problem;
   std::vector<BoundaryState> states;  ///< where a step begins, at t = 0
@@ -29,7 +29,7 @@ struct MappedStates {
 /// The unforced one-step map's |DᵀΩD - Ω|, the largest over the states.
 struct SymplecticityTable {
   Table table;                  ///< a row per system, method and tableau; columns are declared in the source
-  std::ptrdiff_t unsolved = 0;  ///< rows without a number because a step cannot be solved: they say why
+  std::ptrdiff_t unsolved = 0;  ///< rows without a number because a step cannot be solved; they have the reason
 };
 [[nodiscard]] SymplecticityTable symplecticity_table(const std::vector<MappedStates>& systems);
 

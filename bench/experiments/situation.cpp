@@ -21,7 +21,7 @@ std::shared_ptr<Problem> with_parameter(const char* name, const char* parameter,
   return problem;
 }
 
-/// True if a column of `values` comes as near to one of its bounds as a solve can tell.
+/// True if a column of `values` comes as near to one of its bounds as a solve can resolve.
 bool meets(const Bounds& bounds, const Eigen::MatrixXd& values) {
   constexpr double near = 1e-6;
   if (bounds.empty()) return false;

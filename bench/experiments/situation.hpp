@@ -12,17 +12,17 @@ namespace dmocbench {
 /// A problem whose optimum is smooth or has kinks.
 struct Situation {
   std::string name;
-  std::string active;  ///< which bounds are: those of the "control", of the "state", of both, or "nothing"
+  std::string active;  ///< which bounds are active: "control", "state", "control and state", or "nothing"
   std::string end;     ///< "fixed" or "free"
   std::shared_ptr<const Problem> base;  ///< whose common start solves begin at
   std::shared_ptr<const Problem> problem;
   bool has_closed_form = false;
 };
 
-/// Examples with active bounds of every kind and with none, with fixed and with free final states.
+/// Examples with active bounds of every kind and without active bounds, with fixed and with free final states.
 [[nodiscard]] std::vector<Situation> example_situations();
 
-/// A problem as it is; which bounds are active is told by its optimum, afterwards. Throws `Error` if its horizon is
+/// An unchanged problem; its active bounds are determined later from its optimum. Throws `Error` if its horizon is
 /// free: errors are compared at equal times.
 [[nodiscard]] Situation situation_of(const std::shared_ptr<const Problem>& problem);
 

@@ -23,13 +23,14 @@ struct Misprint {
   std::string where;
   std::string printed;
   std::string meant;
-  std::string quantity;  ///< what tells both apart
+  std::string quantity;  ///< distinguishes both
   double as_printed;
   double as_meant;
   double required;
 };
 
-/// The derivative of the potential's last term with respect to θ₂ where the paper says the arm is in equilibrium.
+/// The derivative of the potential's last term with respect to θ₂ where the paper states that the arm is in
+/// equilibrium.
 Misprint potential_without_sine() {
   const auto problem = make_problem("two_link_manipulator");
   const double weight =
@@ -206,7 +207,7 @@ Misprint figure_of_iterations() {
           .name = "figure_of_iterations",
           .where = "section 4.2.2, last paragraph, and caption of fig:twolink_iterations",
           .printed = "the two-link's minor iterations are in fig:kepler_iterations",
-          .meant = "fig:twolink_iterations, whose caption says low thrust orbital transfer",
+          .meant = "fig:twolink_iterations, whose caption reads low thrust orbital transfer",
           .quantity = "ratio of variables on the problem of that figure",
           .as_printed = ratio("orbital_transfer"),
           .as_meant = ratio("two_link_manipulator"),
@@ -217,9 +218,9 @@ const Columns<Misprint> columns{
     {"problem", "", "name of the problem", &Misprint::problem, in_key},
     {"slip", "", "short name of the statement", &Misprint::name, in_key},
     {"where", "", "in the paper", &Misprint::where},
-    {"printed", "", "what is printed", &Misprint::printed},
-    {"meant", "", "what is meant", &Misprint::meant},
-    {"quantity", "", "what tells both apart", &Misprint::quantity},
+    {"printed", "", "the printed statement", &Misprint::printed},
+    {"meant", "", "the intended statement", &Misprint::meant},
+    {"quantity", "", "quantity that distinguishes both", &Misprint::quantity},
     {"value_as_printed", "", "its value as printed", &Misprint::as_printed},
     {"value_as_meant", "", "its value as meant", &Misprint::as_meant},
     {"required_value", "", "its value as it has to be", &Misprint::required},

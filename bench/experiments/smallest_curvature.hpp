@@ -17,7 +17,7 @@ namespace dmocbench {
 ///
 /// Found by bisection to six digits, from the number of negative eigenvalues of the KKT matrix with α h b_i taken off
 /// the diagonal of the controls (Sylvester): no null space is computed. Below 1e-9 it is 0 to the precision of that
-/// number, and so returned; nothing if the form is not even nonnegative.
+/// number, and so returned; empty if the form is not even nonnegative.
 [[nodiscard]] std::optional<double> smallest_curvature(Transcription& program, const Solution& solution);
 
 }  // namespace dmocbench

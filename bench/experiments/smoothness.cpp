@@ -1,4 +1,4 @@
-// Orders where the optimal control is not smooth, beside optima that are: (main_theorem) and its remark on constraints.
+// Orders for nonsmooth and smooth optimal controls: (main_theorem) and its remark on constraints.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -82,7 +82,7 @@ class Smoothness {
  public:
   explicit Smoothness(const TableRun& run) : run_(run) {}
 
-  /// Fills in which bounds are active where the situation does not tell.
+  /// Fills in which bounds are active if the situation does not state it.
   void measure(Situation& situation) {
     const Trajectory finer = finest(situation);
     if (situation.active.empty()) situation.active = active_bounds(*situation.problem, finer);
@@ -195,9 +195,9 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "smoothness",
-      "Orders of state, costate, control and cost where bounds are active and the optimal control has kinks, beside "
-      "optima that are smooth, with fixed and with free final state: smoothness.csv, fitted orders in "
-      "smoothness_slopes.csv. Errors are those against the closed form, or against DMOC with two stages on 1280 "
+      "Orders of state, costate, control and cost where bounds are active and the optimal control has kinks, compared "
+      "with smooth optima, with fixed and with free final state: smoothness.csv, fitted orders in "
+      "smoothness_slopes.csv. Errors are measured against the closed form, or against DMOC with two stages on 1280 "
       "intervals. With --problem no examples, but these problems, as they are.",
       argc, argv, measure_all);
 }

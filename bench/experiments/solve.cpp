@@ -127,7 +127,7 @@ class Solve final : public ExperimentOf<Measured> {
     trace_.check(chosen, card_);
     accuracy_.check(chosen);
     if (accuracy_.is_wanted() && trace_.is_wanted())
-      throw Error("--accuracy solves on several grids, --trace tells of one; leave one out");
+      throw Error("--accuracy solves on several grids, but --trace records a single solve; leave one out");
     return chosen;
   }
   [[nodiscard]] SolvedCase solve(SolveTask task) override {
@@ -162,7 +162,7 @@ class Solve final : public ExperimentOf<Measured> {
     }
   }
 
-  /// What a solve chose besides the motion.
+  /// Reports the values that a solve found besides the motion.
   static void say_found(const SolvedCase& solved, Findings& findings) {
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& motion = *solved.trajectory;
@@ -183,7 +183,7 @@ class Solve final : public ExperimentOf<Measured> {
   MinorTrace trace_;
   WantedAccuracy accuracy_;
   bool takes_costates_ = true;
-  /// What tells the motion of a case from those of the others, behind the table's name.
+  /// The ending after the table's name that distinguishes the motion of a case from the others.
   std::function<std::string(const Case&)> label_of_ = [](const Case& /*the_case*/) { return ""; };
   struct Answer {
     SolvedCase solved;

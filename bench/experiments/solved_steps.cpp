@@ -114,7 +114,7 @@ Table step_table(const std::vector<SequenceStep>& steps) {
            from(&SequenceStep::warm, &StepSolve::microseconds)},
           {"start_barrier_parameter", "", "that the warm solve began with; empty where the problem has no barrier",
            from(&SequenceStep::start_barrier_parameter)},
-          {"cold_status", "", "of a solve from the guess; empty where none was asked for", of_cold(&StepSolve::status)},
+          {"cold_status", "", "of a solve from the guess; empty if not requested", of_cold(&StepSolve::status)},
           {"cold_iterations", "", "its iterations", of_cold(&StepSolve::iterations)},
           {"cold_microseconds", "us", "its time", of_cold(&StepSolve::microseconds)},
           {"objective", "cost", "of the answer", from(&SequenceStep::objective)}};

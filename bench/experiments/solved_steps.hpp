@@ -26,7 +26,7 @@ struct SequenceStep {
   int number = 0;
   StepSolve warm;  ///< from the motion, multipliers and barrier parameter of the last step
   std::optional<double> start_barrier_parameter = std::nullopt;  ///< of the warm solve, where the problem has a barrier
-  std::optional<StepSolve> cold = std::nullopt;                  ///< from the problem's guess, where it was asked for
+  std::optional<StepSolve> cold = std::nullopt;                  ///< from the problem's guess, if requested
   std::optional<double> objective = std::nullopt;
 
   /// Whether the cold start did better: it was solved and the warm one was not, or in fewer iterations.
@@ -36,7 +36,7 @@ struct SequenceStep {
 /// How the steps of a sequence are solved.
 struct SequenceChoices {
   int repeats = 1;  ///< solves of every step; its time is the smallest of them
-  /// The barrier parameter that warm solves begin with; none for that with which the solve before ended.
+  /// The barrier parameter that warm solves begin with; by default the final one of the previous solve.
   std::optional<double> barrier_parameter = std::nullopt;
 };
 
@@ -47,7 +47,7 @@ class SequenceRun {
   SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, const SolverOptions& options,
               const SequenceChoices& choices);
 
-  /// Solves the next problem warm, and cold too if it is asked for or the warm start fails. Where both fail the
+  /// Solves the next problem warm, and also cold if requested or if the warm start fails. If both fail, the
   /// sequence ends.
   [[nodiscard]] SequenceStep next(bool also_cold);
   [[nodiscard]] bool is_at_end() const noexcept { return is_at_end_; }
@@ -55,7 +55,7 @@ class SequenceRun {
  private:
   /// The last motion, moved to the next problem's ends. Moves the multipliers with it.
   [[nodiscard]] Eigen::VectorXd warm_start();
-  /// None where there is no barrier.
+  /// Empty if there is no barrier.
   [[nodiscard]] std::optional<double> start_barrier_parameter() const;
   void go_on_from(const Solution& answer);
 

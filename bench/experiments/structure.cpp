@@ -1,5 +1,5 @@
-// What the discrete flows preserve: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy ("Conservation
-// of a Modified Energy").
+// The invariants of the discrete flows: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy
+// ("Conservation of a Modified Energy").
 #include "bench/experiments/energy_columns.hpp"
 #include "bench/experiments/energy_tables.hpp"
 #include "bench/experiments/example_systems.hpp"
@@ -54,7 +54,7 @@ const Columns<EnergyOfPeriods> behaviour_columns =
 
 const Columns<EnergyOrder> order_columns =
     scheme_columns<EnergyOrder>() +
-    Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity, in_key}} +
+    Columns<EnergyOrder>{{"quantity", "", "quantity that shrinks with the step", &EnergyOrder::quantity, in_key}} +
     fitted_order_columns(&EnergyOrder::fit);
 
 struct EnergyResults {
@@ -151,7 +151,7 @@ void add_long_time_energy(TableRun& run, const StructureOptions& options) {
   run.add("structure_energy_slopes", order_columns, results.orders);
 }
 
-/// What is asked of examples that were chosen for it.
+/// Tables of examples that were chosen for their structure.
 void add_examples(TableRun& run, const StructureOptions& options) {
   run.show("momentum against the work of forces");
   run.add("structure_momentum", noether_table(options.steps));
@@ -171,7 +171,7 @@ void add_examples(TableRun& run, const StructureOptions& options) {
   add_long_time_energy(run, options);
 }
 
-/// What can be asked of any problem, along its optimal motions.
+/// Tables of any problem, along its optimal motions.
 void add_problems(TableRun& run, const std::vector<std::shared_ptr<const Problem>>& problems) {
   StartProvider starts({}, TableRun::solver_options());
   std::vector<MappedStates> systems;
@@ -205,7 +205,7 @@ int write_tables(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "structure",
-      "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), "
+      "Invariants of the discretisation: momentum against the work of arbitrary forces (structure_momentum.csv), "
       "the same for rotations about three axes (structure_rotations.csv), the momentum along optimal motions whose "
       "forces are orthogonal to the symmetry (structure_orthogonal_forces.csv), the symplectic form "
       "(structure_symplecticity.csv), the energy of an eccentric orbit over many periods (structure_energy.csv, "

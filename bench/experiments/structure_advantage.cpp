@@ -18,7 +18,7 @@ namespace dmocbench::structure_advantage_program {
 
 const std::vector<std::string> all_factorisations{"intervals", "sparse"};
 
-/// Empty where the solver does not tell.
+/// Empty if the solver does not report it.
 std::string linear_rounds(const SolvedCase& solved) {
   std::vector<double> seconds;
   for (const SolveTimes& round : solved.rounds) {
@@ -44,9 +44,9 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
       : ExperimentOf(
             {.name = "structure_advantage",
              .description =
-                 "What collocation costs beside DMOC by Ipopt and by interior_point with its linear systems solved by "
-                 "intervals or as any sparse matrix: iterations, linear systems, seconds. NAME_ratios.csv sets them "
-                 "against DMOC at equal N and at equal error of the objective.",
+                 "Cost of collocation relative to DMOC by Ipopt and by interior_point with its linear systems solved "
+                 "by intervals or as any sparse matrix: iterations, linear systems, seconds. NAME_ratios.csv has the "
+                 "ratios to DMOC at equal N and at equal error of the objective.",
              .options = {.solvers = {"ipopt", "interior_point"}, .intervals = "64:1024", .repeats = 11},
              .further_files = {"_ratios.csv"},
              .takes_turns = true}) {}

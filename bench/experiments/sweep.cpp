@@ -26,9 +26,9 @@ class Sweep final : public ExperimentOf<Instance> {
             {.name = "sweep",
              .description =
                  "Solves a problem with other values of its parameters and end states, a row for each: grids, "
-                 "several of them as their product, or random samples. No instance knows of another: all start "
-                 "from one motion of the problem as it stands (--start common), or each from its own guess. One "
-                 "that is not solved, or cannot be, keeps its row.",
+                 "several of them as their product, or random samples. Instances are independent: all start from one "
+                 "motion of the unchanged problem (--start common), or each from its own guess. An instance that is "
+                 "not solved, or cannot be, keeps its row.",
              .options = {.problems = {"two_link_manipulator"},
                          .methods = {"dmoc"},
                          .solvers = {"auto"},
@@ -93,7 +93,7 @@ class Sweep final : public ExperimentOf<Instance> {
   }
 
  private:
-  /// Makes the instances; returns what they vary.
+  /// Makes the instances; returns the quantities that they vary.
   [[nodiscard]] std::vector<SweptQuantity> read_instances() {
     if (over_.empty()) throw Error("a sweep needs --over NAME=LOWER:UPPER:COUNT, a parameter or an end state to vary");
     std::vector<SweptQuantity> quantities;

@@ -28,7 +28,7 @@ struct NamedEndEntry {
   [[nodiscard]] double& of(BoundaryState& state) const { return (is_velocity ? state.v : state.q)[number]; }
 };
 
-/// None if the name is of another form.
+/// Empty if the name has another form.
 std::optional<NamedEndEntry> end_entry(std::string_view name) {
   NamedEndEntry entry;
   entry.is_first = name.starts_with("initial_");

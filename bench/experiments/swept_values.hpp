@@ -16,11 +16,11 @@ struct SweptQuantity {
       name;  ///< of a parameter, or initial_q1, initial_v1, ..., final_q1, final_v1, ...: an entry of an end state
   double lower = 0.0;
   double upper = 0.0;
-  std::optional<int> count = std::nullopt;  ///< of a grid from `lower` to `upper`, both included; none for samples
+  std::optional<int> count = std::nullopt;  ///< of a grid from `lower` to `upper`, both included; empty for samples
 };
 
-/// Reads NAME=LOWER:UPPER:COUNT, or NAME=LOWER:UPPER where values are drawn at random. Throws `Error` that quotes what
-/// cannot be read, and if a count is missing or one too many.
+/// Reads NAME=LOWER:UPPER:COUNT, or NAME=LOWER:UPPER where values are drawn at random. Throws `Error` that quotes
+/// unreadable text, and if a count is missing or superfluous.
 [[nodiscard]] SweptQuantity parse_over(const std::string& text, bool is_sampled);
 
 /// The instances of a sweep, a value per quantity each: the Cartesian product of the grids, the first quantity slowest;

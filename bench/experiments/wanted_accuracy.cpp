@@ -60,7 +60,7 @@ void WantedAccuracy::add_to(CommandLine& line) {
 
 void WantedAccuracy::check(const std::vector<Case>& cases) {
   if (!is_wanted()) {
-    if (!refine_.empty()) throw Error("--refine says how --accuracy is reached; give --accuracy too");
+    if (!refine_.empty()) throw Error("--refine selects how --accuracy is reached; give --accuracy too");
     return;
   }
   if (cases.size() != 1)
