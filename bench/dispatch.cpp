@@ -1,4 +1,4 @@
-// One program that is all others: what is installed.
+// The installed program, which contains all others.
 #include "bench/dispatch.hpp"
 
 #include <algorithm>
@@ -31,12 +31,12 @@ void print_programs(std::span<const Program> programs) {
   for (const Program& program : programs) fmt::print("  {:<20} {}\n", program.name, program.description);
 }
 
-/// A name as it can be that of a program beside this one.
+/// Whether a name may belong to a program next to this one.
 bool is_plain(const std::string& name) {
   return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string::npos;
 }
 
-/// Runs dmocbench-NAME in place of this program. Throws `Error` if there is none.
+/// Runs dmocbench-NAME in place of this program. Throws `Error` if it does not exist.
 void run_beside(const std::string& name, char** argv, std::span<const Program> programs) {
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
   const std::filesystem::path other = self.parent_path() / ("dmocbench-" + name);

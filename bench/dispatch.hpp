@@ -12,11 +12,11 @@ struct Program {
   int (*run)(int argc, char** argv);
 };
 
-/// Runs the program that the first argument names with the arguments behind it, and returns its exit code: `dmocbench
-/// convergence --problem pendulum` does what the program `convergence` does. Where there is no such program, one of
-/// the name dmocbench-NAME in the folder of this one is run in its place. `dmocbench help NAME` is `dmocbench NAME
-/// --help`. Without an argument, and for --help, the programs are listed; a name that nobody has is one line on
-/// standard error and exit code 2.
+/// Runs the program that the first argument names with the arguments after it, and returns its exit code: `dmocbench
+/// convergence --problem pendulum` runs the program `convergence`. If there is no such program, dmocbench-NAME in the
+/// folder of this program is run in its place. `dmocbench help NAME` is `dmocbench NAME --help`. Without an argument,
+/// and for --help, the programs are listed. An unknown name is reported in one line on standard error, with exit
+/// code 2.
 int dispatch(std::span<const Program> programs, int argc, char** argv);
 
 }  // namespace dmocbench

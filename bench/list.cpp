@@ -26,7 +26,7 @@ namespace dmocbench::list_program {
 
 std::string listed(const Eigen::VectorXd& vector) { return fmt::format("({:.6g})", fmt::join(vector, ", ")); }
 
-/// A line with its label; nothing is printed without content.
+/// Prints a line with its label, unless the content is empty.
 void print_field(const std::string& label, const std::string& content) {
   if (!content.empty()) fmt::print("    {:<9} {}\n", label, content);
 }
@@ -39,7 +39,7 @@ std::string bound_in_words(const Bounds& bounds, Eigen::Index i, const std::stri
   return fmt::format("{:.6g} <= {} <= {:.6g}", bounds.lower[i], name, bounds.upper[i]);
 }
 
-/// The entries that are bounded, "none" if none is.
+/// The bounded entries, or "none".
 std::string bounds_in_words(const Bounds& bounds, const std::vector<std::string>& names) {
   std::vector<std::string> parts;
   for (Eigen::Index i = 0; i < bounds.lower.size(); ++i) {
@@ -178,7 +178,7 @@ int print_cards(const std::vector<std::shared_ptr<const Problem>>& problems) {
   return print_json({{"dmocbench", describe_run({})["dmocbench"]}, {"problems", cards}});
 }
 
-/// What plots/style.gp reads of the families, as gnuplot.
+/// The families as gnuplot code, which plots/style.gp reads.
 int print_families() {
   const std::span<const Family> families = registered_families();
   const auto print_array = [&](const char* name, const auto& entry_of) {
@@ -195,7 +195,7 @@ int print_families() {
   return 0;
 }
 
-/// A line: the name, and what the card says of the problem.
+/// One line per problem: the name and the description in its card.
 void print_briefly(const std::vector<std::shared_ptr<const Problem>>& problems) {
   for (const auto& problem : problems) fmt::print("{:<28} {}\n", problem->name(), problem->card().description);
 }
@@ -262,9 +262,9 @@ int print_all(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program(
-      "list", "What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.", argc,
-      argv, print_all);
+  return run_program("list",
+                     "Lists problems with their parameters and guess, methods, tableaus, solvers and derivatives.",
+                     argc, argv, print_all);
 }
 
 }  // namespace dmocbench::list_program

@@ -39,8 +39,8 @@ int run(int argc, char** argv) {
   return run_program(
       "merge",
       "Joins the parts that an experiment wrote with --part into its table NAME.csv and computes the rest: "
-      "every file that the whole run would have written. Parts that are missing, there twice or of another run are "
-      "named, and nothing is written. The exit code is as for the whole run: 1 if a solve failed.",
+      "every file that the whole run would have written. If parts are missing, present twice or of another run, they "
+      "are named, and no file is written. The exit code is as for the whole run: 1 if a solve failed.",
       argc, argv, merge);
 }
 

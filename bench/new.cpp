@@ -22,7 +22,7 @@ constexpr const char* header = R"(#pragma once
 
 namespace dmocbench {
 
-/// Swing-up of a pendulum by a torque: replace the formulas by those of your problem.
+/// Swing-up of a pendulum by a torque: replace the formulas by your own.
 ///
 /// Write sin, cos, sqrt, exp, log, pow on expressions; where a formula has a kink, smooth_abs, smooth_max, smooth_min or
 /// smooth_if_else. Angles are in radians; sizes near 1 suit solvers.
@@ -106,7 +106,7 @@ int write_problem(CommandLine& line) {
   const std::array files{std::pair(name + ".hpp", with(header, "CLASS", in_camel_case(name))),
                          std::pair(std::string("CMakeLists.txt"), with(build_file, "NAME", name))};
   for (const auto& [file, text] : files) {
-    std::error_code none;  // what cannot be looked up is not there
+    std::error_code none;  // a failed lookup counts as missing
     if (std::filesystem::exists(file, none)) throw Error(fmt::format("{} exists; move it away first", file));
   }
   for (const auto& [file, text] : files) write_file(file, text);

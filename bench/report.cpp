@@ -33,7 +33,7 @@ int write_report(CommandLine& line) {
   std::vector<std::string> compared;
   std::string to;
   line.option("--from", from, "the results folder; default: results");
-  line.option("--compare", compared, "two results folders, A B: what differs between them");
+  line.option("--compare", compared, "two results folders, A B: compare them");
   line.option("--to", to, "the page; default: report.html in the results folder, or comparison.html");
   parse_with_libraries(line);
   if (!compared.empty() && !from.empty()) throw Error("--from and --compare exclude each other; leave one out");

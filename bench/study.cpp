@@ -1,4 +1,4 @@
-// Everything about one problem: motion, orders, what is preserved, minima, figures, and a report of it.
+// Everything about one problem: motion, orders, invariants, minima, figures, and a report.
 #include <filesystem>
 #include <string>
 #include <vector>

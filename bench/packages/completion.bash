@@ -1,9 +1,9 @@
-# Completion of bash for dmocbench: the experiments, behind one of them its options, both as --help lists them, and the values
+# Completion of bash for dmocbench: the experiments, then the options of an experiment, both as --help lists them, and values
 # of options that take names.
 
 _dmocbench() {
   local word=${COMP_WORDS[COMP_CWORD]} program=${COMP_WORDS[0]} option="" before="" choices matches
-  # A list a,b,... is completed behind its last comma; an "=" is a word of its own.
+  # A list a,b,... is completed after its last comma; an "=" is a separate word.
   if [[ $word == *,* ]]; then before=${word%,*},; fi
   [[ $COMP_CWORD -ge 1 ]] && option=${COMP_WORDS[COMP_CWORD - 1]}
   if [[ $option == "=" && $COMP_CWORD -ge 2 ]]; then option=${COMP_WORDS[COMP_CWORD - 2]}; fi

@@ -1,6 +1,6 @@
 # Debian packages: `cpack -G DEB` in the build folder makes `dmocbench`, the program with its figures, `python3-dmocbench`,
-# the package for Python, and `libdmocbench-dev`, what programs are compiled with. What belongs to a package is what
-# `cmake --install` installs of a component; man pages and what Debian asks of every package are added by `complete_debian`.
+# the package for Python, and `libdmocbench-dev`, headers and libraries for compiling programs. A package contains the files
+# that `cmake --install` installs for a component; `complete_debian` adds man pages and files that Debian requires.
 include_guard(GLOBAL)
 
 set(CPACK_PACKAGE_NAME dmocbench)
@@ -66,7 +66,7 @@ State an optimal control problem of a mechanical system as a Python class,
 solve it by DMOC and by collocation at the speed of C++, with numpy arrays
 as answers, and compare the methods by the experiments of dmocbench.")
 
-# The static libraries bring nothing with them: linking them needs the libraries they were compiled with.
+# The static libraries have no dependencies included: linking them needs the libraries they were compiled with.
 set(adolc)
 get_property(with_adolc GLOBAL PROPERTY DMOCBENCH_WITH_ADOLC)
 if(with_adolc)

@@ -9,7 +9,7 @@
 namespace dmocbench {
 
 /// Five questions about the methods, each answered in a sentence by the claims that a run has judged, with the
-/// measurements for each problem and the verdicts; empty where none of these claims was judged.
+/// measurements for each problem and the verdicts; empty if these claims were not judged.
 [[nodiscard]] std::string answers_html(const ResultsFolder& results);
 
 /// A verdict as a small label.

@@ -53,7 +53,7 @@ std::map<std::pair<std::string, std::size_t>, const Row*> rows_by_key(const Tabl
 
 bool is_count(const std::string& text) { return parsed<long long>(text).has_value(); }
 
-/// Times of rounds; none where the field holds something else.
+/// Times of rounds; empty if the field holds something else.
 std::vector<double> times_in(const Row& row) {
   try {
     return row.numbers("round_seconds");
@@ -65,7 +65,7 @@ std::vector<double> times_in(const Row& row) {
 }  // namespace
 
 PairedRows paired_rows(const Table& first, const Table& second) {
-  std::vector<std::string> columns;  // a column that only one of them has identifies nothing
+  std::vector<std::string> columns;  // a column that only one of them has cannot identify rows
   std::ranges::copy_if(first.columns(), std::back_inserter(columns), [&second](const std::string& column) {
     return std::ranges::count(second.columns(), column) > 0;
   });

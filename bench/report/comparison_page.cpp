@@ -139,8 +139,8 @@ std::string counts_section(const ComparedRun& first, const ComparedRun& second) 
         shown.empty() ? std::string() : cells("counts in " + before->file, {"row", "column", "A", "B"}, shown));
   }
   return fmt::format(
-             "<section id=\"counts\"><h2>Counts</h2>\n<p>Whole numbers, statuses and verdicts in rows that are about "
-             "the same. {} none that differ.</p>\n",
+             "<section id=\"counts\"><h2>Counts</h2>\n<p>Whole numbers, statuses and verdicts in corresponding rows. "
+             "{} no differences.</p>\n",
              counted(same, "table has", "tables have")) +
          html + "</section>\n";
 }

@@ -12,7 +12,7 @@ struct ComparedRun {
   ResultsFolder results;
 };
 
-/// Two results folders side by side as one page of HTML that needs nothing else: claims whose verdict changed, times
+/// Two results folders side by side as one self-contained page of HTML: claims whose verdict changed, times
 /// with their intervals, counts and statuses that differ, and items that only one of them has.
 [[nodiscard]] std::string comparison_page(const ComparedRun& first, const ComparedRun& second);
 

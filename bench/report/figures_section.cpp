@@ -61,7 +61,7 @@ std::string figures_section(const ResultsFolder& results) {
       const std::string id = anchor("figure", figure->name);
       const std::string name = escaped(in_words(figure->name));
       index += fmt::format("<a href=\"#{}\">{}</a> ", id, name);
-      // Browsers run no script of an image and fetch nothing for it, so any SVG may stand there.
+      // Browsers neither run scripts of an image nor fetch files for it, so any SVG is safe here.
       figures += fmt::format(
           "<figure id=\"{0}\"><img alt=\"{1}\" src=\"data:image/svg+xml;base64,{2}\"><figcaption>{1}</figcaption>"
           "</figure>\n",

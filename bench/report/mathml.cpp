@@ -230,8 +230,7 @@ class Typesetter {
     }
   }
 
-  /// Parameters stand first, then variables, then sums, and functions last, to show clearly what they are applied
-  /// to.
+  /// Parameters come first, then variables, then sums, and functions last, so that their arguments are clear.
   [[nodiscard]] int rank(const Factor& factor) const {
     const Schedule::Step& step = steps_[factor.base];
     if (step.operation == Operation::input) return step.input_index < parameters_ ? 0 : 1;
@@ -271,7 +270,7 @@ class Typesetter {
       if (factor.exponent < 0.0) below.push_back({factor.base, -factor.exponent});
     }
     if (below.empty()) return row_of(product.coefficient, above);
-    // A number before the fraction, unless nothing else stands above.
+    // A number before the fraction, unless the numerator has no other factor.
     if (above.empty())
       return fmt::format("<mfrac>{}{}</mfrac>", mathml_of_number(product.coefficient), part_of_fraction(below));
     std::string fraction = fmt::format("<mfrac>{}{}</mfrac>", part_of_fraction(above), part_of_fraction(below));

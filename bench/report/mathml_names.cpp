@@ -30,7 +30,7 @@ bool is_number(std::string_view word) {
          std::ranges::all_of(word, [](unsigned char letter) { return letter >= '0' && letter <= '9'; });
 }
 
-/// The parts before and after the last underscore; nothing after if there is none.
+/// The parts before and after the last underscore; the second part is empty without an underscore.
 std::pair<std::string_view, std::string_view> base_and_index(std::string_view name) {
   const std::size_t bar = name.rfind('_');
   if (bar == std::string_view::npos || bar == 0 || bar + 1 == name.size()) return {name, {}};
@@ -49,7 +49,7 @@ struct Fraction {
 
 constexpr double rounding = 4e-16;  // relative
 
-/// The fraction of small numbers that is the value, to rounding; none if there is none.
+/// The fraction of small numbers that equals the value up to rounding, if there is one.
 std::optional<Fraction> fraction_of(double value) {
   constexpr double largest = 9999.0;
   for (const int denominator : {1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 14, 15, 16, 24, 32}) {

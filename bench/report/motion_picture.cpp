@@ -26,7 +26,7 @@ struct MovingPoint {
   std::string name;
   std::vector<double> x;
   std::vector<double> y;
-  bool is_at_rod = false;  ///< it keeps its distance from the point before (the origin if there is none)
+  bool is_at_rod = false;  ///< it keeps its distance from the previous point (from the origin if it is the first)
 };
 
 /// The most instants of a motion that are drawn.
@@ -41,7 +41,7 @@ std::vector<double> column_of(const Table& table, const std::string& column) {
   return values;
 }
 
-/// The column of the other coordinate: y, or else z; none if there is none.
+/// The column of the other coordinate: y, or else z, if there is one.
 std::optional<std::string> partner_of(const std::string& column, const std::string& name, const Table& picture) {
   for (const char other : {'y', 'z'}) {
     std::string partner = column;
@@ -51,7 +51,7 @@ std::optional<std::string> partner_of(const std::string& column, const std::stri
   return std::nullopt;
 }
 
-/// True if `to` keeps its distance from another point (the origin if there is none) all the time: there is a rod.
+/// True if `to` always keeps its distance from another point (from the origin if it is null): there is a rod.
 bool is_rod(const MovingPoint* from, const MovingPoint& to) {
   double least = infinity;
   double largest = 0.0;
@@ -217,7 +217,8 @@ struct Strips {
   [[nodiscard]] double bottom() const { return static_cast<double>(count) * (height + gap); }
 };
 
-/// The finite numbers of a column: least and largest of all motions; the least is above the largest if there are none.
+/// The least and largest finite number of a column in all motions; without finite numbers the least is above the
+/// largest.
 std::pair<double, double> range_of(const std::vector<const ReportedMotion*>& motions, const std::string& column) {
   std::pair<double, double> range{infinity, -infinity};
   for (const ReportedMotion* motion : motions) {
@@ -228,7 +229,7 @@ std::pair<double, double> range_of(const std::vector<const ReportedMotion*>& mot
   return range;
 }
 
-/// Adds a strip with a quantity of all motions; nothing where it does not change.
+/// Adds a strip with a quantity of all motions, unless it is constant.
 void add_strip(Strips& strips, const std::vector<const ReportedMotion*>& motions, const std::string& column) {
   const auto [least, largest] = range_of(motions, column);
   if (!(largest > least)) return;

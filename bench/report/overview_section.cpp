@@ -84,7 +84,7 @@ std::string warnings_html(const ResultsFolder& results) {
   return html;
 }
 
-/// Seconds since 1970 of "2026-11-23T14:22:57Z"; none if it is something else.
+/// Seconds since 1970 of "2026-11-23T14:22:57Z"; empty if the text has another form.
 std::optional<long long> seconds_of(const std::string& utc_time) {
   std::tm time{};
   std::istringstream text(utc_time);
@@ -101,7 +101,7 @@ std::string duration_in_words(double seconds) {
                                                        : fmt::format("{:.1f} minutes", seconds / seconds_per_minute);
 }
 
-/// Seconds since 1970 when the last of all runs ended; none if a duration is missing.
+/// Seconds since 1970 when the last of all runs ended; empty if a duration is missing.
 std::optional<double> last_end(const ResultsFolder& results) {
   std::optional<double> last;
   for (const ReportedRun& run : results.runs) {
@@ -142,7 +142,7 @@ std::string comparison_html(const ResultsFolder& results) {
                      counted(results.figures.size(), "figure"), counted(results.claims.rows().size(), "claim"));
 }
 
-/// Links to what the page holds.
+/// Links to the sections of the page.
 std::string contents_html(const ResultsFolder& results) {
   std::vector<std::string> links;
   const auto add = [&links](bool is_there, std::string_view id, std::string_view words) {

@@ -26,8 +26,8 @@ std::string page_of(const std::string& title, const std::vector<std::pair<std::s
     navigation += fmt::format("<a href=\"#{}\">{}</a>\n", id, escaped(name));
     content += section;
   }
-  // Nothing is fetched from anywhere and no script runs but the page's own, whatever a table or a figure holds.
-  // Browsers hash all that stands between the tags of the script.
+  // The page fetches no files and runs only its own script, regardless of the content of tables and figures. Browsers
+  // hash the whole text between the tags of the script.
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

@@ -22,7 +22,7 @@ struct ReachedOptimum {
 /// other minima by more.
 inline constexpr double near_enough = 0.01;
 
-/// The lowest cost of a problem in all solved rows; none if nothing was solved.
+/// The lowest cost of a problem in all solved rows; empty if there are no solved rows.
 [[nodiscard]] std::optional<double> lowest_cost(const ResultsFolder& results, const std::string& problem);
 
 /// The methods that tried a problem, in the order of their names. Runs that set parameters are left out: their optimum

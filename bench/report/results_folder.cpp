@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder, const std::string& ending) {
   std::vector<std::filesystem::path> files;
-  std::error_code none;  // a folder that is not there has none
+  std::error_code none;  // a missing folder has no files
   for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
     const std::filesystem::path& path = entry.path();
     if (path.extension() == ending && !path.filename().string().starts_with('.')) files.push_back(path);
@@ -28,7 +28,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
   return files;
 }
 
-/// The motions that a run has written, by its metadata; nothing where they name none.
+/// The motions that a run has written, according to its metadata; may be empty.
 Json motions_of(const ReportedRun& run) {
   Json motions = run.metadata.value("motions", Json::array());
   if (!motions.is_array()) return Json::array();

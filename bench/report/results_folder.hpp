@@ -20,7 +20,7 @@ struct ReportedRun {
 /// A table of a results folder.
 struct ReportedTable {
   std::string file;  ///< without folder
-  std::string run;   ///< the run whose metadata describe it; empty if none do
+  std::string run;   ///< the run whose metadata describe it; may be empty
   Table table;
 };
 
@@ -43,16 +43,16 @@ struct ResultsFolder {
   std::vector<ReportedTable> tables;
   std::vector<ReportedFigure> figures;
   std::vector<ReportedMotion> motions;
-  Table claims;                     ///< no rows if nothing has been judged
+  Table claims;                     ///< no rows if no claims were judged
   Table claim_rows;                 ///< by which rows of which tables: claim, table, records, columns
   std::vector<std::string> faults;  ///< files that cannot be shown, a sentence each
 
-  /// The metadata of a run; null if there are none.
+  /// The metadata of a run, or null.
   [[nodiscard]] const nlohmann::ordered_json* metadata_of(const std::string& run) const;
 };
 
-/// Reads a folder, files in the order of their names. Throws `Error` if there is no such folder, or nothing in it that
-/// a report could show.
+/// Reads a folder, files in the order of their names. Throws `Error` if there is no such folder, or if it has no files
+/// for a report.
 [[nodiscard]] ResultsFolder read_results_folder(const std::filesystem::path& folder);
 
 }  // namespace dmocbench

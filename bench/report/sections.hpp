@@ -6,13 +6,13 @@
 
 namespace dmocbench {
 
-/// The parts of the page, each a <section>; empty where there is nothing to show.
+/// The parts of the page, each a <section>, or empty.
 /// The extent of the comparison, the answer in five sentences, machine, date, and the unsolved cases.
 [[nodiscard]] std::string overview_section(const ResultsFolder& results);
 /// All claims with their verdicts and their evidence.
 [[nodiscard]] std::string claims_section(const ResultsFolder& results);
-/// Every problem of the program: its motions, its statement, its optimum and the methods that reach it; nothing where
-/// no motion was written.
+/// Every problem of the program: its motions, its statement, its optimum and the methods that reach it; empty if no
+/// motion was written.
 [[nodiscard]] std::string gallery_section(const ResultsFolder& results);
 /// Every figure, as an image in the page.
 [[nodiscard]] std::string figures_section(const ResultsFolder& results);

@@ -51,7 +51,7 @@ std::string at(const std::string& name, const std::string& time) {
   return fmt::format(R"(<mrow>{}<mo stretchy="false">(</mo>{}<mo stretchy="false">)</mo></mrow>)", name, time);
 }
 
-/// A letter for every parameter that varies: the usual one if nothing else has it.
+/// A letter for every parameter that varies: the usual one if it is free.
 std::vector<StatedProblem::Letter> letters_of(const Problem& problem, const std::vector<std::string>& varying,
                                               std::vector<std::string> taken) {
   std::vector<StatedProblem::Letter> letters;
@@ -65,7 +65,7 @@ std::vector<StatedProblem::Letter> letters_of(const Problem& problem, const std:
   return letters;
 }
 
-/// What bounds say behind a formula.
+/// The relation to bounds after a formula.
 std::string relation(double lower, double upper) {
   const auto number = [](double value) { return fmt::format("<mn>{:g}</mn>", value); };
   if (lower == upper) return "<mo>=</mo>" + number(lower);

@@ -11,7 +11,7 @@ namespace dmocbench {
 struct StatedFormula {
   std::string name;
   Expression value;
-  std::string relation;  ///< the condition on the value, as MathML: "≥ 0"; empty if nothing does
+  std::string relation;  ///< the condition on the value, as MathML: "≥ 0"; may be empty
 };
 
 /// A problem's formulas as it states them, traced, with the parameters that may vary as letters and not as numbers.
@@ -31,7 +31,7 @@ struct StatedProblem {
   bool has_final_cost = false;
   /// Φ, where there is one, then the components of r.
   std::vector<StatedFormula> at_ends;
-  /// A letter that names none of the inputs, for parts that formulas share.
+  /// A letter that does not name any input, for parts that formulas share.
   std::string free_letter;
 };
 

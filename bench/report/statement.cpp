@@ -40,7 +40,7 @@ std::string number_html(double value) {
   return mathml_of_number(is_exact(value) ? value : parsed<double>(fmt::format("{:.8g}", value)).value_or(value));
 }
 
-/// The condition on a component: its given value, or its bounds; nothing if it is free.
+/// The condition on a component: its given value, or its bounds; empty if it is free.
 std::string condition_of(const std::string& name, double lower, double upper) {
   const std::string least = number_html(lower);
   if (lower == upper) return math(name + (is_exact(lower) ? "<mo>=</mo>" : "<mo>≈</mo>") + least);

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The meaning of a column in a run's metadata, "[s] median time of a solve"; empty if nothing.
+/// The meaning of a column in a run's metadata, "[s] median time of a solve"; may be empty.
 std::string meaning_of(const Json* metadata, const std::string& file, const std::string& column) {
   if (metadata == nullptr) return "";
   const Json::json_pointer place = Json::json_pointer() / "tables" / file / "meanings" / column;

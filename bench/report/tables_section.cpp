@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The meanings of the columns, to be opened; nothing where they are unknown.
+/// The meanings of the columns in an expandable element; empty if they are unknown.
 std::string meanings_html(const std::vector<std::string>& columns, const Json* metadata, const std::string& file) {
   std::string html;
   for (const std::string& column : columns) {

@@ -18,9 +18,9 @@ namespace {
 /// The Hessian of the Lagrangian of one or more intervals by ADOL-C's driver hess_mat.
 ///
 /// ADOL-C records the formula of ℓ once and differentiates it itself, in the directions of the n local unknowns, all n
-/// in one pass. Multipliers, factor and step are further independent variables, in whose directions nothing is
-/// differentiated. With several intervals on one tape the n directions serve all of them at once, since no interval's ℓ
-/// depends on another's inputs: the compression that a graph colouring would find. (Why this driver: README.md.)
+/// in one pass. Multipliers, factor and step are further independent variables, without directions of
+/// differentiation. With several intervals on one tape the n directions serve all of them at once, since no interval's
+/// ℓ depends on another's inputs: the compression that a graph colouring would find. (Why this driver: README.md.)
 class AdolcHessian {
  public:
   /// `tag` is ADOL-C's number of the tape. Record small tapes before large ones: a small one that is recorded after a

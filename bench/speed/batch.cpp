@@ -189,7 +189,7 @@ void run(benchmark::State& state, const BatchCase& way) {
   set_thread_count(1);
   Instances instances(way.problem, way.start);
   Tally tally;
-  double processor_seconds = 0.0;  // of all threads: other work of the machine takes none of it
+  double processor_seconds = 0.0;  // of all threads: other work of the machine does not count
   for ([[maybe_unused]] auto turn : state) {
     tally = {};
     const std::clock_t clock = std::clock();
@@ -245,7 +245,7 @@ struct BatchTimes : Benchmark {
     for (double& time : times) time *= nanosecond;
     return times;
   }
-  /// Solves a second; filling a batch solves nothing.
+  /// Solves per second; filling a batch does not count as a solve.
   [[nodiscard]] std::optional<double> rate(const std::optional<double>& seconds) const {
     return label("way") == "fill" || !seconds ? std::nullopt : std::optional(1.0 / *seconds);
   }

@@ -16,9 +16,9 @@ struct Benchmark {
   /// Times in nanoseconds, whatever the file's unit, and counters; NaN for a number that is not finite.
   std::map<std::string, std::vector<double>, std::less<>> numbers;
 
-  /// Empty if there is none.
+  /// Empty if there is no such label.
   [[nodiscard]] std::string label(std::string_view key) const;
-  // The median of a number's repetitions; none if the benchmark does not have it.
+  // The median of a number's repetitions; empty if the benchmark does not have it.
   [[nodiscard]] std::optional<double> median_of(std::string_view number) const;
   [[nodiscard]] std::optional<double> smallest_of(std::string_view number) const;
 };

@@ -75,8 +75,8 @@ bool initialize(const BenchmarkProgram& program, const char* file, const std::ve
   return !benchmark::ReportUnrecognizedArguments(count, pointers.data());
 }
 
-/// Runs the benchmarks chosen by the flags and writes their tables. False if they choose none; the library has then
-/// reported it.
+/// Runs the benchmarks chosen by the flags and writes their tables. False if no benchmark is chosen; the library has
+/// then reported it.
 bool run_and_write(const BenchmarkProgram& program, const std::filesystem::path& csv,
                    const std::vector<std::string>& command_line) {
   const nlohmann::ordered_json description = describe_run({});

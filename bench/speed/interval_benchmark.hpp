@@ -44,7 +44,7 @@ struct IntervalBenchmark {
   std::string quantity = {};  ///< "residual", "jacobian", "hessian", "separate", ...
   Formulas formulas;
   bool names_method = false;         ///< where there are other methods and stages than the midpoint rule of DMOC
-  std::string instruction_set = {};  ///< empty: none of its own
+  std::string instruction_set = {};  ///< empty: the program's
 };
 
 /// Operations and memory traffic of an evaluation, per interval.

@@ -23,7 +23,7 @@ struct MemoryLevel {
   std::size_t triad_size = 0;  ///< bytes of the three arrays by which its rate is measured
 };
 
-/// The value that the system reports, or a common size where it reports none.
+/// The value that the system reports, or else a common size.
 std::size_t size_or(int name, std::size_t common) {
   const long told = ::sysconf(name);
   return told > 0 ? static_cast<std::size_t>(told) : common;

@@ -38,7 +38,7 @@ struct RepeatedSolve {
 constexpr double microseconds = 1e6;  // of a second
 
 /// A program with a start. A cold one is the problem's guess; a warm one is the motion, with its multipliers, that is
-/// optimal for an end state of which every entry that is not zero is by one percent smaller, moved to the ends.
+/// optimal for an end state whose nonzero entries are smaller by one percent, moved to the ends.
 struct StartedProgram {
   GuessedProgram made;
   Eigen::VectorXd start;

@@ -43,7 +43,7 @@ class TwoLinkManipulatorBounded final : public TwoLinkManipulator {
   }
 };
 
-/// A line "NAME:   1234 kB" of the kernel's report on this process, in bytes; none where the system does not report it.
+/// A line "NAME:   1234 kB" of the kernel's report on this process, in bytes; empty if the system does not report it.
 std::optional<double> bytes_of(const std::string& name) {
   std::ifstream report("/proc/self/status");
   for (std::string word; report >> word;) {
@@ -75,8 +75,8 @@ std::unique_ptr<Solver> make_solver_of(const SolveCase& solve) {
   return make_solver(solve.solver, options);
 }
 
-/// The peak memory of this process while a program was made and solved, less the memory before; none
-/// where the system does not report it.
+/// The peak memory of this process while a program was made and solved, less the memory before; empty if the system
+/// does not report it.
 ///
 /// Memory that others freed before is handed back to the system first, so that it does not hide memory taken again;
 /// pages that the heap cannot hand back do hide some hundred kilobytes. The solve is one of its own, which is not

@@ -44,7 +44,7 @@ struct Roof {
 /// An evaluation of an interval.
 struct Evaluation : Benchmark {
   double time = 0.0;                        ///< nanoseconds
-  std::optional<Roof> roof = std::nullopt;  ///< none where a benchmark that it takes did not run
+  std::optional<Roof> roof = std::nullopt;  ///< empty if a required benchmark did not run
 
   Evaluation(const Benchmark& benchmark, const std::vector<Benchmark>& machine)
       : Benchmark(benchmark), time(median_of(ns_per_interval).value_or(0.0)) {

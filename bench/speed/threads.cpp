@@ -1,5 +1,5 @@
 // The gain of further threads: whole solves of long horizons on one thread and on several, compared with the machine's
-// gain where nothing is shared. `page` turns the result into threads.md.
+// gain for independent work. `page` turns the result into threads.md.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

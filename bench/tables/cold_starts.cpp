@@ -23,7 +23,7 @@ bool was_no_motion(const Row& row) { return is_no_motion(status_named(row.text("
 
 /// The cost by which answers count as the best.
 struct BestCost {
-  std::optional<double> cost;  ///< none if nothing is confirmed
+  std::optional<double> cost;  ///< empty if no answer is confirmed
   const char* kind = "none";
 
   BestCost(const Selection& grid, double tolerance) {

@@ -53,8 +53,8 @@ std::vector<GridError> errors_of(const Selection& rows, const std::string& colum
   return errors;
 }
 
-/// The median of the errors on the finest grids, where they fall with less than order 1/2 on the whole; none if there
-/// are no two such grids.
+/// The median of the errors on the finest grids, where they fall with less than order 1/2 on the whole; empty if there
+/// are less than two such grids.
 std::optional<double> measured_floor(const std::vector<GridError>& errors, double reference) {
   constexpr double order_of_noise = 0.5;
   const std::vector<double> orders = neighbouring_orders(errors, reference);
@@ -133,7 +133,7 @@ long long intervals_of(const Row& grid) { return static_cast<long long>(grid.num
 long long finest_of(const Selection& grids) { return intervals_of(grids.back()); }
 long long coarsest_of(const Selection& grids) { return intervals_of(grids.front()); }
 
-/// A curve with the order of one of its quantities; none unless the verdict is "slope".
+/// A curve with the order of one of its quantities; empty unless the verdict is "slope".
 struct FittedCurve {
   Row head;
   std::string quantity;
@@ -157,13 +157,11 @@ Columns<FittedCurve> order_columns() {
              {"finest", "", "largest number of intervals used", from(&Curve::fitted, &Fit::grids, finest_of)},
              {"coarsest", "", "smallest number of intervals used", from(&Curve::fitted, &Fit::grids, coarsest_of)},
              {"coarse_end", "",
-              "why no coarser grid is used: grids (there is none), orders (they differ by more than 0.2), range "
-              "(--fit)",
+              "why no coarser grid is used: grids (all are used), orders (they differ by more than 0.2), range (--fit)",
               from(&Curve::fitted, &Fit::coarse_end)},
              {"fine_end", "", "why no finer grid is used: the same, or floor", from(&Curve::fitted, &Fit::fine_end)},
              {"points", "", "number of grids used", from(&Curve::fit, &Fit::grids, &Selection::size)},
-             {"floor", "", "error at which rounding begins; empty where none was measured",
-              from(&Curve::fit, &Fit::floor)},
+             {"floor", "", "error at which rounding begins; empty if not measured", from(&Curve::fit, &Fit::floor)},
              {"verdict", "",
               "slope; floor (rounding leaves too few grids), few grids, or unsteady (no four grids agree)",
               from(&Curve::fit, &Fit::verdict)},

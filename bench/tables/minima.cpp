@@ -61,7 +61,7 @@ std::size_t unconfirmed_of(const std::vector<Selection>& minima, const std::stri
   return count;
 }
 
-/// The lowest minimum that is a motion; the end if there is none.
+/// The lowest minimum that is a motion, or the end.
 auto best_of(const std::vector<Selection>& minima) { return std::ranges::find_if(minima, is_motion); }
 
 /// A minimum among the answers of all methods, and the answers that ended there.

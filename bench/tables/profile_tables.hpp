@@ -29,9 +29,9 @@ namespace dmocbench {
 inline constexpr const char* stated_reference = "stated by the problem";
 inline constexpr const char* best_found_reference = "best found by any method here";
 
-/// The rows, with a reference for problems that state none: the lowest cost of their solved rows on the finest grid
-/// that has any. `reference_objective`, `reference_kind`, `objective_error` and `success` follow from it; success
-/// is a solve within `tolerance` of it, relative. Problems that nothing solves stay as they are.
+/// The rows, with a reference for problems without a stated one: the lowest cost of their solved rows on the finest
+/// grid with solved rows. `reference_objective`, `reference_kind`, `objective_error` and `success` follow from it;
+/// success is a solve within `tolerance` of it, relative. Problems without solved rows are unchanged.
 [[nodiscard]] Table with_best_found_references(const Table& rows, double tolerance);
 
 /// The costs that every method reaches on every problem, at the finest grid of the rows, in their order.

@@ -16,7 +16,7 @@ struct ErrorCostPoint {
   double cost = 0.0;
 };
 
-/// The cost of a row; none where it has no value.
+/// The cost of a row; empty if it is missing.
 using Cost = std::function<std::optional<double>(const Row&)>;
 /// The cost that stands in a column.
 [[nodiscard]] Cost cost_in(const std::string& column);
@@ -26,7 +26,7 @@ using Cost = std::function<std::optional<double>(const Row&)>;
                                                             const Cost& cost);
 
 /// The cost at which a curve reaches an error: the cost of the first point whose error has the same logarithm to within
-/// `same_log_error`, else by straight lines in logarithms between the points; none outside of them.
+/// `same_log_error`, else by straight lines in logarithms between the points; empty outside of them.
 [[nodiscard]] std::optional<double> cost_at_error(const std::vector<ErrorCostPoint>& points, double error,
                                                   double same_log_error = 0.0);
 

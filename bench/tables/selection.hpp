@@ -34,8 +34,8 @@ class Selection {
   [[nodiscard]] auto end() const noexcept { return rows_.end(); }           ///< past the last row
   [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }  ///< number of rows
   [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }       ///< whether there is no row
-  [[nodiscard]] const Row& front() const;  ///< the first row; one without fields if there is none
-  [[nodiscard]] const Row& back() const;   ///< the last row; one without fields if there is none
+  [[nodiscard]] const Row& front() const;  ///< the first row; a row without fields if the selection is empty
+  [[nodiscard]] const Row& back() const;   ///< the last row; a row without fields if the selection is empty
 
   /// Adds a row at the end.
   void append(const Row& row) { rows_.emplace_back(row); }
@@ -74,9 +74,9 @@ class Selection {
     for (const Row& row : rows_) largest = std::max(largest, value(row));
     return largest;
   }
-  /// The largest number of a column; -∞ without rows. Throws `Error` if a row has none.
+  /// The largest number of a column; -∞ without rows. Throws `Error` if a row lacks the number.
   [[nodiscard]] double max(const std::string& column) const;
-  /// The smallest number of a column; ∞ without rows. Throws `Error` if a row has none.
+  /// The smallest number of a column; ∞ without rows. Throws `Error` if a row lacks the number.
   [[nodiscard]] double min(const std::string& column) const;
 
   /// The rows in words, with a separator between them.
@@ -94,7 +94,7 @@ class Selection {
 /// A row with the fields of another in some columns.
 [[nodiscard]] Row fields_of(const Row& row, const ColumnNames& columns);
 
-/// a / b; none if one of them is missing or b is not positive.
+/// a / b; empty if one of them is missing or b is not positive.
 [[nodiscard]] std::optional<double> ratio(const std::optional<double>& a, const std::optional<double>& b);
 
 }  // namespace dmocbench
