@@ -1,5 +1,5 @@
-# Equal solutions of DMOC and Hamiltonian collocation, other ones of tangent-space collocation (th:equi); what solved
-# multipliers leave in the adjoint Runge-Kutta scheme (th:orderapp); and the residuals of the two forms of the control
+# Equal solutions of DMOC and Hamiltonian collocation, other ones of tangent-space collocation (th:equi); residuals of solved
+# multipliers in the adjoint Runge-Kutta scheme (th:orderapp); and the residuals of the two forms of the control
 # Lagrangian at the solutions of all methods; over the number of intervals.
 #   gnuplot -e "results='results'" plots/equivalence.gp
 plots = system("dirname '".ARG0."'")
@@ -63,7 +63,7 @@ do for [problem_word in problems_of(name, "")] {
     eval end_figure(kind, problem."_equivalence")
 
     eval begin_figure(kind, problem."_adjoint", 620)
-    figure_title = title_text(problem_label(problem).": what solved multipliers leave in the adjoint Runge-Kutta scheme",\
+    figure_title = title_text(problem_label(problem).": residual of the multipliers in the adjoint Runge-Kutta scheme",\
         "Paper: section 3.5, th:orderapp, eq:stateco5 to eq:stateco9. ".conditions(name).", then Newton steps to rounding.",\
         "Triangles: the same multipliers with the coefficients of both costates not exchanged; for Gauss they are equal.")
     eval panels(1, 1, 95, 265, 80, 0, 0)

@@ -1,5 +1,5 @@
 # Minor iterations of the SQP method over the number of intervals: fig:kepler_iterations and fig:twolink_iterations; and
-# what collocation costs in multiples of DMOC, in every count.
+# the cost of collocation in multiples of DMOC's, in every count.
 #   gnuplot -e "results='results'" plots/iterations.gp
 # Reads iterations.csv with its ratios, iterations_limited_memory.csv with its ratios if they are there; the last figure
 # iterations_common_ratios.csv if it is there, else iterations_ratios.csv.
@@ -102,7 +102,7 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_savings", 640)
-    figure_title = title_text(problem_label(problem).": what collocation takes, in multiples of DMOC",\
+    figure_title = title_text(problem_label(problem).": cost of collocation in multiples of DMOC’s",\
         for_paper(problem, "Paper, section 4.2.1: 1.7 in minor iterations, 5/3 in variables (DMOC has 3/5 of them)",\
             "Paper, section 4.2.2: 1.5 in minor iterations, 3/2 in variables (DMOC has 2/3 of them)")\
         ."Dashed: the paper’s 1.".(problem eq "orbital_transfer" ? "7" : "5").". ".\

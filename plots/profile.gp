@@ -91,7 +91,7 @@ problems = system(rows_awk("-v branches=any -v take=all -v distinct=problem", "p
 with_points = system(rows_awk(met." -v distinct=problem", "profile"))
 without_reference = system(rows_awk("-v branches=any -v take=all -v without=reference_objective -v distinct=problem",\
     "profile"))
-# Panels of a figure: so many in a line, so many lines; the figures behind the first have a number.
+# Panels of a figure: the number per row and of rows; figures after the first have a number.
 columns = 3
 lines = 4
 pages = (words(problems) + columns * lines - 1) / (columns * lines)
@@ -126,7 +126,7 @@ do for [page = 1:pages] { do for [kind in kinds] {
   bottom = 75 + 20 * ((count + 1) / 2)
   eval begin_figure(kind, page_name(page), 160 + bottom + 210 * lines_here)
   figure_title = title_text(\
-      "What an accurate cost takes on every problem of the library", timed_conditions("profile").".",\
+      "Effort for an accurate cost on every problem of the library", timed_conditions("profile").".",\
       "Each line goes over the grids, coarsest first; only solves that met the reference's cost are drawn.".left_out)
   eval panels(lines_here, columns, 85, 20, bottom, 60, 75)
   do for [p = first:last] {

@@ -160,7 +160,7 @@ set grid xtics ytics linecolor rgb "#DADADA" linewidth 1 dashtype 1
 set key reverse Left samplen 3.5 spacing 1.25 width 1 noautotitle font ",13"
 set style fill solid 1.0 noborder
 # Title: what is drawn in bold, and remarks below; empty ones are left out, long ones go over several lines. A title
-# asserts nothing: what came out stands in legends, as numbers of the tables. Remarks hold no indices by _ or ^, which would
+# makes no claim: results are in legends, as numbers of the tables. Remarks hold no indices by _ or ^, which would
 # be smaller than the smallest text.
 remark(line) = strlen(line) == 0 ? "" : "\n{/*0.8 ".wrapped(line, 107, "}\n{/*0.8 ")."}"
 title_text(title, first, second) = "{/:Bold ".wrapped(title, 76, "}\n{/:Bold ")."}".remark(first).remark(second)
@@ -195,7 +195,7 @@ set_range(axis, low, high, factor) = sprintf("set %srange [%.6g:%.6g]", axis, lo
 error_of(name) = "max_k |".name."_k − ".name."_{ref}(t_k)|"
 
 # To be evaluated: lines and columns of panels below `figure_title`, with room in pixels: for the labels left of the first and
-# right of the last panel, for what stands below them, and between two panels next to and above each other.
+# right of the last panel, for text below them, and between two panels next to and above each other.
 panels(lines, columns, left, right, bottom, between, above) = sprintf("set multiplot layout %d, %d title figure_title\
     offset 0, 0.3 margins %g, %g, %g, %g spacing %g, %g", lines, columns, across(left), 1 - across(right), upwards(bottom),\
     1 - upwards(22.5 * lines_in(figure_title) + 44), across(between), upwards(above))

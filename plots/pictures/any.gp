@@ -4,7 +4,7 @@ eval require(nodes, "t")
 eval require(stages, "t")
 eval plain_axes
 quantities = motion."_quantities"
-# Fields of the table of quantities, as awk has them: what means something to a shell is no part of a name.
+# Fields of the table of quantities, as awk has them: characters with a meaning in a shell cannot be part of a name.
 fields_of(program) = system("awk -F, 'NR > 1 { gsub(/[^A-Za-z0-9_,^\\/ .+-]/, \"_\"); ".program." }' '".table(quantities)."' 2>/dev/null")
 has_quantities = exists_table(quantities)
 header(name, stop) = system("head -n 1 '".table(name)."' | awk -F, '\
@@ -35,7 +35,7 @@ do for [p = 1:words(panels)] {
   panel = word(panels, p)
   names = columns_of(panel)
   set ylabel with_unit(kind_label(panel), unit_of(panel))
-  # Bounds near what is drawn; others would hide it.
+  # Bounds near the curves; others would compress them.
   low = 1e300; high = -1e300
   do for [i = 1:words(names)] {
     stats table(table_of(panel)) using (column("t")):(column(word(names, i))) name "S" nooutput
