@@ -35,7 +35,7 @@ struct ErrorEstimate {
 /// The error of an answer by its differences from an earlier one, on the same nodes with fewer stages or on a grid of
 /// which every interval was halved: an upper bound if the later answer is at least twice as accurate. `relative` counts
 /// the horizon too; there are differences of q and p at the nodes of the earlier answer, and no `defects`. It needs
-/// nothing of the problem: horizon, ends and active bounds are free to be what they are.
+/// no assumption on the problem: horizon, ends and active bounds may be of any kind.
 [[nodiscard]] ErrorEstimate error_by_comparison(const Transcription& program, const Trajectory& earlier,
                                                 const Trajectory& later);
 

@@ -13,7 +13,7 @@ namespace dmocbench {
 
 namespace {
 
-/// What the integral constraints add to the integrand of the cost.
+/// The contribution of the integral constraints to the integrand of the cost.
 Expression priced_integrals(const TracedProblem::Values& values, const Trajectory& trajectory) {
   if (trajectory.integral_prices.size() != values.integrands.size()) {
     throw Error("the control Hamiltonian needs the prices of the integral constraints: a solver with multipliers");

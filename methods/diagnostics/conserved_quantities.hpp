@@ -30,7 +30,7 @@ struct MomentumConsistency {
 
 /// The momentum of the costates, ψ_q·ξ(q) - ψ_p·Dξ(q)ᵀp at the nodes: the action of the group on phase space, paired
 /// with ψ. Noether's theorem of the optimal control problem: it is constant along an optimum where L, f and the cost
-/// are all invariant (`Problem::symmetry` asks less).
+/// are all invariant (`Problem::symmetry` requires less).
 struct CostateMomentum {
   Eigen::VectorXd values;  ///< N + 1 entries
   double spread = 0.0;     ///< max - min of them, relative to the largest sum of magnitudes of the terms at a node

@@ -151,9 +151,9 @@ std::atomic<std::size_t> count_that_was_set{0};  // 0 until it is
 
 std::mutex team_is_in_use;
 
-/// The team of this process. A process that was forked has none of its parent's threads, and must not even touch the
-/// data behind them: it gets a team of its own, and the parent's is left where it is. No team is destroyed at the end:
-/// a child that made none would wait for threads of another process.
+/// The team of this process. A forked process has none of its parent's threads, and must not even touch their data: it
+/// gets its own team, and the parent's team is left in place. Teams are never destroyed: a child without its own team
+/// would wait for threads of another process.
 WorkerTeam& team_of(std::size_t helpers) {
   static WorkerTeam* team = nullptr;
   static pid_t process = 0;

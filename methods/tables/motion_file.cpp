@@ -93,8 +93,8 @@ Table series_table(const std::string& time, const Eigen::VectorXd& times, const 
   return table;
 }
 
-/// The controls of a table that has them next to q and v; those of the guess, at the same share of the horizon, where
-/// it has no column of them.
+/// The controls of a table that has them next to q and v; for missing columns the guess's controls at the same share of
+/// the horizon.
 Eigen::MatrixXd controls_at_nodes(const Problem& problem, const Table& nodes, const Eigen::VectorXd& times,
                                   const std::filesystem::path& file) {
   const std::vector<std::string> names = problem.control_names();
@@ -232,7 +232,7 @@ Table quantity_table(const Problem& problem) {
   const ProblemBounds bounds = problem.bounds();
   Table table({"kind", "quantity", "unit", "lower", "upper"});
   table.explain({{"kind", "t, q, u or h, a path constraint"},
-                 {"quantity", "the column of that name in the tables of the motion"},
+                 {"quantity", "the column with this name in the tables of the motion"},
                  {"unit", "as the problem states it; empty where it states none"},
                  {"lower", "its lower bound; empty for none"},
                  {"upper", "its upper bound; empty for none"}});
@@ -294,7 +294,7 @@ bool is_file_of_motion(const std::filesystem::path& file, const std::string& nod
 }
 
 MotionTexts read_motion_texts(const std::filesystem::path& file) {
-  std::error_code none;  // what is not there has no stages next to it
+  std::error_code none;  // a missing file has no stages next to it
   if (!std::filesystem::exists(file, none)) throw Error(fmt::format("there is no file {}", file.string()));
   MotionTexts texts{.nodes = read_file(file), .stages = {}};
   if (!file.string().ends_with("_nodes.csv")) return texts;

@@ -43,11 +43,11 @@ void write_motion(const Problem& problem, const Trajectory& trajectory, const st
 [[nodiscard]] bool is_file_of_motion(const std::filesystem::path& file, const std::string& nodes_file);
 
 /// Reads a motion from a table of the columns `t`, NAME and `v_NAME` per configuration, with costates where it has them
-/// (`node_table`). The controls are those of X_stages.csv next to a file X_nodes.csv if there is one, else the columns
-/// of the file named like them, else those of the guess. The motion is piecewise cubic Hermite in q and v, with
-/// controls linear between their times. Throws `Error` that names the file and what is missing, or where the two tables
-/// are not of one motion from t = 0 on, or it lasts more than ten times as long as the problem's, or less than a tenth
-/// of it.
+/// (`node_table`). The controls are read from X_stages.csv next to a file X_nodes.csv if it exists, else from the
+/// file's columns with their names, else taken from the guess. The motion is piecewise cubic Hermite in q and v, with
+/// controls linear between their times. Throws `Error` that names the file and the missing columns, or if the two
+/// tables are not of one motion from t = 0 on, or if it lasts more than ten times as long as the problem's, or less
+/// than a tenth of it.
 [[nodiscard]] Motion read_motion(const Problem& problem, const std::filesystem::path& file);
 
 /// The texts of the files of a motion.

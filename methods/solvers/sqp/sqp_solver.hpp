@@ -36,8 +36,8 @@ struct SequentialOptions {
 
 /// Sequential quadratic programming with an active-set method that starts each first quadratic program from the slack
 /// basis, as the solver of the paper does: every minor iteration is counted and can be watched
-/// (`SequentialOptions::on_minor_iteration`). README.md in this folder explains minor iterations and what to
-/// expect.
+/// (`SequentialOptions::on_minor_iteration`). README.md in this folder explains minor iterations and their expected
+/// numbers.
 class SqpSolver final : public SolverWithoutMemory {
  public:
   /// Throws `Error` if an option is out of range.
