@@ -23,7 +23,7 @@ class Acrobot : public Problem {
  public:
   Acrobot()
       : Problem({
-            switch_parameter("physical", false, "0: the potential of the PROPT guide, 1: that of mechanics"),
+            switch_parameter("physical", false, "0: the potential of the PROPT guide, 1: the mechanical one"),
             {"friction", 0.1, "N m s", "viscous friction b1 = b2 of the joints", 0.0, 1e2},
             switch_parameter("bounded", true, "1: the torque is at most 10 N m, 0: there is no bound"),
             horizon_parameter(4.0, "swing-up"),

@@ -3,7 +3,7 @@
 #   dmocbench_add_problems(<target> <header> ... [NAMESPACE <name>])
 #
 # Each header states the problem whose class has the header's name in CamelCase (furuta.hpp: Furuta), in no namespace, in
-# dmocbench, or in that of NAMESPACE. The target is an ordinary one: sources and libraries of one's own may be added.
+# dmocbench, or in the namespace NAMESPACE. The target is an ordinary one, to which sources and libraries may be added.
 
 # "PlanarArm" of "planar_arm.hpp", in a variable of the caller.
 function(dmocbench_class_of header variable)
@@ -34,7 +34,7 @@ function(dmocbench_add_problems target)
     dmocbench_class_of(${header} class)
     file(READ ${file} text)
     if(NOT text MATCHES "(class|struct)[ \t\r\n]+${class}[^A-Za-z0-9_]")
-      message(FATAL_ERROR "dmocbench_add_problems(${target}): ${file} has no class ${class}, whose name is that of the header")
+      message(FATAL_ERROR "dmocbench_add_problems(${target}): ${file} has no class ${class}, which must have the header's name")
     endif()
     string(APPEND includes "#include \"${file}\"\n")
     string(APPEND additions "  problems.add<${class}>();\n")
@@ -49,8 +49,8 @@ function(dmocbench_add_problems target)
   configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/problem_library.cpp.in ${source} @ONLY)
   add_library(${target} MODULE ${source} ${problems_UNPARSED_ARGUMENTS})
   target_link_libraries(${target} PRIVATE dmocbench::problem_headers)
-  # The program that loads it has the functions of dmocbench, and only it. What the library defines itself it uses itself:
-  # a class of the same name in the program is another one.
+  # Only the program that loads it has the functions of dmocbench. The library uses its own definitions of its symbols: a
+  # class with the same name in the program is a different one.
   target_link_options(${target} PRIVATE LINKER:-Bsymbolic)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
 endfunction()

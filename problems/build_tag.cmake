@@ -1,6 +1,6 @@
 # cmake -D OUTPUT=<header> -D HEADERS=<pattern>|... -P build_tag.cmake
-# Writes the header that tells which dmocbench this is: a checksum of the headers that problems include. It is left alone
-# where it says so already, so that nothing is compiled anew.
+# Writes the header that identifies this dmocbench: a checksum of the headers that problems include. An up-to-date header is
+# not touched, so that no source is recompiled.
 string(REPLACE "|" ";" patterns "${HEADERS}")
 file(GLOB headers LIST_DIRECTORIES false ${patterns})
 list(SORT headers)

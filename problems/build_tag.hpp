@@ -4,9 +4,9 @@
 #include <dmocbench/version.hpp>
 #include <dmocbench_build_tag.hpp>
 
-// What two builds have to agree in before one may use problems of the other: each entry "name=value;" is one that
-// changes where things lie in memory. A macro, since it has to be one text in the file of a library, where it is read
-// before anything of that library runs.
+// The properties in which two builds must agree before one may use problems of the other: each entry "name=value;"
+// affects the memory layout. A macro, since it has to be one text in the file of a library, where it is read before any
+// code of that library runs.
 // NOLINTBEGIN(cppcoreguidelines-macro-usage)
 #define DMOCBENCH_TEXT_OF(value) #value
 #define DMOCBENCH_TEXT(value) DMOCBENCH_TEXT_OF(value)

@@ -17,8 +17,8 @@ struct OptimalPoint {
 class ClosedForm {
  public:
   virtual ~ClosedForm() = default;
-  /// The optimal motion at time 0 <= t <= T; none if the parameters leave no motion, or one without closed form. Where
-  /// the costate jumps, its value behind the jump.
+  /// The optimal motion at time 0 <= t <= T; empty if the parameters permit no motion, or one without closed form. At a
+  /// jump of the costate, its value after the jump.
   [[nodiscard]] virtual std::optional<OptimalPoint> optimum(double t) const = 0;
 
  protected:

@@ -61,7 +61,7 @@ class DoubleIntegrator : public Problem, public ClosedForm {
     const double s = 0.5 - t / duration;  // antisymmetric about 0
     const double sigma = half_ramp();
     const double slope = peak / sigma;
-    // Behind the ramp, q and v of the constant force that ends at rest; on it the integrals of slope·s.
+    // After the ramp, q and v of the constant force that ends at rest; on it the integrals of slope·s.
     const double magnitude = std::abs(s);
     const bool is_on_ramp = magnitude <= sigma;
     const double rest = 0.5 - magnitude;

@@ -13,7 +13,7 @@ namespace dmocbench {
 ///
 /// q = (r, φ), L = ½(ṙ² + r²φ̇²) + 1/r, f = (0, r u), C = u² as in `OrbitalTransfer`. Nondimensional: length a⁰, the
 /// first semi-major axis, time sqrt(a⁰³/(γM)), mass 1. Both ellipses have their apogee at φ = 0; from the apogee of the
-/// first, after d revolutions, to that of the last, in the time T = 2πd ((a⁰ + a^T)/2)^(3/2). At an apogee r = a(1 +
+/// first, after d revolutions, to the last one's, in the time T = 2πd ((a⁰ + a^T)/2)^(3/2). At an apogee r = a(1 +
 /// e), ṙ = 0, φ̇ = sqrt(a(1 - e²))/r².
 class EccentricTransfer : public Problem {
  public:
@@ -21,7 +21,7 @@ class EccentricTransfer : public Problem {
       : Problem({
             {"initial_eccentricity", 0.8, "", "eccentricity of the first ellipse", 0.0, 0.8},
             {"target_eccentricity", 0.6, "", "eccentricity of the last ellipse", 0.0, 0.8},
-            {"axis_ratio", 1.2, "", "semi-major axis of the last ellipse over that of the first", 0.1, 10.0},
+            {"axis_ratio", 1.2, "", "semi-major axis of the last ellipse over the first one's", 0.1, 10.0},
             {"revolutions", 2.0, "", "revolutions d during the transfer", 1.0, 100.0, true},
         }) {}
 

@@ -30,7 +30,7 @@ class HangingChain final : public Problem {
                            .digits = 14,
                            .certificate = "the catenary through both points, its two numbers by Newton's method",
                            .published = {{5.06891, "COPS 3.0, N = 400"}, {5.068480, "PSOPT, example chain"}},
-                           .remark = "the value of COPS is that of its grid"};
+                           .remark = "the value of COPS belongs to its grid"};
     }
     return card;
   }

@@ -47,7 +47,7 @@ class CircleToCircle : public Problem {
   [[nodiscard]] double cost_scale() const override { return 1e4; }
 
  protected:
-  /// With parameters of a variant's own behind the others.
+  /// With further parameters of a variant after the common ones.
   explicit CircleToCircle(const std::vector<Parameter>& more = {}) : Problem(with_own(more)) {}
 
   /// r⁰ in km.

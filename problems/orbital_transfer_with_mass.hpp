@@ -6,9 +6,9 @@ namespace dmocbench {
 
 /// The orbital transfer of the paper by an engine of given jet power, which makes the satellite lighter.
 ///
-/// y = m, the mass relative to that at the start, with ṁ = -κF² for the thrust u = F: κ = 1/(2P), P the power of the
+/// y = m, the mass relative to the initial one, with ṁ = -κF² for the thrust u = F: κ = 1/(2P), P the power of the
 /// jet, both nondimensional. L = m [½(ṙ² + r²φ̇²) + 1/r]. The jet leaves with the momentum of the satellite, so that
-/// f = (0, r F) + ṁ (ṙ, r²φ̇): what is left of the Euler-Lagrange equations is m times the acceleration against the
+/// f = (0, r F) + ṁ (ṙ, r²φ̇): the Euler-Lagrange equations reduce to m times the acceleration against the
 /// thrust. The mass at the end is free. κ = 0 is `orbital_transfer`.
 class OrbitalTransferWithMass final : public OrbitalTransfer {
  public:

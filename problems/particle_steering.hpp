@@ -48,7 +48,7 @@ class ParticleSteering : public Problem {
   [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
 
   [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector2d::Zero()); }
-  /// The guess of the free x(T) is that of constant acceleration.
+  /// The guess of the free x(T) comes from constant acceleration.
   [[nodiscard]] BoundaryState final_state() const override {
     const double v = parameter("speed");
     return {.q = Eigen::Vector2d(0.5 * v * horizon(), parameter("height")), .v = Eigen::Vector2d(v, 0.0)};
@@ -94,7 +94,7 @@ class ParticleSteering : public Problem {
     if (has_default_parameters()) {
       optimum.published = {{0.554577, "COPS 3.0 and the tests of COPSBenchmark.jl"}, {0.5545709, "PSOPT, example lts"}};
       optimum.remark =
-          "the value of COPS is that of a coarse grid: the trapezoidal rule gives 0.5545770 on 100 intervals here and "
+          "the value of COPS belongs to a coarse grid: the trapezoidal rule gives 0.5545770 on 100 intervals here and "
           "0.5545724 on 200";
     }
     return optimum;

@@ -31,15 +31,15 @@ std::string content_of(const std::filesystem::path& file) {
   return content;
 }
 
-/// Throws `Error` unless the content is that of a whole shared library: of one that is cut short the system would
-/// notice too late, when it reads what is not there.
+/// Throws `Error` unless the content is a whole shared library: the system would notice too late that a file was cut
+/// short, when it reads beyond its end.
 void require_whole(const std::filesystem::path& file, std::string_view content) {
   Elf64_Ehdr header{};
   if (!content.starts_with(ELFMAG) || content.size() < sizeof header) {
-    throw Error(fmt::format("{} is no shared library", file.string()));
+    throw Error(fmt::format("{} is not a shared library", file.string()));
   }
   std::memcpy(&header, content.data(), sizeof header);
-  const std::uint64_t end = header.e_shoff + std::uint64_t{header.e_shentsize} * header.e_shnum;  // what comes last
+  const std::uint64_t end = header.e_shoff + std::uint64_t{header.e_shentsize} * header.e_shnum;  // of the last part
   if (header.e_ident[EI_CLASS] == ELFCLASS64 && end > content.size()) {
     throw Error(fmt::format("{} is cut short; build it again", file.string()));
   }
@@ -64,7 +64,7 @@ std::string_view take_entry(std::string_view& tag) {
   return entry;
 }
 
-/// What `dlopen` or `dlsym` say of their failure.
+/// The error message of `dlopen` or `dlsym`.
 std::string reason_of_loader() {
   const char* const reason = ::dlerror();  // NOLINT(concurrency-mt-unsafe): glibc's belongs to the thread
   return reason == nullptr ? "no reason is given" : reason;
@@ -110,7 +110,8 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
   } catch (const std::exception& error) {
     throw Error(fmt::format("a problem of {} cannot be made: {}", path.string(), error.what()));
   } catch (...) {
-    throw Error(fmt::format("a problem of {} cannot be made: it throws what is no std::exception", path.string()));
+    throw Error(
+        fmt::format("a problem of {} cannot be made: it throws an object that is not a std::exception", path.string()));
   }
   if (problems.names().empty()) throw Error(fmt::format("{} adds no problems", path.string()));
   registry.add_all(problems, path.string());

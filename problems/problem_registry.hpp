@@ -17,15 +17,15 @@ class Registry {
   using Maker = std::function<std::unique_ptr<Problem>()>;
 
   /// Adds the problem of a class, `registry.add<Furuta>()`; it is made by its default constructor. Throws `Error` if
-  /// its name is there already, or is no name that a command line and a file take: small letters, digits and
-  /// underscores, a letter first, and not "all".
+  /// its name exists already, or is not suited to command lines and files: small letters, digits and underscores, a
+  /// letter first, and not "all".
   template <class Type>
   void add() {
     add([]() -> std::unique_ptr<Problem> { return std::make_unique<Type>(); });
   }
   /// Adds the problem that this makes.
   void add(Maker make);
-  /// The same with an origin, in the place of an earlier problem of that name and origin, if there is one.
+  /// The same with an origin, in the place of an earlier problem with the same name and origin, if there is one.
   void put(Maker make, const std::string& origin);
 
   /// Adds all problems of another registry, which come from `origin`, such as the path of a library. Throws `Error`,
@@ -34,12 +34,12 @@ class Registry {
 
   /// In the order in which they were added.
   [[nodiscard]] std::vector<std::string> names() const;
-  /// The problem of that name with its default parameters. Throws `Error` that lists the names if there is none, or as
+  /// The problem named `name` with its default parameters. Throws `Error` that lists the names if it is unknown, or as
   /// `check_problem`.
   [[nodiscard]] std::unique_ptr<Problem> make(std::string_view name) const;
   /// The same before `check_problem`, for callers that set parameters and then check it themselves.
   [[nodiscard]] std::unique_ptr<Problem> make_unchecked(std::string_view name) const;
-  /// Where the problem of that name comes from; empty for what was added one by one. Throws as `make`.
+  /// The origin of the problem named `name`; empty for problems that were added one by one. Throws as `make`.
   [[nodiscard]] const std::string& origin(std::string_view name) const;
 
  private:
@@ -49,14 +49,14 @@ class Registry {
     std::string origin;
   };
   [[nodiscard]] const Entry& entry(std::string_view name) const;
-  /// Throws `Error` if a name is there already. `origin` is that of the problem which would be added.
+  /// Throws `Error` if a name exists already. `origin` is the origin of the problem to be added.
   void require_new(const std::string& name, const std::string& origin) const;
 
   std::vector<Entry> entries_;
 };
 
-/// All problems that this process knows, those that registry.hpp names and makes: the suite's own, and what has been
-/// added to them. Not to be changed while other threads read it.
+/// All known problems, which registry.hpp names and makes: the suite's own, and problems added to them. It must not be
+/// changed while other threads read it.
 [[nodiscard]] Registry& known_problems();
 
 }  // namespace dmocbench

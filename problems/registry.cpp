@@ -48,7 +48,7 @@ bool is_name(const std::string& text) {
          text.find_first_not_of(all) == std::string::npos && text != "all";
 }
 
-/// Throws `Error` if it is no name.
+/// Throws `Error` if it is not a valid name.
 std::string name_made_by(const Registry::Maker& maker) {
   std::string name = maker()->name();
   if (is_name(name)) return name;

@@ -15,7 +15,7 @@ namespace dmocbench {
 /// Names of the two problems of the paper's section 4.
 [[nodiscard]] std::vector<std::string> paper_problem_names();
 
-/// The problem of that name with its default parameters. Throws `Error` that lists the names if there is none, or as
+/// The problem named `name` with its default parameters. Throws `Error` that lists the names if it is unknown, or as
 /// `check_problem`.
 [[nodiscard]] std::unique_ptr<Problem> make_problem(std::string_view name);
 /// The same before `check_problem`, for callers that set parameters and then check it themselves.

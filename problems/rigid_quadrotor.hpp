@@ -20,10 +20,10 @@ namespace dmocbench {
 /// the moments of inertia in rad/s².
 ///
 /// The published problem commands the angular velocity itself, (u₂, u₃, u₄) in the place of ω, so that its angles have
-/// no inertia: nine first-order equations, no mechanical system. Here torques turn a body, twelve first-order
-/// equations; the published cost of the angular velocity stays, and that of the torques joins it. There the rate of the
-/// first angle is moreover what that of yaw would be; here the angles are Euler's. Its thrust, curve, weights and T are
-/// these.
+/// no inertia: nine first-order equations, not a mechanical system. Here torques turn a body, twelve first-order
+/// equations; the published cost of the angular velocity stays, and a cost of the torques is added. There the rate of
+/// the first angle is moreover the usual rate of yaw; here the angles are Euler's. Thrust, curve, weights and T are the
+/// same.
 class RigidQuadrotor final : public Problem {
  public:
   RigidQuadrotor()

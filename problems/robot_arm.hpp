@@ -106,7 +106,7 @@ class RobotArm : public Problem {
                                   "DMOC and tangent-space collocation by Gauss with 2 stages on 512 intervals, both "
                                   "replayed, and the limits of both by the midpoint rule; no more digits, because "
                                   "u_theta is singular in the middle of the motion",
-                              .remark = "the published values are those of the equations without Coriolis terms"};
+                              .remark = "the published values belong to the equations without Coriolis terms"};
     }
     return ReferenceOptimum{.objective = 9.1409117459,
                             .digits = 11,
@@ -117,9 +117,9 @@ class RobotArm : public Problem {
                                 "Gauss with 3 stages on a grid with nodes at these times has the same T to 11 digits",
                             .published = {{9.14138, "COPS 3.0, trapezoidal rule, N = 200"}},
                             .remark =
-                                "COPS prints the value of its grid, which does not know the switching times: ours of "
+                                "COPS prints the value of its grid, which lacks the switching times: ours of "
                                 "the trapezoidal rule on 200 intervals is 9.14140, on 400 9.14103; with several stages "
-                                "on 1024 intervals, solve to 1e-10: at 1e-8 the barrier leaves the controls beside "
+                                "on 1024 intervals, solve to 1e-10: at 1e-8 the barrier leaves the controls near "
                                 "their switches undecided and T 2e-4 too large, and such an answer is not confirmed"};
   }
 
