@@ -275,8 +275,7 @@ int run_program(const std::string& name, const std::string& description, int arg
     const int code = report_error(name, (interrupt_requested() ? "interrupted, then: " : "") + sentence_of(error));
     return interrupt_requested() ? 130 : code;
   } catch (...) {  // from formulas of somebody else
-    return report_error(name,
-                        "a problem throws an object that is not a std::exception; throw dmocbench::Error instead");
+    return report_error(name, "a problem throws an object that is not a std::exception; throw dmocbench::Error");
   }
 }
 

@@ -26,7 +26,7 @@ void throw_as_told_by(const Problem& problem, const char* function) {
     throw Error(fmt::format("{}: {} throws an exception: {}", name, function, error.what()));
   } catch (...) {
     throw Error(
-        fmt::format("{}: {} throws what is no std::exception; throw dmocbench::Error with a sentence", name, function));
+        fmt::format("{}: {} throws an object that is not a std::exception; throw dmocbench::Error", name, function));
   }
 }
 

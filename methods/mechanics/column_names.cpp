@@ -26,7 +26,7 @@ class TakenColumns {
     const bool has_blank = name.starts_with(' ') || name.ends_with(' ');
     if (name.empty() || has_blank || name.find_first_of(",\"") != std::string::npos || has_control_character(name)) {
       throw Error(
-          fmt::format("{} \"{}\" is no name of a column: it is empty, or has a comma, a quotation mark, a control "
+          fmt::format("{} \"{}\" is not a name for a column: it is empty, or has a comma, a quotation mark, a control "
                       "character or a blank at an end",
                       subject_, shown(name)));
     }
@@ -47,7 +47,7 @@ class TakenColumns {
   }
 
   std::string subject_;
-  std::map<std::string, std::string> owners_;  // by column; that of the time has no name
+  std::map<std::string, std::string> owners_;  // by column; the time's has no name
 };
 
 }  // namespace

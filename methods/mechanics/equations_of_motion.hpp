@@ -23,7 +23,7 @@ class EquationsOfMotion {
                                              const Eigen::Ref<const Eigen::VectorXd>& y = Eigen::VectorXd());
 
   /// The same as a system of first order: the first n entries of `rate` become v, the next n become q̈, then l become ẏ,
-  /// at the state whose first entries are (q, v, y). Entries behind these are left alone, so that an integrator may
+  /// at the state whose first entries are (q, v, y). Entries after these are left alone, so that an integrator may
   /// carry more along. Throws as `acceleration`.
   void write_rate(const std::vector<double>& state, const Eigen::Ref<const Eigen::VectorXd>& u, double t,
                   std::vector<double>& rate);

@@ -9,7 +9,7 @@
 
 namespace dmocbench {
 
-/// Tells where L, f, C or h of a problem, or one of their derivatives, is not a finite number.
+/// Finds where L, f, C or h of a problem, or one of their derivatives, is not a finite number.
 ///
 /// A formula may be undefined where its derivatives are not, as log(q - 1) is below its singularity: no equation of
 /// motion contains the Lagrangian itself, so that a solver cannot notice.
@@ -17,7 +17,7 @@ class FormulaCheck {
  public:
   /// Which derivatives have to be finite.
   enum class Derivatives : std::uint8_t { first, second };
-  /// Second derivatives, which Newton's method asks for, are looked at as sums over the second variable, and over the
+  /// Second derivatives, which Newton's method needs, are checked as sums over the second variable, and over the
   /// entries of a formula: a sum is not a number where one of its terms is not.
   explicit FormulaCheck(const Problem& problem, Derivatives up_to = Derivatives::first);
   /// The first that is not a number, "lagrangian", "a derivative of running_cost" or "a second derivative of force";

@@ -12,8 +12,8 @@ namespace dmocbench {
 
 class Problem;
 
-/// As long as it exists, `parameter` and `varying` of a problem have other values for this thread: what is read of the
-/// problem (ends, bounds, guess, diagnostics) is that of these values, while the problem itself stays as it is and
+/// As long as it exists, `parameter` and `varying` of a problem have other values for this thread: everything read from
+/// the problem (ends, bounds, guess, diagnostics) uses these values, while the problem itself is unchanged and
 /// other threads may read it. The innermost scope of a problem counts. Values are one per parameter, in the order of
 /// `Problem::parameters`.
 class ParameterScope {
@@ -50,18 +50,18 @@ class ParameterScope {
 /// 0, 1, ... (`Problem::varying`), and it is noted which others they read.
 class ParameterTrace final : public ParameterScope {
  public:
-  /// `open`: names of the parameters that are kept open, besides which the unknown ones are. Throws `Error` if there is
-  /// none of that name, one occurs twice, or its values are whole numbers.
+  /// `open`: names of the parameters that are kept open, in addition to the unknown ones. Throws `Error` if a name is
+  /// unknown, one occurs twice, or its values are whole numbers.
   ParameterTrace(const Problem& problem, const std::vector<std::string>& open);
 
-  /// The parameters that are kept open, the unknown ones last, by their numbers among all: that of input i at i.
+  /// The parameters that are kept open, the unknown ones last, by their numbers among all: input i's at i.
   [[nodiscard]] const std::vector<std::size_t>& open() const noexcept { return open_; }
   /// Throws `Error` if no formula has read one of the unknown parameters.
   void require_unknowns_read() const;
   /// Per parameter, whether a formula has read it as a number, or by `varying` though it is not kept open: its value is
   /// a constant of the trace now.
   [[nodiscard]] std::vector<bool> are_constants() const;
-  /// Per parameter that is no unknown, whether formulas have read it by `varying` and nowhere as a number.
+  /// Per parameter that is not an unknown, whether formulas have read it by `varying` and nowhere as a number.
   [[nodiscard]] std::vector<bool> are_varying() const;
 
  private:
@@ -81,7 +81,7 @@ class ParameterTrace final : public ParameterScope {
 
 /// The values of a problem's parameters as this thread sees them, in the order of `Problem::parameters`.
 [[nodiscard]] Eigen::VectorXd parameter_values(const Problem& problem);
-/// The number of a parameter among them. Throws `Error` if there is none of that name.
+/// The number of a parameter among them. Throws `Error` if the name is unknown.
 [[nodiscard]] std::size_t parameter_number(const Problem& problem, std::string_view name);
 
 }  // namespace dmocbench

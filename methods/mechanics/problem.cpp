@@ -41,7 +41,7 @@ std::string class_of(const Problem& problem) {
   return name.substr(name.rfind(':') + 1);  // npos + 1 is 0
 }
 
-/// ∫ |C| dt + |Φ| along the guess; none where its parts have the wrong size, which is told elsewhere.
+/// ∫ |C| dt + |Φ| along the guess; empty if its parts have the wrong size, which is reported elsewhere.
 std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
   constexpr int points = 64;
   const double horizon = problem.horizon();

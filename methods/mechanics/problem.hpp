@@ -47,20 +47,20 @@ struct Parameter {
 /// depend on time, and on parameters of which some may be unknowns too. The simplest problem states L, f, C, two ends
 /// and T, all of them fixed; all that it does not override is absent.
 ///
-/// A problem states its formulas once, as traced expressions; no derivative, mass matrix or Hamiltonian is ever asked
-/// of it. L must be regular: L_vv invertible along the motion. Formulas are plain C++ on `Expression`: they may loop
+/// A problem states its formulas once, as traced expressions; no derivative, mass matrix or Hamiltonian is ever
+/// required. L must be regular: L_vv invertible along the motion. Formulas are plain C++ on `Expression`: they may loop
 /// and call functions, but not branch on a traced value.
 ///
-/// n is the number of configuration names, m that of control names, l that of first-order states. All numbers are in
+/// n is the number of configuration names, m of control names, l of first-order states. All numbers are in
 /// the units in which the problem is solved.
 class Problem {
  public:
   virtual ~Problem() = default;
 
-  /// snake_case, as on the command line. Default: that of the class, pendulum_swing_up of PendulumSwingUp.
+  /// snake_case, as on the command line. Default: from the class name, pendulum_swing_up for PendulumSwingUp.
   [[nodiscard]] virtual std::string name() const;
   /// A copy, with the parameters as they are set. (A variant of a problem is a class derived from it that overrides
-  /// what differs.) Default: throws `Error` that says how a class offers it, which takes one line:
+  /// the differences.) Default: throws `Error` that shows how to implement it, in one line:
   /// `std::unique_ptr<Problem> clone() const override { return copy_of(*this); }`.
   [[nodiscard]] virtual std::unique_ptr<Problem> clone() const;
   /// Description, source, units, reference optimum, names of constraints and a picture, for people.
@@ -106,11 +106,11 @@ class Problem {
   /// r(q(0), q̇(0), q(T), q̇(T)) = 0 (eq:LOCP5), (eq:gDLOCP6), periodicity among them: as many entries as there are
   /// conditions. `last.t` is T.
   [[nodiscard]] virtual ExpressionVector boundary_conditions(const State& first, const State& last) const;
-  /// The Mayer term Φ(q(T), q̇(T), T); `last.t` is T, so that `return last.t` asks for the shortest time.
+  /// The Mayer term Φ(q(T), q̇(T), T); `last.t` is T, so that `return last.t` states a minimum-time problem.
   [[nodiscard]] virtual Expression final_cost(const State& last) const;
 
   /// The factor by which solvers see the cost, so that its optimum is of order 1: the same for every method, grid and
-  /// solver. Tolerances of solvers are those of the scaled cost; tables show the true cost, and metadata the factor.
+  /// solver. Tolerances of solvers apply to the scaled cost; tables show the true cost, and metadata the factor.
   ///
   /// Default: the power of two (which changes no digit) nearest to 1/c, where c = ∫ |C| dt + |Φ| along the guess, by
   /// the midpoint rule with 64 points; 1 where that is between 1/32 and 32, or c vanishes or is not a number.
@@ -121,7 +121,7 @@ class Problem {
   [[nodiscard]] virtual std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const;
 
   /// The motion from which solves start at time t: straight lines, constants, or an elementary formula of a few
-  /// numbers. Default: q and y on straight lines between the ends, v constant, u = 0. `ProblemCard::guess` says it in
+  /// numbers. Default: q and y on straight lines between the ends, v constant, u = 0. `ProblemCard::guess` states it in
   /// words.
   [[nodiscard]] virtual MotionPoint guess(double t) const;
 
@@ -131,14 +131,14 @@ class Problem {
 
   /// All parameters with their values, in the order of the constructor.
   [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
-  /// The value of a parameter, as this thread sees it (`ParameterScope`). Throws `Error` if there is none of that name.
+  /// The value of a parameter, as this thread sees it (`ParameterScope`). Throws `Error` if the name is unknown.
   [[nodiscard]] double parameter(std::string_view name) const;
   /// A parameter for use in formulas, so that its value may change later: an input of the trace in a transcription that
   /// keeps it open, elsewhere its value. Throws as `parameter`.
   [[nodiscard]] Expression varying(std::string_view name) const;
   /// The numbers of the unknown ones among all parameters.
   [[nodiscard]] std::vector<std::size_t> unknowns() const;
-  /// Sets a parameter. Throws `Error` if there is none of that name or the value is not allowed.
+  /// Sets a parameter. Throws `Error` if the name is unknown or the value is not allowed.
   void set_parameter(std::string_view name, double value);
   /// True if every parameter has its default value, those in `except` apart: a certified optimum holds for the data
   /// with which it was computed.
@@ -168,7 +168,7 @@ class Problem {
   std::vector<double> defaults_;
 };
 
-/// What a picture of the motion shows at a point: that of the problem's card; q and u by their names if it has none.
+/// The picture of the motion at a point: from the problem's card, or else q and u by their names.
 [[nodiscard]] Picture pictured_quantities(const Problem& problem, const ControlledState& x);
 
 }  // namespace dmocbench

@@ -71,7 +71,7 @@ Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string
   return bounds;
 }
 
-/// The bounds of an end's nodes within those of all nodes.
+/// Narrows the bounds of an end's nodes to the bounds of all nodes.
 void narrow(Bounds& end, const Bounds& everywhere, const std::string& subject, char part) {
   for (Eigen::Index i = 0; i < end.lower.size(); ++i) {
     const double lower = std::max(end.lower[i], everywhere.lower[i]);
@@ -92,7 +92,7 @@ EndBounds checked_end(const EndBounds& end, const ProblemBounds& everywhere, con
   return checked;
 }
 
-/// By continuity the velocity of an end lies within the bounds that hold at the stages beside it.
+/// By continuity the velocity of an end lies within the bounds that hold at the stages next to it.
 void require_velocity_left(const EndBounds& end, const Bounds& everywhere, const std::string& subject) {
   for (Eigen::Index i = 0; i < end.v.lower.size(); ++i) {
     const double lower = std::max(end.v.lower[i], everywhere.lower[i]);

@@ -21,7 +21,7 @@ struct PublishedOptimum {
   std::string source;      ///< where it was published
 };
 
-/// What is known of a problem's least cost: a closed form, or a number on which independent methods agree.
+/// The known least cost of a problem: a closed form, or a number on which independent methods agree.
 struct ReferenceOptimum {
   double objective = 0.0;  ///< the least cost
   /// Significant digits of `objective` that are certain; 16 for a closed form.
@@ -58,11 +58,11 @@ struct ProblemCard {
   std::vector<std::string> control_units = {};
   /// The least cost as far as it is known, for the parameters as they are set.
   std::optional<ReferenceOptimum> reference = {};
-  /// What failed solves call the entries of `Problem::path_constraints`; by their numbers where there are no names.
+  /// Names of the entries of `Problem::path_constraints` in messages of failed solves; by default their numbers.
   std::vector<std::string> path_constraint_names = {};
   /// The same for `Problem::boundary_conditions`.
   std::vector<std::string> boundary_condition_names = {};
-  /// What a picture of the motion shows; q and u by their names where it is empty (`pictured_quantities`). It may read
+  /// The quantities in pictures of the motion; q and u by their names if empty (`pictured_quantities`). It may read
   /// the problem's parameters: the problem must outlive its use.
   std::function<Picture(const ControlledState& x)> picture = {};
 };

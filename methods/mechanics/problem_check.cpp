@@ -120,7 +120,7 @@ void check_problem(const Problem& problem) try {
   check_picture(problem);
 } catch (const Error&) {
   throw;
-} catch (...) {  // of a function that is asked for numbers, as horizon() or bounds()
+} catch (...) {  // of a function that returns numbers, as horizon() or bounds()
   throw_as_told_by(problem, "a function");
 }
 

@@ -82,7 +82,7 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
   const Eigen::VectorXd values = parameter_values(problem);
   const ProblemCard card = asked(problem, "card", [&] {
     return problem.card();
-  });  // before the trace: parameters that it reads are no constants of formulas
+  });  // before the trace: parameters that it reads are not constants of formulas
   const ParameterTrace parameters(problem, open_parameters);
   open_ = parameters.open();
   unknowns_ = problem.unknowns();

@@ -17,8 +17,8 @@ namespace dmocbench {
 
 /// A problem's formulas, traced once, with the derivatives that the equations of motion contain.
 ///
-/// Every formula is a function of one point (q, v, u, y, t); `at` substitutes other formulas, such as those of an
-/// element's stage, for that point.
+/// Every formula is a function of one point (q, v, u, y, t); `at` substitutes other formulas, such as an element
+/// stage's, for the point.
 class TracedProblem {
  public:
   /// The formulas at one point.
@@ -58,7 +58,7 @@ class TracedProblem {
   [[nodiscard]] const std::vector<std::string>& varying_parameters() const noexcept { return varying_; }
   /// The present values of the open ones.
   [[nodiscard]] const Eigen::VectorXd& open_values() const noexcept { return open_values_; }
-  /// Sets the values of open and of unknown parameters from those of all parameters. Allocates nothing.
+  /// Sets the values of open and of unknown parameters from the values of all parameters. Does not allocate.
   void set_parameters(const Eigen::VectorXd& values);
   /// How many parameters are unknowns of the problem.
   [[nodiscard]] Eigen::Index unknown_count() const noexcept { return unknown_values_.size(); }
@@ -103,7 +103,7 @@ class TracedProblem {
   [[nodiscard]] Eigen::MatrixXd table(const Eigen::MatrixXd& rows) const;
 
   /// All formulas with the given point substituted. Throws `Error` if the point lacks first-order states: not every
-  /// method knows them.
+  /// method supports them.
   [[nodiscard]] Values at(const ControlledState& point) const;
   /// The formulas of the ends with the given states substituted.
   [[nodiscard]] EndValues at_ends(const State& first, const State& last) const;
@@ -116,7 +116,7 @@ class TracedProblem {
   void trace_ends(const Problem& problem);
   /// Whether an input of the ends' formulas is read, numbered without the parameters.
   [[nodiscard]] bool ends_read(Eigen::Index first, Eigen::Index count) const;
-  /// What `at` puts in place of the open and of the unknown parameters.
+  /// The formulas that `at` substitutes for the open and the unknown parameters.
   [[nodiscard]] ExpressionVector parameters() const;
   /// How many of the inputs of all formulas these are.
   [[nodiscard]] std::size_t parameter_inputs() const { return open_.size() + unknowns_.size(); }

@@ -112,7 +112,7 @@ TEST(ProblemCheck, TellsWhichFunctionThrowsWhateverItThrows) {
   expect_refused({"card().picture", "no such entry"}, [](Words& words) {
     words.card.picture = [](const ControlledState& /*x*/) -> Picture { throw std::out_of_range("no such entry"); };
   });
-  expect_refused({"card().picture", "no std::exception"}, [](Words& words) {
+  expect_refused({"card().picture", "not a std::exception"}, [](Words& words) {
     words.card.picture = [](const ControlledState& /*x*/) -> Picture { throw 7; };  // NOLINT(hicpp-exception-baseclass)
   });
   expect_refused({"card().picture", "q[2]"}, [](Words& words) {
