@@ -411,7 +411,7 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
   transcription.constraints(x, rows);
   const Worst row = farthest_outside(rows, transcription.constraint_lower(), transcription.constraint_upper());
   const Worst unknown = farthest_outside(x, transcription.variable_lower(), transcription.variable_upper());
-  // Where a simulation stops, the row of the interval says more than the node behind it.
+  // Where a simulation stops, the row of the interval is more informative than the node after it.
   const bool has_stopped = !transcription.functions().has_stage_unknowns && std::isnan(row.amount);
   const bool is_unknown = !has_stopped && (std::isnan(unknown.amount) || unknown.amount > row.amount);
   const Worst worst = is_unknown ? unknown : row;

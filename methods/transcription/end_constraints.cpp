@@ -17,7 +17,7 @@ namespace dmocbench {
 
 namespace {
 
-/// What is known of the point (q, v, u, t) at an end: the values, 0 where there is none.
+/// The known part of the point (q, v, u, t) at an end: the values, 0 where they are unknown.
 struct KnownPoint {
   const char* name;             ///< of the function that states it
   double time;                  ///< of the end
@@ -62,7 +62,7 @@ bool reads_given_only(const Schedule& formula, const std::vector<bool>& are_give
   });
 }
 
-/// What numbers known to twelve digits leave unknown of a formula: Σ |∂h/∂x_i x_i| 1e-12.
+/// The uncertainty of a formula of numbers known to twelve digits: Σ |∂h/∂x_i x_i| 1e-12.
 double uncertainty(const Expression& h, const ExpressionVector& inputs, std::span<const double> values) {
   const std::vector<double> derivatives = replay<double>(Schedule(gradient(h, inputs)), values);
   double sum = 1.0;
@@ -91,7 +91,7 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
     const auto entry = static_cast<Eigen::Index>(i);
     const bool is_below = value < path.lower[entry];
     const double excess = is_below ? path.lower[entry] - value : value - path.upper[entry];
-    if (!(excess > uncertainty(h, x, values))) continue;  // what is no number at an end may be one inside
+    if (!(excess > uncertainty(h, x, values))) continue;  // a NaN at an end may be a number inside
     throw Error(
         fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} there (t = "
                     "{:g}), and has to be at {} {:g}",

@@ -18,14 +18,14 @@ namespace dmocbench {
 /// Hamiltonian collocation have the velocity as a further unknown, tied to the momentum by p = L_v(q, v); nothing else
 /// changes. Tangent-space collocation has that unknown at every node.
 struct EndRules {
-  NodeState node_state = NodeState::configuration;  ///< what nodes carry
+  NodeState node_state = NodeState::configuration;  ///< the second part of the nodes' states
   double cost_scale = 1.0;                          ///< factor of the cost
   bool first_clamped = true;                        ///< the state of the first end is given completely
   bool last_clamped = true;                         ///< the state of the last end is given completely
   bool mayer = false;                               ///< the cost is the last z of the Mayer form
   bool free_horizon = false;                        ///< T is an unknown
 
-  /// True if the velocity of the first (last) end is an unknown besides those of its node.
+  /// True if the velocity of the first (last) end is an unknown in addition to its node's.
   [[nodiscard]] bool first_has_velocity() const noexcept { return !first_clamped && node_state != NodeState::velocity; }
   /// True if the velocity of the last end is an unknown of its own.
   [[nodiscard]] bool last_has_velocity() const noexcept { return !last_clamped && node_state != NodeState::velocity; }

@@ -20,16 +20,16 @@ struct IntervalRules {
 /// All functions of an interval, traced and differentiated once for all intervals.
 ///
 /// Inputs: `LocalInputs`, the open parameters first.
-/// Local unknowns: those of `IntervalUnknowns` in its order; z_k and z_{k+1}, the sums up to either node: the cost in
+/// Local unknowns: as in `IntervalUnknowns`, in its order; z_k and z_{k+1}, the sums up to either node: the cost in
 /// Mayer form, then the integrals; T where it is free; unknown parameters.
 /// Local constraints (rows): left and right terms and stage equations of the element, Ẏ_i = g of first-order
 /// states; path constraints, which are not
-/// equalities of the element: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); z_{k+1} - z_k less what the
-/// interval adds to each sum. `adjoint` is ∂ℓ/∂(left node), then ∂ℓ/∂(right node).
+/// equalities of the element: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); z_{k+1} - z_k less the
+/// interval's contribution to each sum. `adjoint` is ∂ℓ/∂(left node), then ∂ℓ/∂(right node).
 struct IntervalFunctions : LocalFunctions {
   bool has_stage_unknowns = true;    ///< of the element
   Eigen::Index node_rows = 0;        ///< equations that belong to nodes
-  Eigen::Index stage_equations = 0;  ///< those of the element
+  Eigen::Index stage_equations = 0;  ///< stage equations of the element
   Eigen::Index path_rows = 0;        ///< path constraints, at all stages
   bool mayer = false;                ///< the cost so far is an unknown of the nodes
   bool free_horizon = false;         ///< T is an unknown

@@ -59,7 +59,7 @@ PartPlaces interleaved_places(const Transcription& program, const LocalFunctions
 
 }  // namespace
 
-/// The functions of all intervals, or those of the ends, on interleaved vectors.
+/// The functions of all intervals, or of the ends, on interleaved vectors.
 struct LaneTranscription::Part {
   Part(const LaneTranscription& lanes, const LocalFunctions& functions, PartPlaces places)
       : parameters(static_cast<Eigen::Index>(places.constraints.intervals * functions.inputs.parameters)),
@@ -79,10 +79,10 @@ LaneTranscription::LaneTranscription(const Transcription& program)
       steps_(each_for_all_lanes(program.step_inputs())),
       times_(each_for_all_lanes(program.time_inputs())) {
   if (program.layout().shape().first_order_size > 0 || program.layout().shape().integrals > 0) {
-    throw Error("a batch knows neither first-order states nor integral constraints");
+    throw Error("a batch supports neither first-order states nor integral constraints");
   }
   if (program.layout().shape().unknown_parameters > 0) throw Error("a batch needs given parameters; some are unknown");
-  if (program.has_free_horizon()) throw Error("a batch needs a given horizon; that of this problem is free");
+  if (program.has_free_horizon()) throw Error("a batch needs a given horizon, but this problem's is free");
   const Layout& layout = program.layout();
   const auto add = [&](const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
                        const std::vector<SeriesPlace>& rows, bool has_ends_only) {
@@ -122,7 +122,7 @@ void LaneTranscription::set_parameters(std::size_t lane, std::span<const double>
   times_(Eigen::seqN(at, program_.grid().relative_times().size(), lanes)) = horizon * program_.grid().relative_times();
 }
 
-/// The horizon of the problem with these parameters, whose bounds must be those of the program.
+/// The horizon of the problem with these parameters, whose bounds must equal the program's.
 double LaneTranscription::checked_horizon(const Eigen::VectorXd& parameters) const {
   const Problem& problem = program_.problem();
   for (Eigen::Index i = 0; i < parameters.size(); ++i) {

@@ -53,11 +53,11 @@ class LaneTranscription final : public LaneProgram {
   std::vector<std::unique_ptr<Part>> parts_;  // the intervals; the ends, unless they add nothing
 };
 
-/// Makes the lanes of a transcription, which must outlive what is returned.
+/// Makes the lanes of a transcription, which must outlive the result.
 [[nodiscard]] MakeLanes lanes_of(const Transcription& program);
 
 /// Gives a transcription the parameters of an instance, or those that it has now where the instance has none:
-/// `BatchOptions::set_parameters`. The program must outlive what is returned.
+/// `BatchOptions::set_parameters`. The program must outlive the result.
 [[nodiscard]] std::function<void(const Eigen::VectorXd&)> parameters_of(Transcription& program);
 
 /// Writes states of the ends into the numbers of an instance: a clamped end fixes q and, where nodes carry it, p or v;
@@ -69,7 +69,7 @@ class ClampedEnds {
   explicit ClampedEnds(const Transcription& program);
 
   /// `x`: the unknowns of a start, variable_count() entries; `equality_values`: the values that equalities have,
-  /// constraint_count() entries, of which those of the ends are written. The configurations between are moved with the
+  /// constraint_count() entries, of which the ends' are written. The configurations between are moved with the
   /// ends, linearly in time: q_k += (1 - t_k/T) δq_0 + (t_k/T) δq_N, as the default guess of a problem would be.
   void write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x,
              Eigen::VectorXd& equality_values);

@@ -17,7 +17,7 @@ struct LayoutShape {
   std::size_t intervals = 0;                        ///< N
   Eigen::Index configuration_size = 0;              ///< n
   Eigen::Index control_size = 0;                    ///< m
-  NodeState node_state = NodeState::configuration;  ///< what nodes carry
+  NodeState node_state = NodeState::configuration;  ///< the second part of the nodes' states
   Eigen::Index stages = 1;                          ///< s
   bool shares_controls = false;                     ///< neighbouring intervals share the control at their node
   bool has_stage_unknowns = true;                   ///< `Element::has_stage_unknowns`
@@ -25,7 +25,7 @@ struct LayoutShape {
   Eigen::Index stage_equations = 0;                 ///< per interval: the element's own
   Eigen::Index path_rows = 0;                       ///< per interval
   bool mayer = false;                   ///< nodes carry the cost so far, z_k, and intervals have a row for it
-  bool first_has_velocity = false;      ///< v_0, or v_N, is an unknown beside the nodes'
+  bool first_has_velocity = false;      ///< v_0, or v_N, is an unknown in addition to the nodes'
   bool last_has_velocity = false;       ///< the velocity at T is an unknown of its own
   bool free_horizon = false;            ///< T is an unknown
   Eigen::Index conditions = 0;          ///< boundary conditions
@@ -35,7 +35,7 @@ struct LayoutShape {
 
   /// Sums that nodes carry: the cost in Mayer form, then the integrals.
   [[nodiscard]] Eigen::Index sums() const noexcept { return integrals + (mayer ? 1 : 0); }
-  /// Rows per interval: the element's own, path rows, those of the sums.
+  /// Rows per interval: the element's own, path rows, rows of the sums.
   [[nodiscard]] Eigen::Index interval_rows() const noexcept { return stage_equations + path_rows + sums(); }
 };
 
@@ -43,9 +43,9 @@ struct LayoutShape {
 ///
 /// Vectors are stored column by column: q_1 of all nodes, q_2 of all nodes, ..., then p or v, y, interior rates,
 /// controls, z; at last v_0, v_N, unknown parameters and T where they are unknowns. Every local quantity of an element
-/// is therefore contiguous over the intervals: that of interval k stands at `first` + k. For a quantity of the left
-/// node `first` is the head of its series, for the same quantity of the right node one more. Rows: those of the nodes,
-/// those of the intervals, then p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
+/// is therefore contiguous over the intervals: interval k's is at `first` + k. For a quantity of the left
+/// node `first` is the head of its series, for the same quantity of the right node one more. Rows: of the nodes,
+/// of the intervals, then p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
 class Layout {
  public:
   /// Numbers all unknowns and rows of a program of this shape.
@@ -67,7 +67,7 @@ class Layout {
   /// Where the rows of the ends lie.
   [[nodiscard]] const std::vector<SeriesPlace>& end_row_places() const noexcept { return end_row_places_; }
 
-  // Heads of series. That of a quantity of the nodes has N + 1 entries, that of one of the intervals N.
+  // Heads of series. The series of a quantity of the nodes has N + 1 entries, of a quantity of the intervals N.
   /// Of q_i of the nodes.
   [[nodiscard]] std::size_t configuration_head(Eigen::Index i) const noexcept {
     return static_cast<std::size_t>(i) * (shape_.intervals + 1);
@@ -129,11 +129,11 @@ class Layout {
   /// The number of T, where that is an unknown.
   [[nodiscard]] std::size_t horizon() const noexcept { return variable_count() - 1; }
 
-  /// What it was made for.
+  /// The shape that it was made for.
   [[nodiscard]] const LayoutShape& shape() const noexcept { return shape_; }
-  /// What nodes carry.
+  /// The second part of the nodes' states.
   [[nodiscard]] NodeState node_state() const noexcept { return shape_.node_state; }
-  /// Those whose rates are unknowns.
+  /// Stages whose rates are unknowns.
   [[nodiscard]] Eigen::Index interior_stages() const noexcept {
     return shape_.has_stage_unknowns ? shape_.stages - 1 : 0;
   }
@@ -146,7 +146,7 @@ class Layout {
   [[nodiscard]] Eigen::Index node_columns() const noexcept {
     return (node_state() == NodeState::configuration ? 1 : 2) * shape_.configuration_size + shape_.first_order_size;
   }
-  /// The head of series i of the intervals behind `first`.
+  /// The head of series i of the intervals after `first`.
   [[nodiscard]] std::size_t interval_head(std::size_t first, Eigen::Index i) const noexcept {
     return first + static_cast<std::size_t>(i) * shape_.intervals;
   }

@@ -7,7 +7,7 @@ namespace dmocbench {
 
 namespace {
 
-/// The floor of every place, that of an interval being `of_interval`.
+/// The floor of every place, with `of_interval` for an interval.
 Eigen::VectorXd floors_at(const Places& places, const Eigen::VectorXd& of_interval, double of_border) {
   Eigen::VectorXd floors(static_cast<Eigen::Index>(places.size()));
   const Eigen::Index last = of_interval.size() - 1;

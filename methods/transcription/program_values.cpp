@@ -88,7 +88,7 @@ void Transcription::set_horizon(double horizon) {
   use(std::move(values));
 }
 
-/// Where the velocity of an end, or T, is no unknown, the formulas of the ends contain its value.
+/// Where the velocity of an end, or T, is not an unknown, the formulas of the ends contain its value.
 void Transcription::require_readable_ends(const Values& values) const {
   const auto refuse = [&](const char* what) {
     throw Error(

@@ -86,7 +86,7 @@ class SampledCostates {
   bool has_same_stages_;
 };
 
-/// Writes the multipliers of the rows that costates tell of, for the true cost.
+/// Writes the multipliers of the rows that costates determine, for the true cost.
 class MultiplierWriter {
  public:
   MultiplierWriter(const Layout& layout, Eigen::Index n, Eigen::VectorXd& multipliers)

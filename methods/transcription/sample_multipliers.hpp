@@ -13,11 +13,11 @@ namespace dmocbench {
 /// The inverse of `costates` and `stage_costates`, in their signs: with ψ^p, ψ^q at the stages and the rate of ψ^p,
 /// w = -∂H/∂p = -L_vv⁻¹(C_v + F_vᵀψ^p + ψ^q),
 ///   - DMOC: ψ^p_k for node k, h b_j w_j for the interval's own row j;
-///   - Hamiltonian: -h b_i w_i for P_i - L_v, -h b_i Ψ^p_i for Ṗ_i - F; ∓ψ^p for what ties the ends' velocities;
+///   - Hamiltonian: -h b_i w_i for P_i - L_v, -h b_i Ψ^p_i for Ṗ_i - F; ∓ψ^p for the rows of the ends' velocities;
 ///   - tangent-space: -h b_i (Ψ^q_i + L_vqᵀΨ^p_i) for Q̇_i - V_i, -h b_i Ψ^p_i for d/dt L_v - F;
 ///   - shooting: -h times the costate of (q, v) at node k + 1, which is (ψ^q + L_vqᵀψ^p, L_vv ψ^p).
 /// On the trajectory's own grid and tableau its stages are taken as they are, so that the trajectory's program gets its
-/// own multipliers back but for rounding, and DMOC and Hamiltonian collocation each other's (th:equi). Elsewhere ψ is
+/// own multipliers back up to rounding, and DMOC and Hamiltonian collocation each other's (th:equi). Elsewhere ψ is
 /// the cubic Hermite interpolant of the nodes, with the rates that the adjoint equations give them. A motion with
 /// another horizon is stretched to the program's.
 ///

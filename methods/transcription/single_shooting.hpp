@@ -48,7 +48,7 @@ class SingleShooting final : public NonlinearProgram {
   /// The unknowns of a point of multiple shooting that are kept.
   [[nodiscard]] Eigen::VectorXd reduced(const Eigen::VectorXd& primal) const;
   /// A solution in the unknowns and constraints of multiple shooting: the states by simulation, the multipliers of the
-  /// intervals by the adjoint sweep. Where the simulation stops, the states behind it are NaN, and there are no
+  /// intervals by the adjoint sweep. Where the simulation stops, the states after it are NaN, and there are no
   /// multipliers.
   [[nodiscard]] Solution expanded(Solution solution);
 
@@ -58,7 +58,7 @@ class SingleShooting final : public NonlinearProgram {
   void sort_unknowns();
   void sort_rows();
   void set_structures();
-  /// Simulates from the unknowns, unless the last simulation was theirs, and tells in `is_defined_` whether it came to
+  /// Simulates from the unknowns, unless the last simulation was theirs, and sets `is_defined_` to whether it came to
   /// the end.
   void simulate(const VectorIn& x);
   /// The derivatives of the equations at the simulated motion, and S; nothing where there is none.

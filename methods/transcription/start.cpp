@@ -41,7 +41,7 @@ Eigen::VectorXd unknowns_of(const Transcription& transcription, const Trajectory
     }
   }
   for (Eigen::Index c = 0; c < motion.stage_u.cols(); ++c) {
-    // Where neighbours share a control, that of the first stage is taken.
+    // Where neighbours share a control, the first stage's is taken.
     for (Eigen::Index i = layout.stages() - 1; i >= 0; --i) {
       set(layout.control_head(i, c), motion.stage_u(rows_of(i), c));
     }
@@ -127,7 +127,7 @@ void add_up(Transcription& transcription, Eigen::VectorXd& x) {
   };
   for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) sum_of(i).setZero();
   Eigen::VectorXd constraints(static_cast<Eigen::Index>(transcription.constraint_count()));
-  transcription.constraints(x, constraints);  // z_{k+1} - z_k less what the interval adds, with every z = 0
+  transcription.constraints(x, constraints);  // z_{k+1} - z_k less the interval's part, with every z = 0
   for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) {
     const auto row = static_cast<Eigen::Index>(layout.sum_row_head(i));
     for (Eigen::Index k = 0; k < intervals; ++k) sum_of(i)[k + 1] = sum_of(i)[k] - constraints[row + k];

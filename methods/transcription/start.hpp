@@ -11,7 +11,7 @@ namespace dmocbench {
 
 /// The unknowns of a program sampled from a motion, by the same rules for every method: q and v at the nodes,
 /// p = L_v(q, v), rates of q at the stage times, rates of p or v as mean rates of the interval, u at the stage times. A
-/// free horizon becomes that of the motion, and so do unknown parameters; otherwise a motion with another horizon is
+/// free horizon becomes the motion's, and so do unknown parameters; otherwise a motion with another horizon is
 /// stretched to the program's. Variables are moved into their bounds.
 [[nodiscard]] Eigen::VectorXd sample(Transcription& transcription, const Motion& motion);
 

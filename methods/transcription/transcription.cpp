@@ -43,7 +43,7 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
 }
 
 /// Equalities along the motion take a control each. Intervals with stages at their nodes have one of a node both, which
-/// only controls of their own tell apart.
+/// only controls of their own distinguish.
 void require_equalities_fit(const Problem& problem, const TracedProblem& traced, const Tableau& tableau,
                             const ProblemBounds& bounds) {
   const Bounds path = bounds.of_path(traced.path_constraint_count());
@@ -137,7 +137,7 @@ void Transcription::add_part(const LocalFunctions& functions, const std::vector<
 }
 
 void Transcription::require_enough_intervals(const Problem& problem, const Element& element) const {
-  // The number of free variables minus that of equations on a given number of intervals.
+  // The number of free variables minus the number of equations on a given number of intervals.
   const auto fixed = static_cast<long long>(variable_count()) - static_cast<long long>(free_variable_count(*this));
   const long long fixed_in_interval = fixed_variables_of_an_interval();
   const auto surplus = [&](std::size_t intervals) {

@@ -32,7 +32,7 @@ enum class CostForm : std::uint8_t {
   mayer,  ///< z_N + Φ with z_{k+1} - z_k = h Σ b_i C, z_0 = 0 (eq:gDLOCP_mayer): the same solutions
 };
 
-/// The form of that name. Throws `Error` that lists the names if there is none.
+/// The form `name`. Throws `Error` that lists the names if it is unknown.
 [[nodiscard]] CostForm cost_form_named(std::string_view name);
 
 /// Parameters of a problem that its formulas read by `Problem::varying` (`TracedProblem::varying_parameters`) and that
@@ -49,9 +49,9 @@ struct OpenParameters {
 /// the ends enter, `program_bounds` how the bounds do.
 ///
 /// A program is made once and may then be given other values: parameters, ends, bounds and horizon (`set_parameters`
-/// and the functions behind it), while tapes, patterns and memory stay. What is structure stays too, and another one is
-/// refused: the number of unknowns, which bounds exist and which of them are equal, parameters whose values formulas
-/// contain. The cost scale and the sizes of q and L_vv in `rounding_floors` are those of the values at set-up, so that
+/// and the functions after it), while tapes, patterns and memory stay. The structure stays too, and another one is
+/// rejected: the number of unknowns, which bounds exist and which of them are equal, parameters whose values formulas
+/// contain. The cost scale and the sizes of q and L_vv in `rounding_floors` belong to the values at set-up, so that
 /// answers for different values are measured alike.
 class Transcription final : public NonlinearProgram {
  public:
@@ -66,11 +66,11 @@ class Transcription final : public NonlinearProgram {
                 const OpenParameters& open, std::string_view derivatives = "tape", CostForm form = CostForm::bolza);
 
   // Other values. For all of these the problem of the constructor must still exist; it stays as it is. All throw
-  // `Error` and change nothing if a value is not allowed or asks for another structure. Not to be called while a solve
+  // `Error` and change nothing if a value is not allowed or requires another structure. Not to be called while a solve
   // runs.
 
   /// Gives the problem's parameters other values, in the order of `Problem::parameters`, and reads its ends, bounds and
-  /// horizon again; what the functions below have set is forgotten. A parameter that formulas contain may change only
+  /// horizon again; values set by the functions below are discarded. A parameter that formulas contain may change only
   /// if it is kept open.
   void set_parameters(const Eigen::VectorXd& values);
   /// The same for one parameter; the others keep their values.
@@ -79,7 +79,7 @@ class Transcription final : public NonlinearProgram {
   void set_initial_state(const BoundaryState& state);
   /// The state of the last end, likewise.
   void set_final_state(const BoundaryState& state);
-  /// All bounds, those of the ends among them. The bounds of a fixed horizon set T.
+  /// All bounds, including the ends'. The bounds of a fixed horizon set T.
   void set_bounds(const ProblemBounds& bounds);
   /// T, where it is fixed; where it is free, the T that guesses take.
   void set_horizon(double horizon);
@@ -89,7 +89,7 @@ class Transcription final : public NonlinearProgram {
   /// Lets this thread see the problem with these values as long as the scope exists: for its guess and for diagnostics
   /// that take the problem.
   [[nodiscard]] ParameterScope parameter_scope() const { return {*problem_, parameters_}; }
-  /// What was transcribed.
+  /// The transcribed problem.
   [[nodiscard]] const Problem& problem() const noexcept { return *problem_; }
 
   [[nodiscard]] std::size_t variable_count() const override { return layout_.variable_count(); }
@@ -138,7 +138,7 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] double horizon(const VectorIn& x) const;
   /// The unknown parameters at a point, in the order of `Problem::unknowns`.
   [[nodiscard]] Eigen::VectorXd unknown_parameters(const VectorIn& x) const;
-  /// Lets `traced_problem` have these values of the unknown parameters, where it has had those of the guess: of an
+  /// Lets `traced_problem` have these values of the unknown parameters, where it had the guess's: of an
   /// answer that is read and judged.
   void set_unknown_parameters(const Eigen::VectorXd& values) { traced_.set_unknowns(values); }
   /// t_0 to t_N and h_0 to h_{N-1} at a point.
@@ -162,13 +162,13 @@ class Transcription final : public NonlinearProgram {
                                          const VectorIn& multipliers = Eigen::VectorXd());
 
  private:
-  /// What the functions that set values change.
+  /// The values that setters change.
   struct Values {
     ProblemBounds bounds;
     double horizon = 0.0;
   };
   [[nodiscard]] Values present_values() const { return {problem_bounds_, guessed_horizon_}; }
-  /// Checks values and makes them those of the program; the open parameters are set before.
+  /// Checks values and makes them the program's; the open parameters are set before.
   void use(Values values);
   void require_readable_ends(const Values& values) const;
   void set_end(const BoundaryState& state, EndBounds ProblemBounds::*end, const char* name);

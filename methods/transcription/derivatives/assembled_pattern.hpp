@@ -25,7 +25,7 @@ struct AssembledPattern {
 /// Merges the local entries of all intervals.
 [[nodiscard]] AssembledPattern assemble_pattern(const LocalEntries& entries);
 
-/// Adds the few entries of a part with one interval to a pattern, and says where each of them goes.
+/// Adds the few entries of a part with one interval to a pattern, and returns the place of each.
 [[nodiscard]] std::vector<SeriesPlace> extend_pattern(BlockPattern& pattern, const LocalEntries& entries);
 
 }  // namespace dmocbench

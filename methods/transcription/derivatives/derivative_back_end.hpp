@@ -55,8 +55,8 @@ class DerivativeBackEnd {
 /// One line. Throws `Error` as `make_derivative_back_end` does.
 [[nodiscard]] std::string derivative_back_end_description(std::string_view name);
 
-/// The back end of that name for the intervals of one grid; `functions` is read only by this call. Throws `Error` that
-/// lists the names if there is none, and says what is missing if it was left out of this build.
+/// The back end `name` for the intervals of one grid; `functions` is read only by this call. Throws `Error` that lists
+/// the names if it is unknown, or names the missing package if it was left out of this build.
 [[nodiscard]] std::unique_ptr<DerivativeBackEnd> make_derivative_back_end(std::string_view name,
                                                                           const LocalFunctions& functions,
                                                                           const DerivativePlaces& places);

@@ -15,7 +15,7 @@ namespace dmocbench {
 /// Where the entries of a part's Jacobian stand; `rows` and `unknowns` are the places of all that are local.
 [[nodiscard]] LocalEntries jacobian_entries(const LocalFunctions& functions, const std::vector<SeriesPlace>& rows,
                                             const std::vector<SeriesPlace>& unknowns, std::size_t intervals);
-/// Where those of its Hessian stand, in the lower triangle.
+/// The places of the entries of its Hessian, in the lower triangle.
 [[nodiscard]] LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
                                            std::size_t intervals);
 

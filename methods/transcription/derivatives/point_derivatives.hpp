@@ -8,7 +8,7 @@
 
 namespace dmocbench {
 
-/// First derivatives of C and of F = L_q + f at points of a motion, with L_vv and L_vq: what turns costates into
+/// First derivatives of C and of F = L_q + f at points of a motion, with L_vv and L_vq: they turn costates into
 /// multipliers and back.
 class PointDerivatives {
  public:
@@ -29,7 +29,7 @@ class PointDerivatives {
             problem.first_order_size()),
         values_(function_.output_count()) {}
 
-  /// Everything below is that of the point evaluated last.
+  /// Everything below refers to the point evaluated last.
   void evaluate(const MotionPoint& point, double t) { function_.evaluate(point, t, values_); }
 
   /// C_q, n entries.

@@ -23,8 +23,8 @@ struct PartPlaces {
   DerivativePlaces derivatives;       ///< where derivatives go
 };
 
-/// A part of a program on numbers: the functions of an interval for all intervals, or those of the ends. Its inputs are
-/// the program's own vectors, read in place. Allocates nothing in an evaluation.
+/// A part of a program on numbers: the functions of an interval for all intervals, or of the ends. Its inputs are
+/// the program's own vectors, read in place. Evaluations do not allocate.
 class ProgramPart {
  public:
   /// `steps` and `times`, one entry per interval, and `parameters`, one per open parameter, or of each one per

@@ -33,7 +33,7 @@ class RecordedNumber {
     if (y.variable_) return kept(function(x.value_, *y.variable_));
     return kept(function(x.value_, y.value_));
   }
-  /// A copy that ADOL-C knows, also of a constant.
+  /// A copy that ADOL-C records, also of a constant.
   [[nodiscard]] adouble variable() const { return variable_ ? *variable_ : adouble(value_); }
 
  private:

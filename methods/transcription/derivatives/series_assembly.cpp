@@ -48,7 +48,7 @@ std::span<double* const> SeriesAssembly::open(VectorOut& result) {
 }
 
 void SeriesAssembly::close(VectorOut& result) const {
-  // Threads share the entries of the result and not the columns: an entry gets what belongs to it in the order of the
+  // Threads share the entries of the result and not the columns: an entry gets its contributions in the order of the
   // columns, and is still in a cache when the next one adds to it.
   constexpr std::size_t entries_per_part = 65536;
   const std::size_t parts = part_count(plan_.size, entries_per_part);
@@ -64,7 +64,7 @@ void SeriesAssembly::close(VectorOut& result) const {
   });
 }
 
-/// Adds those of its values whose entries of the result lie within a stretch.
+/// Adds the values whose entries of the result lie within a stretch.
 void SeriesAssembly::add_column(const Addition& addition, Stretch within, double* result) const {
   const SeriesPlace& place = plan_.places[addition.column];
   const double* const source = scratch_.data() + addition.scratch;

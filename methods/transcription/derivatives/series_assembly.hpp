@@ -10,7 +10,7 @@
 
 namespace dmocbench {
 
-/// Where a local quantity of the intervals stands in a long array: that of interval k at `first + k`; a quantity of the
+/// The place of a local quantity of the intervals in a long array: for interval k at `first + k`; a quantity of the
 /// whole horizon, which all intervals share, at `first`.
 struct SeriesPlace {
   /// One entry per interval from `first_entry` on, or that entry alone for all of them.
@@ -69,7 +69,7 @@ class SeriesAssembly {
 
   struct Stretch {
     std::size_t begin = 0;
-    std::size_t end = 0;  // behind the last
+    std::size_t end = 0;  // one past the last
   };
 
   void add_column(const Addition& addition, Stretch within, double* result) const;

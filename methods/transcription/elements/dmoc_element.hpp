@@ -16,8 +16,8 @@ namespace dmocbench {
 ///                discrete Euler-Lagrange equation (DEL) (unit: momentum),
 ///   stages:      (∂A/∂Q̇_j + W[∂/∂Q̇_j]) / (h b_j) = 0, j = 1 .. s-1 (unit: momentum).
 /// Momenta: the forced discrete Legendre transforms (eq:varmech_dlegf), p_k = -(term at node k) and
-/// p_{k+1} = (term at node k + 1). What the first and the last node add, (eq:gDLOCP3) and (rem:inifinalvel), is in
-/// `program_bounds` and `end_functions`.
+/// p_{k+1} = (term at node k + 1). The conditions at the first and last node, (eq:gDLOCP3) and (rem:inifinalvel), are
+/// in `program_bounds` and `end_functions`.
 class DmocElement final : public Element {
  public:
   [[nodiscard]] std::string name() const override { return "dmoc"; }

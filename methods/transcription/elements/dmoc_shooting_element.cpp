@@ -43,8 +43,8 @@ class DmocStep {
     results_ = Schedule(stacked(results));
   }
 
-  /// The unknowns of a step behind a Newton step from `roots` (interior stage rates, then q_{k+1}); `correction` is
-  /// what it took away.
+  /// The unknowns of a step after a Newton step from `roots` (interior stage rates, then q_{k+1}); `correction` is
+  /// the change subtracted by the Newton step.
   [[nodiscard]] ExpressionVector improved(const IntervalUnknowns& interval, const ExpressionVector& roots,
                                           ExpressionVector& correction) const {
     const std::vector<Expression> values = replay<Expression>(equations_, inputs(interval, roots));

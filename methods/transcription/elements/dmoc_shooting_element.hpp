@@ -19,7 +19,7 @@ namespace dmocbench {
 ///
 /// The equations are solved inside of the formulas, by `newton_steps` steps of Newton's method from q_k + h v, where v
 /// is one step of the same method for p_k = L_v(q_k, v) from v = 0. Near the root every step doubles the digits of
-/// q_{k+1} and of its derivatives: those of the last iterate are those of the implicit function theorem, to rounding.
+/// q_{k+1} and of its derivatives; the last derivatives agree with the implicit function theorem to rounding.
 /// Where the last step was not yet below 1e-12 of the configuration, Φ is not a number, by which solvers reject a trial
 /// point: steps must not be too long. The derivative of the residual by q_{k+1} needs nonzero leading minors
 /// (`solve_unsymmetric`); to leading order it is -L_vv/h.

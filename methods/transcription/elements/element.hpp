@@ -13,7 +13,7 @@
 
 namespace dmocbench {
 
-/// What a node carries besides its configuration q_k: its second part.
+/// The second part of a node's state besides its configuration q_k.
 enum class NodeState : std::uint8_t {
   configuration,  ///< nothing: x_k = q_k
   momentum,       ///< x_k = (q_k, p_k)
@@ -53,7 +53,7 @@ struct IntervalTrace {
   ExpressionVector right_momentum;      ///< p_{k+1} seen from this interval, n entries
 };
 
-/// One interval of a direct transcription, for any Butcher tableau: what distinguishes a method from the others.
+/// One interval of a direct transcription, for any Butcher tableau: the part that distinguishes methods.
 ///
 /// The motion between the nodes x_k and x_{k+1} is replaced by finitely many numbers: s stage rates, of which the last
 /// is eliminated, and s controls U_1 .. U_s. An element is a rule, not data: given the formulas of a problem and traced
@@ -86,7 +86,7 @@ struct IntervalTrace {
 ///
 /// 3. Momenta. l = -p_k⁻ and r = p_{k+1}⁺ where nodes carry q alone: the forced discrete Legendre transforms
 ///    (eq:varmech_dlegf), whose two values at a node add up to the equation of the node. Otherwise the momenta are
-///    those of the nodes, p_k, or L_v(q_k, v_k, t_k).
+///    the nodes' p_k, or L_v(q_k, v_k, t_k).
 ///
 /// 4. Costates. With multipliers μ, λ for which ℓ = c + μ·(p_k⁻ - p) + λ·e + w·(q_{k+1}, p_{k+1}⁺) is stationary in all
 ///    unknowns of the map, (∂ℓ/∂q_k, -μ) is the gradient by (q_k, p_k) of the cost to go c + w·(q_{k+1}, p_{k+1}⁺), for
@@ -103,7 +103,7 @@ class Element {
   [[nodiscard]] virtual std::string name() const = 0;
   /// One line.
   [[nodiscard]] virtual std::string description() const = 0;
-  /// What nodes carry.
+  /// The second part of the nodes' states.
   [[nodiscard]] virtual NodeState node_state() const = 0;
   /// True if the stages are unknowns of the program, with equations of their own; false if an interval is a map of its
   /// left node and controls (shooting).
@@ -122,7 +122,7 @@ class Element {
                                              const Element& element, Eigen::Index stages);
 
 /// The element of a method of one of the registered families (`Family`). Throws `Error` that lists the methods if there
-/// is none of that name, or says what a name with an integrator lacks.
+/// is no such method, or names the missing part of a name with an integrator.
 [[nodiscard]] std::unique_ptr<Element> make_element(std::string_view name);
 
 // Formulas that the families share.

@@ -24,7 +24,7 @@ struct ExplicitIntegrator {
 /// order 2.
 [[nodiscard]] std::vector<std::string> explicit_integrator_names();
 
-/// The integrator of that name. Throws `Error` that lists the names if there is none.
+/// The integrator `name`. Throws `Error` that lists the names if it is unknown.
 [[nodiscard]] const ExplicitIntegrator& explicit_integrator(std::string_view name);
 
 }  // namespace dmocbench

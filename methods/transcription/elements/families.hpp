@@ -12,14 +12,14 @@ namespace dmocbench {
 
 /// A family of methods: elements that differ only in their tableau, and in their integrator if they have one.
 ///
-/// A method is what `make_element` takes and what the column `method` of tables holds. It has the name of its family;
+/// A method is the argument of `make_element` and the entry of the column `method` in tables. It has its family's name;
 /// with an integrator NAME_INTEGRATOR_SUBSTEPS, such as "multiple_shooting_rk4_1".
 struct Family {
   std::string_view name;   ///< as on the command line
   std::string_view label;  ///< as figures call it
   int style = 0;           ///< its line style in figures, one of those in plots/style.gp
-  /// The element; `integration` is "" or, if the family takes an integrator, such as "rk4_1". Throws `Error` that says
-  /// what `integration` lacks.
+  /// The element; `integration` is "" or, if the family takes an integrator, such as "rk4_1". Throws `Error` that
+  /// names the missing part of `integration`.
   std::unique_ptr<Element> (*make)(std::string_view integration) = nullptr;
   bool is_of_paper = false;       ///< one of those that the paper compares
   bool takes_integrator = false;  ///< see above
@@ -36,7 +36,7 @@ struct Family {
 /// default of experiments, and each is a method. Statements about the paper's methods mean these.
 [[nodiscard]] std::vector<std::string> paper_families();
 
-/// Names of all families. Those that take an integrator are no methods without one.
+/// Names of all families. Families that take an integrator are not methods without one.
 [[nodiscard]] std::vector<std::string> all_families();
 
 /// Methods of all families; of those that take an integrator, one by each with one step per interval.

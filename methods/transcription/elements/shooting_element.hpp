@@ -11,7 +11,7 @@
 
 namespace dmocbench {
 
-/// What becomes of the nodes in between.
+/// The treatment of the nodes in between.
 enum class Shooting : std::uint8_t {
   multiple,  ///< they are unknowns
   single,    ///< they are simulated: `SingleShooting` condenses the program
@@ -28,7 +28,7 @@ enum class Shooting : std::uint8_t {
 /// the equations of an interval are
 ///   (x_{k+1} - Φ(x_k, U))/h = 0        (2n, units: velocity, acceleration).
 /// The control is the polynomial through U_1 .. U_s at the stage times of the tableau, the same as where the controls
-/// of the other families are replayed; the cost is integrated beside the state. No stage is an unknown. At the stage
+/// of the other families are replayed; the cost is integrated with the state. No stage is an unknown. At the stage
 /// times q is the cubic through the ends of the step and their velocities, and Q̇_i its derivative; path constraints
 /// hold there. L_vv must have nonzero leading minors (`solve_symmetric`).
 ///
@@ -58,7 +58,7 @@ class ShootingElement final : public Element {
 /// The integrator that is the map of DMOC itself (`DmocShootingElement`).
 inline constexpr std::string_view dmoc_integrator = "dmoc";
 
-/// Names of all integrators of shooting: the explicit ones, and that of DMOC.
+/// Names of all integrators of shooting: the explicit ones, and DMOC's.
 [[nodiscard]] std::vector<std::string> shooting_integrator_names();
 
 /// Throws `Error` in a sentence unless the integrator exists and is offered with so many steps per interval: 1 to
@@ -68,7 +68,7 @@ void require_substeps(std::string_view integrator, int substeps);
 /// FAMILY_INTEGRATOR_SUBSTEPS, such as "multiple_shooting_rk4_1".
 [[nodiscard]] std::string shooting_name(std::string_view family, std::string_view integrator, int substeps);
 
-/// The element of an integration INTEGRATOR_SUBSTEPS, such as "rk4_1". Throws `Error` that says what it lacks.
+/// The element of an integration INTEGRATOR_SUBSTEPS, such as "rk4_1". Throws `Error` that names a missing part.
 [[nodiscard]] std::unique_ptr<Element> make_shooting_element(Shooting shooting, std::string_view integration);
 
 }  // namespace dmocbench

@@ -26,8 +26,8 @@ using LongVector = Eigen::VectorX<long double>;
 constexpr int most_stages = 4;
 constexpr int fewest_lobatto_stages = 2;
 
-/// 0, 1 and the zeros of the derivative of the Legendre polynomial of degree `stages` - 1, which lie between those of
-/// the polynomial itself; mapped from [-1, 1] to [0, 1].
+/// 0, 1 and the zeros of the derivative of the Legendre polynomial of degree `stages` - 1, which lie between the
+/// zeros of the polynomial itself; mapped from [-1, 1] to [0, 1].
 std::vector<long double> lobatto_nodes(int stages) {
   std::vector<long double> nodes{0.0L};
   const std::vector<long double> zeros = gauss_nodes(stages - 1);

@@ -53,7 +53,7 @@ class WindowSearch {
         times_(guess.col(guess.cols() - 1)),
         stages_(std::move(stages)) {}
 
-  /// Throws if a run of negative `values`, those of entry `i` along the guess, is a window without a stage.
+  /// Throws if a run of negative `values`, of entry `i` along the guess, is a window without a stage.
   void check(const Eigen::VectorXd& values, Eigen::Index i, PathConstraints& path) const {
     const Eigen::Index count = values.size();
     for (Eigen::Index first = 0; first < count; ++first) {

@@ -33,7 +33,7 @@ Grid Grid::from_nodes(Eigen::VectorXd relative_times) {
     }
     if (widths[k] < narrowest) {
       throw Error(
-          fmt::format("relative node times {} and {} are {:.1e} apart, less than {:g}: rounding would drown the motion "
+          fmt::format("relative node times {} and {} are {:.1e} apart, less than {:g}: rounding would hide the motion "
                       "between them; take one of the two out",
                       k, k + 1, widths[k], narrowest));
     }

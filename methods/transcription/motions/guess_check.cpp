@@ -25,7 +25,7 @@ std::string place_of(double t, const Problem& problem, const Grid& grid) {
   return fmt::format("{}: at its guess in interval {} (t = {:g}) ", problem.name(), interval, t);
 }
 
-/// What is wrong with a point of the guess; empty if nothing is.
+/// The fault of a point of the guess, or empty.
 std::string flaw_of(const MotionPoint& point, const TracedProblem& traced) {
   const std::string flaw =
       flaw_of_sizes(point, traced.configuration_size(), traced.control_size(), traced.first_order_size());

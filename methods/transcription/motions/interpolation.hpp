@@ -13,7 +13,7 @@ namespace dmocbench {
 struct Motion {
   std::function<MotionPoint(double t)> at;  ///< (q, v, u, y) at a time
   double horizon = 0.0;                     ///< T > 0
-  Eigen::VectorXd unknowns = {};            ///< unknown parameters; none where they are those of the problem
+  Eigen::VectorXd unknowns = {};            ///< unknown parameters; empty for the problem's values
 };
 
 /// The node of ascending `times` at time t, up to rounding; none if there is no such node.

@@ -4,7 +4,7 @@ namespace dmocbench {
 
 namespace {
 
-/// The values that bounds fix minus those of a state; 0 for free entries.
+/// The values that bounds fix minus a state's; 0 for free entries.
 Eigen::VectorXd missing(const Bounds& bounds, const Eigen::VectorXd& values) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(values.size());
   for (Eigen::Index i = 0; i < values.size(); ++i) {

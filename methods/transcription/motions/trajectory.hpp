@@ -9,7 +9,7 @@ namespace dmocbench {
 
 /// A discrete motion in the same form for every method; diagnostics, tables and figures are made from it.
 ///
-/// Units are those of the problem as solved. Row k of a node table is node k = 0 .. N; row k s + i of a stage table is
+/// Units are the problem's as solved. Row k of a node table is node k = 0 .. N; row k s + i of a stage table is
 /// stage i of interval k.
 struct Trajectory {
   Tableau tableau;  ///< of the method
@@ -35,14 +35,14 @@ struct Trajectory {
   Eigen::MatrixXd psi_p;  ///< see `psi_q`
   /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, where bounds on velocities,
   /// path constraints, integrals or first-order states have multipliers of their own there, and of shooting, whose
-  /// stages are no unknowns.
+  /// stages are not unknowns.
   Eigen::MatrixXd stage_psi_q;
   Eigen::MatrixXd stage_psi_p;  ///< see `stage_psi_q`
 
   double cost = 0.0;  ///< the true cost, not the scaled one
 
   Eigen::VectorXd unknowns;   ///< unknown parameters, in the order of `Problem::unknowns`
-  Eigen::VectorXd integrals;  ///< those of `Problem::integrands` over [0, T]
+  Eigen::VectorXd integrals;  ///< of `Problem::integrands` over [0, T]
   /// By how much the least cost grows per unit of the active bound of each integral, as many; empty without
   /// multipliers.
   Eigen::VectorXd integral_prices;
