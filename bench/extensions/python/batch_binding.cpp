@@ -30,7 +30,7 @@ namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The instances: a row each of what differs; tables without rows are those of the problem.
+/// The instances: a row of varied values for each; tables without rows mean the problem's values.
 struct Instances {
   std::size_t count = 0;
   std::vector<std::string> parameters;  ///< names
@@ -45,7 +45,7 @@ struct Answers {
   std::vector<std::string> status;
   std::vector<bool> is_solved;
   Eigen::VectorXi iterations;
-  Rows q;  ///< node by node, where motions are asked for
+  Rows q;  ///< node by node, if motions are requested
   Rows u;  ///< stage by stage
 };
 
@@ -158,7 +158,7 @@ class Batch {
     BatchInstance instance;
     instance.start = sample(program_, guessed_motion(program_));
     const Eigen::VectorXd& rows = program_.constraint_lower();
-    instance.equality_values = rows.array().isFinite().select(rows, 0.0);  // those of inequalities are not read
+    instance.equality_values = rows.array().isFinite().select(rows, 0.0);  // values of inequalities are not read
     instance.parameters = values;
     return instance;
   }

@@ -8,7 +8,7 @@ namespace dmocbench::python {
 
 /// Traced numbers and the functions of them.
 void bind_expressions(pybind11::module_& module);
-/// Problems: those of Python classes, those that are built in, those of libraries.
+/// Problems: of Python classes, built-in ones, and problems of libraries.
 void bind_problems(pybind11::module_& module);
 /// One solve and its answer.
 void bind_solve(pybind11::module_& module);

@@ -29,7 +29,7 @@ class Call {
   /// Whether the user has pressed Ctrl-C since: asks Python, which answers in its main thread only, at most fifty times
   /// a second. For callers without the GIL.
   [[nodiscard]] bool is_interrupted();
-  /// What is kept will be raised, though C++ has made something of it.
+  /// The kept exception will be raised, even if C++ has converted it.
   void raise_later() noexcept { is_to_be_raised_ = true; }
   /// Whether it is.
   [[nodiscard]] bool is_to_be_raised() const noexcept { return is_to_be_raised_ || is_interrupted_; }
@@ -42,7 +42,7 @@ class Call {
   Call* outer_;
 };
 
-/// `work(call)` without the GIL, so that other threads of Python run meanwhile. What a Python problem has raised is
+/// `work(call)` without the GIL, so that other threads of Python run meanwhile. An exception of a Python problem is
 /// raised again, and so is Ctrl-C.
 template <class Work>
 auto without_gil(const Work& work) {

@@ -39,7 +39,7 @@ namespace {
 
 py::object not_implemented() { return py::reinterpret_borrow<py::object>(Py_NotImplemented); }
 
-/// An operator of two numbers; Python asks the other operand where it is neither a formula nor a number.
+/// An operator of two numbers; Python tries the other operand where it is neither a formula nor a number.
 template <class Apply>
 auto binary(Apply apply) {
   return [apply](const Expression& left, py::handle other) -> py::object {

@@ -11,13 +11,13 @@ namespace py = pybind11;
 
 void register_errors(py::module_& module) {
   py::register_exception<dmocbench::Error>(module, "Error").attr("__doc__") =
-      "Misuse: one sentence says what is wrong and how to mend it.";
+      "Misuse: one sentence with the mistake and its remedy.";
 }
 
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
-  module.doc() = "dmocbench in C++; the package dmocbench is what to import.";
+  module.doc() = "The C++ part of dmocbench; import the package dmocbench instead.";
   module.attr("__version__") = DMOCBENCH_VERSION;
   register_errors(module);
   dmocbench::check_environment();

@@ -45,7 +45,7 @@ py::list list_of(const ExpressionVector& entries) {
 
 std::string type_of(py::handle object) { return Py_TYPE(object.ptr())->tp_name; }
 
-/// The end of a sentence about an object that is no formula.
+/// The end of a sentence about an object that is not a formula.
 std::string what_was_returned(py::handle object) {
   return object.is_none() ? "returns None; is a \"return\" missing?"
                           : fmt::format("returns {}, expected formulas or numbers", type_of(object));
@@ -254,7 +254,7 @@ ProblemCard PythonProblem::card() const {
 std::shared_ptr<const PythonProblem::Numbers> PythonProblem::numbers() const {
   const Eigen::VectorXd parameters = parameter_values(*this);
   {
-    const std::lock_guard lock(last_numbers_use_);  // never held while Python is asked
+    const std::lock_guard lock(last_numbers_use_);  // never held during calls of Python
     if (last_numbers_ && (has_constant_numbers_ || last_numbers_->parameters == parameters)) return last_numbers_;
   }
   auto numbers = std::make_shared<const Numbers>(read_numbers());

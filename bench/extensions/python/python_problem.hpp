@@ -14,11 +14,11 @@ namespace dmocbench::python {
 
 class PythonProblem;
 
-/// How an object of a Python class reads the parameters of the C++ problem that it speaks for: as formulas while one is
+/// How an object of a Python class reads the parameters of the C++ problem that it represents: as formulas while one is
 /// traced, else as numbers.
 class ParameterReader {
  public:
-  /// The parameter of that name. Throws `Error` as `Problem::parameter`, and where the problem is gone.
+  /// The parameter `name`. Throws `Error` as `Problem::parameter`, and where the problem is gone.
   [[nodiscard]] pybind11::object read(const std::string& name) const;
 
  private:
@@ -26,10 +26,10 @@ class ParameterReader {
   const PythonProblem* problem_ = nullptr;  ///< null once it is gone
 };
 
-/// A problem whose members are those of an object of the Python class `dmocbench.Problem`.
+/// A problem whose members are implemented by an object of the Python class `dmocbench.Problem`.
 ///
 /// It keeps a copy of the object, so that later changes of the original do not reach solves that go on. Its functions
-/// may be called by any thread, with or without the GIL. What Python raises becomes an `Error` that names the function,
+/// may be called by any thread, with or without the GIL. Python exceptions become an `Error` that names the function,
 /// and is kept for the call (`Call`).
 class PythonProblem final : public Problem {
  public:
@@ -65,7 +65,7 @@ class PythonProblem final : public Problem {
   [[nodiscard]] MotionPoint guess(double t) const override;
 
  private:
-  /// What a problem states as numbers, for values of its parameters.
+  /// The numbers that a problem states, for values of its parameters.
   struct Numbers {
     Eigen::VectorXd parameters;
     BoundaryState first;
@@ -84,7 +84,7 @@ class PythonProblem final : public Problem {
   [[nodiscard]] Expression single_formula(const char* member, const Arguments& arguments) const;
   template <class Arguments>
   [[nodiscard]] ExpressionVector optional_formula(const char* member, const Arguments& arguments) const;
-  /// `work()` with the GIL; what Python raises is an `Error` that names the member.
+  /// `work()` with the GIL; Python exceptions become an `Error` that names the member.
   template <class Work>
   [[nodiscard]] auto asked_of_python(const char* member, const Work& work) const;
   [[nodiscard]] pybind11::object point(const ExpressionVector& q, const ExpressionVector& v, const ExpressionVector* u,

@@ -33,7 +33,7 @@ namespace {
 thread_local bool runs_program = false;
 thread_local PyGILState_STATE state_at_fork;
 
-/// A program makes processes (--jobs), in which Python problems are asked too: Python has to know of it.
+/// A program makes processes (--jobs), in which Python problems are called too: Python must be notified.
 void let_python_know_of_forks() {
   ::pthread_atfork(
       [] {

@@ -26,7 +26,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// What is solved and how, as Python gives it.
+/// The solve that Python requests.
 struct Asked {
   std::string method = "dmoc";
   std::string tableau = "gauss";
@@ -45,7 +45,7 @@ struct Asked {
   std::string refinement = "h";
 };
 
-/// An answer, with what is found out of it when it is asked for.
+/// An answer, with further results computed on first use.
 struct Answer {
   SolvedCase solved;
   std::optional<IndependentChecks> checks;

@@ -8,8 +8,8 @@
 
 namespace dmocbench::python {
 
-/// What a Python object is as a formula: an Expression, or a number (float, int, a scalar of numpy). None of all else,
-/// arrays among it. Throws as Python does where an int is too large for a float.
+/// A Python object as a formula: an Expression, or a number (float, int, a scalar of numpy). Empty for others,
+/// including arrays. Throws as Python does where an int is too large for a float.
 [[nodiscard]] std::optional<Expression> as_expression(pybind11::handle object);
 
 /// A formula for Python: a float where it is a constant, so that functions of Python's own accept it.

@@ -1,4 +1,4 @@
-"""dmocbench in C++: what the package dmocbench is made of."""
+"""The C++ part of the package dmocbench."""
 
 from typing import Any, Callable, Sequence, SupportsFloat, Union
 

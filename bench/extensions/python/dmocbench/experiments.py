@@ -92,7 +92,7 @@ def load_library(*files: str | os.PathLike[str]) -> None:
 
 
 def register(problem: AnyProblem) -> _core.ProblemHandle:
-    """Makes a problem known by its name to all experiments of this process. Returns what C++ takes for it."""
+    """Registers a problem by its name for all experiments of this process. Returns its C++ handle."""
     handle = handle_of(problem)
     if not isinstance(handle.original, Problem):
         return handle
@@ -125,7 +125,7 @@ def run(experiment: str, problem: AnyProblem | Sequence[AnyProblem] | None = Non
         **options: Any) -> Results | None:
     """Runs an experiment as the program does, on a problem, a name or a list of them, and returns its `Results`.
 
-    options are those of the program: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False.
+    options as on the command line: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False.
     It writes the same files into the folder `out`. arguments: further words of a command line, where an option is
     repeated. Throws Error where the program would print a sentence, KeyboardInterrupt on Ctrl-C.
     """
@@ -148,7 +148,7 @@ def run(experiment: str, problem: AnyProblem | Sequence[AnyProblem] | None = Non
 
 
 def _results(out, name, problems, is_complete):
-    """What a run has written, as its metadata list it; None where it writes no tables."""
+    """The files of a run, as listed in its metadata; None if it writes no tables."""
     metadata = os.path.join(out, name + ".json")
     if not os.path.exists(metadata):
         return None

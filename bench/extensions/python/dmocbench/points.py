@@ -6,7 +6,7 @@ import numpy as np
 
 
 class Named(np.ndarray):
-    """A vector of traced numbers whose entries have names: q.theta is q[0]. What is computed of it has no names."""
+    """A vector of traced numbers whose entries have names: q.theta is q[0]. Results of computations have no names."""
 
     def __array_finalize__(self, _source):
         self._names = ()

@@ -20,7 +20,7 @@ _infinity = math.inf
 Numbers = Union[float, Sequence[float], Mapping[str, float], None]
 """A number for every entry, a list of them, or a dict by the names of entries."""
 
-# What sentences of C++ call otherwise.
+# Names in messages of C++ and their Python names.
 _words = {"initial_state": "start", "final_state": "end", "bounds().first": "start", "bounds().last": "end",
           "bounds().horizon": "horizon", "configuration_names": "q", "control_names": "u", "varying()": "a formula",
           "parameter()": "its number"}
@@ -208,7 +208,7 @@ def _end_part(part, names, what, is_rate=False):
         _require_known(part, names, what)
         missing = [name for name in names if name not in part]
         if missing and not is_rate:
-            raise Error(f"{what} lacks {', '.join(missing)}; write free() for what is left open")
+            raise Error(f"{what} lacks {', '.join(missing)}; write free() for entries left open")
         part = [part.get(name, 0.0) for name in names]
     if isinstance(part, between):
         part = [part] * len(names)
@@ -230,7 +230,7 @@ def _fixed(value, what):
 
 class motion:
     """A guess from arrays: between the times t it is linear. q: len(t) x n; v: by default the slopes of q; u: by
-    default 0. Times are those of the problem; where its horizon is another one, the motion is stretched."""
+    default 0. Times are the problem's; for another horizon the motion is stretched."""
 
     def __init__(self, t: Any, q: Any, v: Any = None, u: Any = None):
         self.t = np.asarray(t, dtype=float)
@@ -312,7 +312,7 @@ class Problem:
         """The values of all parameters by name."""
         return {name: getattr(self, name) for name in _parameters_of(type(self))}
 
-    # What C++ asks.
+    # Called from C++.
 
     def _require_parameter(self, name):
         names = list(_parameters_of(type(self)))
@@ -446,7 +446,7 @@ class Problem:
 
 
 def _parameters_of(cls):
-    """All parameters of a class by name, those of its bases first."""
+    """All parameters of a class by name, parameters of its bases first."""
     found = {}
     for base in reversed(cls.__mro__):
         found.update({name: value for name, value in vars(base).items() if isinstance(value, parameter)})

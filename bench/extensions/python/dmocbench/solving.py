@@ -38,7 +38,7 @@ class NamedProblem:
 
 
 def problem(name: str, **values: float) -> NamedProblem:
-    """The problem of that name, built in or from a library, with these values of its parameters."""
+    """The named problem, built in or from a library, with these values of its parameters."""
     return NamedProblem(name, **values)
 
 
@@ -46,7 +46,7 @@ AnyProblem = Union[Problem, type, NamedProblem, str]
 
 
 def handle_of(problem: AnyProblem) -> _core.ProblemHandle:
-    """What C++ takes for a problem: an instance or subclass of Problem, a named problem, or a name."""
+    """The C++ handle of a problem: an instance or subclass of Problem, a named problem, or a name."""
     if isinstance(problem, str):
         problem = NamedProblem(problem)
     elif inspect.isclass(problem) and issubclass(problem, Problem):
@@ -83,7 +83,7 @@ class Solution:
     status, message, is_solved; cost, iterations, seconds, setup_seconds, kkt_residual, constraint_violation,
     relative_jump, replay_error (distance from the end when the controls are replayed), largest_violation (of bounds and
     path constraints anywhere on the motion); t, q, v, p, psi_q, psi_p, psi = (psi_q, psi_p); stages.t, .q, .v, .u, .p.
-    None where the solve ended without it. Arrays are views of what C++ has found; they may outlive the solution.
+    None where the solve ended without it. Arrays are views of C++ results; they may outlive the solution.
     """
 
     problem: str
@@ -122,7 +122,7 @@ class Solution:
 
     @property
     def message(self) -> str:
-        """What happened, in a sentence."""
+        """The outcome of the solve, in a sentence."""
         return in_words_of_python(self._answer.message)
 
     def estimated_error(self) -> float:
@@ -181,12 +181,12 @@ def solve(problem: AnyProblem, method: str = "dmoc", *, intervals: int = 128, ta
           nodes: Any = None, tolerance: float | None = None, most_iterations: int | None = None,
           most_seconds: float = 0.0, derivatives: str = "tape", form: str = "bolza", verbose: bool = False,
           options: Mapping[str, Any] | None = None) -> Solution:
-    """Solves a problem and returns a `Solution`; one that does not converge says so in its status.
+    """Solves a problem and returns a `Solution`, whose status shows whether it converged.
 
     problem: an instance of a class derived from Problem, or the name of a built-in problem. method: one of `methods()`.
     intervals: N of a uniform grid; nodes: relative node times from 0 to 1 instead. start: a Solution to begin with,
     else the guess of the problem. accuracy: refines the grid ("h"), or also the number of stages ("hp"), until the
-    estimated relative error is at most that. options: those of the solver by name. Throws Error on misuse.
+    estimated relative error is at most that. options: the solver's, by name. Throws Error on misuse.
     """
     if start is not None and not isinstance(start, Solution):
         raise Error(f"start= takes a Solution, not {type(start).__name__}; state a guess in the problem")
@@ -233,7 +233,7 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
     """Solves many instances of one problem, eight side by side in vector registers, on all processors.
 
     parameters: a dict of names to arrays, one number per instance; start, end: arrays of states (q, v), a row of 2n
-    numbers per instance. What is not given is that of the problem. Both ends and the horizon must be fixed. Returns a
+    numbers per instance. Missing values are the problem's. Both ends and the horizon must be fixed. Returns a
     `Batch`. Throws Error on misuse.
     """
     handle = handle_of(problem)
