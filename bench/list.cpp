@@ -236,7 +236,7 @@ int print_all(CommandLine& line) {
   if (as_gnuplot) return print_families();
   if (!schema.empty()) return print_schema(schema);
   const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
-                                          settings);  // refuses before anything is printed
+                                          settings);  // throws before anything is printed
   if (as_json) return print_cards(problems);
   if (!names.empty()) {
     for (const auto& problem : problems) print_problem(*problem);

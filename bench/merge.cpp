@@ -18,8 +18,7 @@ int merge(CommandLine& line) {
   line.option("--name", options.name, "name of the table: the experiment's, unless its --name gave another");
   line.option("--out", options.out,
               "results folder where the parts are (in NAME.parts), and where the table is written");
-  line.option("--from", folders,
-              "results folder of another machine with parts, besides the one of --out; may be repeated");
+  line.option("--from", folders, "further results folder with parts, of another machine; may be repeated");
   line.option("--grid", options.grid, "the grid file of the parts: names of files are not taken from parts");
   line.option("--start", options.start, "the start of the parts, if it was a file");
   line.option("--option", options.passed_on,

@@ -6,7 +6,7 @@ namespace dmocbench {
 
 /// The shape of a chain that hangs between two points, the chain of COPS.
 ///
-/// q is the height over the horizontal coordinate, which stands in the place of time: L = ½q̇², f = u, so that q̈ = u is
+/// q is the height over the horizontal coordinate, which takes the place of time: L = ½q̇², f = u, so that q̈ = u is
 /// free; C = q √(1 + q̇²), the potential energy, with the length ∫ √(1 + q̇²) dt = 4. From (0, 1) to (1, 3), the slopes
 /// at both ends free. The shape is a catenary.
 class HangingChain final : public Problem {

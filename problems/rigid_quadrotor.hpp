@@ -19,7 +19,7 @@ namespace dmocbench {
 /// r = 0.1, ρ = 0.001, T = 1 s, from rest at q = 0: u₁ is the thrust by the mass in m/s², (u₂, u₃, u₄) the torque by
 /// the moments of inertia in rad/s².
 ///
-/// The published problem commands the angular velocity itself, (u₂, u₃, u₄) in the place of ω, so that its angles have
+/// The published problem commands the angular velocity itself, (u₂, u₃, u₄) instead of ω, so that its angles have
 /// no inertia: nine first-order equations, not a mechanical system. Here torques turn a body, twelve first-order
 /// equations; the published cost of the angular velocity stays, and a cost of the torques is added. There the rate of
 /// the first angle is moreover the usual rate of yaw; here the angles are Euler's. Thrust, curve, weights and T are the
@@ -43,7 +43,7 @@ class RigidQuadrotor final : public Problem {
         .description = "a quadrotor in space, a rigid body, follows a curve in fixed time, final state free",
         .source =
             "Montoison, Caillau: Modeling and Optimization of Control Problems on GPUs (arXiv:2510.03932), problem "
-            "quadrotor, after ExaModels.jl; with torques in the place of angular velocities",
+            "quadrotor, after ExaModels.jl; with torques instead of angular velocities",
         .guess = "hovering: q on the straight line to (0, 0, 2 m), v its slope, u_1 = g, no torque",
         .reference = with_default_parameters(
             *this,

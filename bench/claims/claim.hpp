@@ -50,7 +50,7 @@ inline const Problems examples{"examples"};
 enum class Whose : std::uint8_t {
   paper,      ///< the paper: its statements and remarks
   ours,       ///< a finding of ours: a sharper form of a statement, or one that the paper does not make
-  misprint,   ///< the paper as it is printed, but not as it is meant
+  misprint,   ///< a printed statement of the paper that differs from the intended one
   extension,  ///< about an extension of the suite, also where section 5 of the paper names the topic
 };
 /// All of them, in the order of the summary.
@@ -81,14 +81,14 @@ struct Finding {
   std::string measured;                             ///< in words and numbers
   ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< the verdict that follows from it
   std::string reason = {};     ///< the cause or condition that the tables show; written after the claim's own
-  std::string sure = "exact";  ///< "exact", or how often the verdict came out among replicates
+  std::string sure = "exact";  ///< "exact", or the share of replicates with the same verdict
 
   /// The same with a reason.
   [[nodiscard]] Finding because(std::string sentence) && {
     reason = std::move(sentence);
     return std::move(*this);
   }
-  /// The same with how often the verdict came out.
+  /// The same with the share of replicates that have this verdict.
   [[nodiscard]] Finding as_sure_as(std::string replicates) && {
     sure = std::move(replicates);
     return std::move(*this);
@@ -126,7 +126,7 @@ struct JudgedClaim {
   ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< the predicate's verdict
   std::string reason;                               ///< why it differs, or the condition under which it holds
   std::string evidence;                             ///< the tables and figures, with "; " between them
-  std::string sure;  ///< "exact", or how often the verdict came out among replicates; "" for "not judged"
+  std::string sure;                 ///< "exact", or the share of replicates with the same verdict; "" for "not judged"
   std::vector<ReadRows> rows = {};  ///< by which it was judged
   bool by_counting = false;         ///< it follows from counting unknowns or from a choice
   bool headline = false;            ///< the summary states it
@@ -159,7 +159,7 @@ inline constexpr double near_order = 0.3;
   return holds ? ClaimVerdict::reproduced : ClaimVerdict::differs;
 }
 
-/// A finding in the words of fmt::format; `outcome` is a verdict, or whether the statement holds.
+/// A finding with the formatted text; `outcome` is a verdict, or whether the statement holds.
 template <class Outcome, class... Values>
 [[nodiscard]] Finding found(Outcome outcome, fmt::format_string<Values...> words, Values&&... values) {
   return {fmt::format(words, std::forward<Values>(values)...), verdict_on(outcome)};
@@ -184,7 +184,7 @@ template <std::invocable<const Row&> Judge>
   return verdict_on_all(verdicts);
 }
 
-/// Throws `Error` in the words of fmt::format unless `is_there`: a claim lacks something.
+/// Throws `Error` with the formatted message unless `is_there`: data that a claim needs are missing.
 template <class... Values>
 void require(bool is_there, fmt::format_string<Values...> words, Values&&... values) {
   if (!is_there) throw Error(fmt::format(words, std::forward<Values>(values)...));

@@ -28,7 +28,7 @@ const Columns<JudgedClaim>& claim_columns() {
       {"verdict", "", "by the tables", [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
       {"reason", "", "why it differs, or when it holds", &JudgedClaim::reason},
       {"evidence", "", "tables and figures", &JudgedClaim::evidence},
-      {"sure", "", "exact, or how often the verdict came out among replicates", &JudgedClaim::sure},
+      {"sure", "", "exact, or the share of replicates with the same verdict", &JudgedClaim::sure},
   };
   return all;
 }

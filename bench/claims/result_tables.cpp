@@ -71,7 +71,7 @@ std::string run_of(const std::filesystem::path& folder, std::string name, const 
   return name;
 }
 
-/// Reads a regular file; pipes are refused because they could block.
+/// Reads a regular file; pipes are rejected because they could block.
 std::string content_of(const std::filesystem::path& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown))
@@ -118,8 +118,8 @@ void check_run(const std::filesystem::path& folder, const std::string& name, con
   }
 }
 
-/// Claims are about problems as they are stated: of a problem with rows of several libraries or settings, only those
-/// without either.
+/// Claims are about problems without changed settings: of a problem with rows of several libraries or settings, only
+/// those without either.
 Table of_plain_statements(const Table& table) {
   std::map<std::string, std::set<std::pair<std::string, std::string>>> statements;
   const auto statement = [](const Row& row) { return std::pair(row.text("library"), row.text("settings")); };

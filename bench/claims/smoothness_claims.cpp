@@ -11,7 +11,7 @@ namespace {
 /// The quantities in (main_theorem); psi^q jumps where a bound on the state becomes active.
 const std::vector<std::string> of_theorem{"state", "costate_p", "node_control"};
 
-/// Slopes of DMOC with so many stages, of some quantities, in situations that are picked.
+/// Slopes of DMOC with a number of stages, of some quantities, in selected situations.
 template <class Picks>
 Selection orders_of(const ResultTables& tables, const char* stages, const std::vector<std::string>& quantities,
                     const Picks& picks) {

@@ -23,7 +23,7 @@ class TimedRatios {
   [[nodiscard]] ClaimVerdict verdict() const;
   /// "ipopt 1.25 (1.21 to 1.30), sparse 1.40 (1.38 to 1.41)": medians with their intervals.
   [[nodiscard]] std::string in_words() const;
-  /// "993 of 1000 resamples": how often the verdict comes out where rounds are drawn anew; for "undecided" how often
+  /// "993 of 1000 resamples": how often the verdict follows from resampled rounds; for "undecided" how often
   /// the claim holds.
   [[nodiscard]] std::string sure() const;
   /// The smallest number of rounds of a ratio; 0 without ratios.

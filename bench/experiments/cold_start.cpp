@@ -58,13 +58,13 @@ struct IndirectStarts {
 const Columns<IndirectStarts> indirect_columns{
     {"problem", "", "its name", &IndirectStarts::problem, in_key},
     {"starts", "", "motions of the direct methods' cold starts, with costates 0", &IndirectStarts::starts},
-    {"converged", "", "from so many of them two runs agree to 1e-6",
+    {"converged", "", "number of them from which two runs agree to 1e-6",
      [](const IndirectStarts& of) { return static_cast<long long>(of.converged.hits); }},
     {"converged_lower", "", "of the interval of 95 % of their share",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).lower; }},
     {"converged_upper", "", "of the same interval",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).upper; }},
-    {"best", "", "and so many at a cost not above the certified one",
+    {"best", "", "number of these at a cost not above the certified one",
      [](const IndirectStarts& of) { return static_cast<long long>(of.best.hits); }}};
 
 class ColdStart final : public Experiment {

@@ -22,7 +22,7 @@ struct NeededGrid {
   std::optional<double> largest_step = std::nullopt;
   std::optional<double> smallest_step = std::nullopt;
   std::optional<std::size_t> grids = std::nullopt;  ///< on the way, this one included
-  std::vector<double> rounds = {};                  ///< [s] of the whole way, each time anew
+  std::vector<double> rounds = {};                  ///< [s] of the whole refinement, repeated
   int order = 0;                                    ///< of the method
   /// Variables at exactly this accuracy, by the order of the method from the true error.
   [[nodiscard]] std::optional<double> variables_at_accuracy() const;

@@ -198,7 +198,7 @@ int run(int argc, char** argv) {
       "Orders of state, costate, control and cost where bounds are active and the optimal control has kinks, compared "
       "with smooth optima, with fixed and with free final state: smoothness.csv, fitted orders in "
       "smoothness_slopes.csv. Errors are measured against the closed form, or against DMOC with two stages on 1280 "
-      "intervals. With --problem no examples, but these problems, as they are.",
+      "intervals. With --problem these problems, unchanged, instead of examples.",
       argc, argv, measure_all);
 }
 

@@ -340,7 +340,7 @@ class Typesetter {
     return around == Around::nothing ? content : in_brackets(content);
   }
 
-  /// The argument of a function: a name as it is, all else in brackets.
+  /// The argument of a function: a name unchanged, all else in brackets.
   [[nodiscard]] std::string arguments_of(Place place) const {
     const Schedule::Step& step = steps_[place];
     if (step.operation == Operation::arc_tangent2)

@@ -98,7 +98,7 @@ std::string magnitude(double value) {
     return pi->denominator == 1 ? numerator : fmt::format("<mfrac>{}<mn>{}</mn></mfrac>", numerator, pi->denominator);
   }
   const auto fraction = fraction_of(value);
-  const bool is_short = fmt::format("{}", value).size() <= 3;  // 0.2 is better read as it is, 3/2 is not
+  const bool is_short = fmt::format("{}", value).size() <= 3;  // 0.2 is easier to read as a decimal, 3/2 as a fraction
   if (fraction && fraction->denominator > 1 && (!is_short || fraction->denominator == 2))
     return fmt::format("<mfrac><mn>{}</mn><mn>{}</mn></mfrac>", fraction->numerator, fraction->denominator);
   return decimal(value);

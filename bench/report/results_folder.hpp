@@ -44,7 +44,7 @@ struct ResultsFolder {
   std::vector<ReportedFigure> figures;
   std::vector<ReportedMotion> motions;
   Table claims;                     ///< no rows if no claims were judged
-  Table claim_rows;                 ///< by which rows of which tables: claim, table, records, columns
+  Table claim_rows;                 ///< the rows that claims are based on: claim, table, records, columns
   std::vector<std::string> faults;  ///< files that cannot be shown, a sentence each
 
   /// The metadata of a run, or null.

@@ -35,7 +35,7 @@ bool is_exact(double value) {
          markup.find("<mi>") != std::string::npos;
 }
 
-/// A number as it is, or else with eight digits.
+/// A number with its own digits, or at most eight.
 std::string number_html(double value) {
   return mathml_of_number(is_exact(value) ? value : parsed<double>(fmt::format("{:.8g}", value)).value_or(value));
 }

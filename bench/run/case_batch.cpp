@@ -248,7 +248,7 @@ void judge_and_keep(const BatchWork& work, CaseBatch& batch, const BatchedCase& 
   SolvedCase solved = batch.judged(one);
   const Status status = solved.solution.status;
   if (interrupt_requested() && status == Status::interrupted) return;                           // its judgement was
-  if (solved.the_case.solver == "auto" && !is_solved(status) && !is_no_motion(status)) return;  // ipopt goes on alone
+  if (solved.the_case.solver == "auto" && !is_solved(status) && !is_no_motion(status)) return;  // ipopt continues alone
   work.keep(solved, one.number);
 }
 

@@ -18,7 +18,7 @@ namespace dmocbench {
 [[nodiscard]] std::vector<std::string> chosen_of(const std::string& option, const std::vector<std::string>& known,
                                                  const std::vector<std::string>& chosen);
 
-/// The labels of the variants that a case is solved in; one that is empty leaves it as it is.
+/// The labels of the variants that a case is solved in; an empty label leaves it unchanged.
 using LabelsOfCase = std::function<std::vector<std::string>(const Case&)>;
 /// Each curve once for each of its variants, which its first case determines.
 [[nodiscard]] std::vector<Case> vary(const std::vector<Case>& cases, const LabelsOfCase& labels_of);

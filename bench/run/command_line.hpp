@@ -122,7 +122,7 @@ class ProgressLine {
   [[nodiscard]] bool is_shown() const noexcept { return terminal_ != nullptr; }
   /// Shows an activity.
   void show(const std::string& activity);
-  /// Shows an activity after so many of all cases, with an estimate of the time that is left.
+  /// Shows an activity with the number of finished cases and an estimate of the remaining time.
   void show(const std::string& activity, std::size_t done, std::size_t all);
 
  private:

@@ -51,7 +51,7 @@ struct ExperimentCard {
   std::string example = {};  ///< options of a call that `--help` shows; by default a problem and its grids
 };
 
-/// A solve that is to be done.
+/// A solve to be carried out.
 struct SolveTask {
   Case the_case;                ///< the case to be solved
   Start start;                  ///< where the solve begins

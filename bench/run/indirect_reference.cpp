@@ -113,7 +113,7 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
     if (boundary_value_residual(problem, solution) > rounding || !is_near(solution, direct)) return std::nullopt;
     return solution;
   } catch (const std::exception&) {
-    return std::nullopt;  // a file that is not ours is written anew
+    return std::nullopt;  // a file of another origin is rewritten
   }
 }
 
@@ -157,7 +157,7 @@ Json account_of(const Entry& entry) {
   return {{"cells", std::move(cells)}, {"metadata", std::move(metadata)}};
 }
 
-/// The solution near a direct one, from the problem's file in a folder, or solved anew and written there.
+/// The solution near a direct one, from the problem's file in a folder, or else solved and written there.
 /// Where that fails, `notes` gets the reason: the solution is as good without a file.
 Entry solution_near(const Problem& problem, const Trajectory& direct, const std::filesystem::path& folder,
                     std::vector<std::string>& notes) {

@@ -31,7 +31,7 @@ struct CheckedIndirectSolution {
 ///
 /// PROBLEM_indirect.json holds all numbers of a solution. It is used again if it was made with the same parameters, its
 /// checksum holds, its numbers still solve the boundary value problem (so that a changed formula is noticed) and it is
-/// on the branch of the direct solution; otherwise the problem is solved anew and the file written whole.
+/// on the branch of the direct solution; otherwise the problem is solved again and the file rewritten.
 class IndirectReference {
  public:
   /// `folder` is where the files are; it exists when `near` is called.

@@ -107,7 +107,7 @@ void require_libraries(const PartFile& part, std::vector<std::string> given) {
   std::ranges::move(libraries_of_environment(), std::back_inserter(given));
   for (const auto& [name, checksum] : identity.at("problem_libraries").members()) {
     const auto has_name = [&name = name](const std::filesystem::path& file) {
-      std::error_code none;  // one that is not there is refused when it is loaded
+      std::error_code none;  // a missing one is rejected when it is loaded
       return std::filesystem::weakly_canonical(file, none).filename() == name;
     };
     if (std::ranges::any_of(given, has_name)) continue;

@@ -28,7 +28,8 @@ struct Statement {
 [[nodiscard]] Statement statement_of(const Problem& problem);
 
 /// A table whose column `problem` is followed by `library` and `settings`, which become part of the key. Rows take them
-/// from the statement of their problem. A table without the column `problem`, or that has the others, stays as it is.
+/// from the statement of their problem. A table without the column `problem`, or that has the others, is returned
+/// unchanged.
 [[nodiscard]] Table with_statements(const Table& table, const std::set<Statement>& statements);
 
 /// The rows that earlier runs of other statements have left in the tables FOLDER/NAME*.csv, and the description of

@@ -38,7 +38,7 @@ struct ExperimentOptions {
   bool batch = false;    ///< cases of one program are solved side by side, where an experiment allows it
   int repeats = 1;       ///< solves per row; times are their medians
   bool verbose = false;  ///< shows the solver's own output
-  bool fresh = false;    ///< solves all cases anew where an interrupted run would be resumed
+  bool fresh = false;    ///< solves all cases again instead of resuming an interrupted run
   std::filesystem::path out = "results";  ///< folder for results
   std::string name = {};                  ///< of the table and its accompanying files
   std::string part = {};                  ///< "i/n": solve the i-th of n parts of the cases; empty: all

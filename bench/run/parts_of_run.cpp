@@ -34,7 +34,7 @@ std::vector<SharedBy> respects_of(const Experiment& experiment) {
   return respects;
 }
 
-/// The same where the common start of a scheme is to be found once.
+/// The same if the common start of a scheme has to be found once.
 std::vector<SharedBy> respects_of_parts(const Experiment& experiment) {
   const auto scheme = [](const Case& c) { return fmt::format("{} {} {}", c.problem->name(), c.tableau, c.stages); };
   const ExperimentCard& card = experiment.card();

@@ -152,7 +152,7 @@ nlohmann::ordered_json problem_cards_schema() {
        {"control_units", described(list_of(text()), "of u_1 .. u_m; empty if not stated")},
        {"parameters", list_of(parameter)},
        {"time_unit", described(object_of({{"name", text()}, {"factor", number()}}),
-                               "one unit of the problem's time is so many of these")},
+                               "size of one unit of the problem's time in this unit")},
        {"horizon", described(object_of({{"lower", number()}, {"upper", number_or_null()}, {"guess", number()}}),
                              "T; fixed where its bounds are equal")},
        {"start", state},

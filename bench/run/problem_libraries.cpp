@@ -27,7 +27,7 @@ nlohmann::ordered_json& loaded_libraries() {
 }
 
 void load(const std::filesystem::path& file) {
-  std::error_code none;  // a file that is not there is refused below
+  std::error_code none;  // a missing file is rejected below
   const std::string path = std::filesystem::weakly_canonical(file, none).string();
   nlohmann::ordered_json& libraries = loaded_libraries();
   const auto is_loaded = [&path](const nlohmann::ordered_json& library) { return library.at("path") == path; };

@@ -24,7 +24,7 @@ class RestatedProblem final : public Problem {
     std::optional<BoundaryState> final = std::nullopt;  ///< the state at T
     std::optional<double> cost_scale = std::nullopt;    ///< factor of the cost
   };
-  /// `base` with these changes; it is shared and stays as it is.
+  /// `base` with these changes; `base` is shared and not modified.
   RestatedProblem(std::shared_ptr<const Problem> base, Changes changes)
       : base_(std::move(base)), changes_(std::move(changes)) {}
 

@@ -46,7 +46,7 @@ nlohmann::json metadata_in(const std::filesystem::path& file) {
   try {
     return nlohmann::json::parse(read_file(file), nullptr, false);
   } catch (const Error&) {
-    return {};  // somebody else's
+    return {};  // written by another program
   }
 }
 

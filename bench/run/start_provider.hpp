@@ -64,7 +64,7 @@ class StartProvider {
 
   /// The motion to start this case from, and the motion whose branch it should be on. No case starts at its own answer:
   /// where the common start is the case's own method on the same grid, the answer on the finer grid serves; a file
-  /// that is the case's own answer, with the same values of its parameters, is refused: throws `NoStart`. Where no
+  /// that is the case's own answer, with the same values of its parameters, is rejected: throws `NoStart`. Where no
   /// common start is found, in time or at all, it is the guess, and the note gives the reason; throws `Interrupted` if
   /// the search was interrupted.
   [[nodiscard]] Start start_for(const Case& the_case);

@@ -117,7 +117,7 @@ void count(const CountedSolve& solve, int extra) {
 }  // namespace dmocbench::speed
 
 /// `counted NAME...` counts these programs, `counted --list` names all, `counted --compiler` names the compiler;
-/// `counted --slowed INSTRUCTIONS NAME` counts a program with a loop of so many instructions for every interval.
+/// `counted --slowed INSTRUCTIONS NAME` counts a program with an added loop of this many instructions per interval.
 int main(int argc, char** argv) {
   using namespace dmocbench;         // NOLINT(google-build-using-namespace): the program's own
   using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace)

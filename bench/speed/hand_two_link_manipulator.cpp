@@ -33,7 +33,7 @@ struct Middle {
 /// Carries out `formulas(k, middle)` for every interval k, `function` being cosine or sine.
 ///
 /// g++ calls no vector sine by itself without -ffast-math, so sines and cosines come from the tape's own library, for
-/// so many intervals at a time as fit into the first-level cache; everything else is plain loops.
+/// as many intervals at a time as fit into the first-level cache; everything else is plain loops.
 template <class Function, class Formulas>
 [[gnu::always_inline]] inline void for_each_interval(std::size_t intervals, const HandSeries& columns,
                                                      const Function& function, const Formulas& formulas) {

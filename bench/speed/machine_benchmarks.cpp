@@ -29,7 +29,7 @@ std::size_t size_or(int name, std::size_t common) {
   return told > 0 ? static_cast<std::size_t>(told) : common;
 }
 
-/// A rate of so many in every iteration.
+/// A rate with this many in every iteration.
 benchmark::Counter per_iteration(double count) { return {count, benchmark::Counter::kIsIterationInvariantRate}; }
 
 /// All triads share `memory`, which grows as needed, up to an eighth of the machine's.

@@ -33,7 +33,7 @@ class Confirmation {
   /// The program must outlive it.
   explicit Confirmation(NonlinearProgram& program) : program_(program) {}
 
-  /// Computes the residuals of a solution and judges its claim; other statuses stay as they are, and so does a solution
+  /// Computes the residuals of a solution and judges its claim; other statuses are unchanged, and so is a solution
   /// without a point, unless it claims to be solved. The message states the judgement.
   ///
   /// "Solved" requires a settled answer too: a Newton step from it moves no unknown by more than `settled` of its

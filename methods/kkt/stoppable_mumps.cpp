@@ -29,7 +29,7 @@ Function* of_library(const char* name, void* where = RTLD_NEXT) {
 /// Whether MUMPS factorises in this thread.
 thread_local bool is_factorising = false;
 
-/// Frees the memory of MUMPS' load counter after an interrupted factorisation: it would refuse the next one.
+/// Frees the memory of MUMPS' load counter after an interrupted factorisation: it would reject the next one.
 void free_loads() {
   using End = void(int* info, int* slaves, int* error);
   static auto* const end = of_library<End>("__dmumps_load_MOD_dmumps_load_end", RTLD_DEFAULT);

@@ -11,7 +11,7 @@ namespace dmocbench {
 /// `Solver::solve` hands it to every solver alike, so that their counts and their limits of time mean the same.
 class CountedProgram final : public ForwardingProgram {
  public:
-  /// `program` must outlive it. The solve may take so many seconds of wall clock, 0 for no limit.
+  /// `program` must outlive it. The solve may take this many seconds of wall clock, 0 for no limit.
   explicit CountedProgram(NonlinearProgram& program, double most_seconds = 0.0) : ForwardingProgram(program) {
     if (most_seconds > 0.0) most_seconds_ = most_seconds;
   }

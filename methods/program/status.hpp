@@ -17,8 +17,8 @@ enum class Status : std::uint8_t {
   iteration_limit,          ///< the largest allowed number of iterations was reached
   time_limit,               ///< the allowed time was used up
   interrupted,              ///< stopped from outside
-  too_large,                ///< the solver refuses a program of this size
-  invalid_program,          ///< the solver refuses the program: too few degrees of freedom, a bad option or number
+  too_large,                ///< the solver rejects a program of this size
+  invalid_program,          ///< the solver rejects the program: too few degrees of freedom, a bad option or number
   out_of_memory,            ///< the solver could not allocate enough memory
   solver_error,             ///< the solver reported an internal error
   too_coarse,               ///< solved, but the answer is not a motion: its intervals do not join (`accuracy`)

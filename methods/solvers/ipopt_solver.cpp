@@ -86,7 +86,7 @@ std::optional<OrderedResiduals> ordered(const NonlinearProgram& program, Ipopt::
 }
 
 /// Whether an iterate of Ipopt meets our stopping rule. Ipopt's own test ignores rounding, so that on long grids it
-/// would go on where other solvers stop.
+/// would continue where other solvers stop.
 bool meets(const StopRule& allowed, const NonlinearProgram& program, const Ipopt::IteratesVector& at,
            Ipopt::IpoptCalculatedQuantities& quantities) {
   const Magnitudes of_constraints({at.y_c(), at.y_d()});
@@ -307,7 +307,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& o
   application->RethrowNonIpoptException(true);
   set_options(*application, options, named);
   if (application->Initialize("") != Ipopt::Solve_Succeeded) {
-    throw Error("Ipopt refuses one of the options passed on to it");
+    throw Error("Ipopt rejects one of the options passed on to it");
   }
   return application;
 }

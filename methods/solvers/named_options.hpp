@@ -15,7 +15,7 @@ namespace dmocbench {
 /// An option of one of our own solvers that a command line may give as text.
 struct NamedOption {
   std::string_view name;
-  std::vector<std::string> takes;                ///< the words it takes, for people
+  std::vector<std::string> takes;                ///< the accepted values, for people
   std::function<bool(const std::string&)> read;  ///< sets the typed option; false if the text is none of these
 };
 

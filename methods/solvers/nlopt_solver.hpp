@@ -26,7 +26,7 @@ namespace dmocbench {
 /// given, SLSQP does not start again.
 class NloptSolver final : public SolverWithoutMemory {
  public:
-  /// An iteration factorises dense matrices of this size; more free variables are refused with status "too large".
+  /// An iteration factorises dense matrices of this size; more free variables are rejected with status "too large".
   static constexpr std::size_t most_free_variables = 400;
 
   /// Throws `Error` that names the option if one is out of range or not SLSQP's.

@@ -105,7 +105,7 @@ class Solver {
   SolverOptions options_;
 };
 
-/// A solver of which nothing is left after a solve that the next one could use, and that takes no warm start.
+/// A solver that keeps no state between solves and does not support warm starts.
 class SolverWithoutMemory : public Solver {
  public:
   [[nodiscard]] std::unique_ptr<PreparedRun> prepare(CountedProgram& program) const final;

@@ -63,7 +63,7 @@ struct Series {
   std::vector<std::string> names;
   Eigen::MatrixXd values;
   std::string meaning;
-  std::vector<std::string> units = {};  ///< of each; none where the problem's are taken as they are
+  std::vector<std::string> units = {};  ///< of each; empty for the problem's own units
 };
 
 /// "[m] meaning", as tables state a unit.

@@ -14,7 +14,7 @@
 
 namespace dmocbench {
 
-/// A field of a table as it is written: a number with all its digits (%.17g), a text, or nothing.
+/// A field of a table as written to files: a number with all its digits (%.17g), a text, or empty.
 class Cell {
  public:
   Cell() = default;
@@ -33,7 +33,7 @@ class Cell {
   template <class Value>
   Cell(const std::optional<Value>& value) : Cell(value ? Cell(*value) : Cell()) {}
 
-  /// The field as it is written, before it is quoted.
+  /// The field as written to files, before quoting.
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
  private:
@@ -48,7 +48,7 @@ class Row {
  public:
   /// Gives the row a cell in the column with that name.
   void set(std::string_view column, Cell value) { cells_[std::string(column)] = std::move(value); }
-  /// The field as it is written to a file; empty if there is none.
+  /// The field as written to files; empty if it is missing.
   [[nodiscard]] const std::string& text(std::string_view column) const;
   /// The field as a number; `missing` if it is empty or no finite number.
   [[nodiscard]] double number(std::string_view column, double missing) const {

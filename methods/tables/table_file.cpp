@@ -23,7 +23,7 @@ std::string read_file(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     if (stream) return content;
-  } catch (const std::ios_base::failure&) {  // the system refuses to read the opened file
+  } catch (const std::ios_base::failure&) {  // the opened file cannot be read
   }
   throw Error(fmt::format("cannot read {}", path.string()));
 }

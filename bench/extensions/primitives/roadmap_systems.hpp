@@ -16,7 +16,7 @@ using BuildRoadmap = std::function<StoredRoadmap(const Problem& problem, const P
 /// A problem with its primitives.
 struct RoadmapSystem {
   std::string problem;
-  std::string nodes;  ///< kind of the nodes, in a few words
+  std::string nodes;  ///< the kind of nodes, in words
   BuildRoadmap build;
   int intervals = 64;  ///< of the full solve
   int stages = 2;      ///< of its Gauss tableau

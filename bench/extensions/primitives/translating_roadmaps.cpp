@@ -14,7 +14,7 @@ namespace dmocbench {
 namespace {
 
 // Both systems are q = (x, y, θ). Positions lie on a lattice of the plane whose cells divide the way to the goal;
-// velocities are such that a trim goes on by whole cells in a time step.
+// velocities are such that a trim advances by whole cells in a time step.
 
 /// Cells, or cells per time step.
 struct Cells {
@@ -55,7 +55,7 @@ class PlaneLattice {
     if (quarters == 0) return moved;
     return moved.after(group_.flow(Eigen::Vector3d(0.0, 0.0, quarters * std::numbers::pi / 2.0), 1.0));
   }
-  /// Adds the trim with so many cells per time step, its controls found from a guess.
+  /// Adds the trim with this many cells per time step, its controls found from a guess.
   void add_trim(Cells speed, const Eigen::VectorXd& u) {
     Eigen::VectorXd rates = Eigen::VectorXd::Zero(group_.dimension());
     rates[0] = speed.x * cell_x_ / step_;

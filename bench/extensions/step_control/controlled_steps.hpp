@@ -33,7 +33,7 @@ struct StepChoice {
 /// invariant under rotations.
 [[nodiscard]] StepFunction step_function(SigmaReads sigma, double exponent);
 
-/// DMOC from the pericentre of an ellipse by a choice of steps, so many in a period of the unforced motion.
+/// DMOC from the pericentre of an ellipse by a choice of steps, with their number per period of the unforced motion.
 class ControlledSteps {
  public:
   /// Throws `Error` if σ is not positive along the ellipse.

@@ -30,7 +30,7 @@ Selection over_steps(const Selection& of_revolutions, const char* method, const 
   return rows;
 }
 
-/// The error of one method over the error of a better one, on every grid with at least so many steps per revolution.
+/// The error of one method over the error of a better one, on every grid with at least this many steps per revolution.
 struct ErrorRatios {
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;

@@ -39,8 +39,8 @@ class SteppedTransfer {
   [[nodiscard]] double cost() const { return optimum_->cost(); }
   [[nodiscard]] double digits() const { return optimum_->certified_digits(); }
 
-  /// DMOC by a Gauss tableau with so many stages and intervals from the optimum: uniform steps, steps proportional to
-  /// σ along the optimum (imposed), or as part of the principle (variational).
+  /// DMOC by a Gauss tableau with given numbers of stages and intervals from the optimum: uniform steps, steps
+  /// proportional to σ along the optimum (imposed), or as part of the principle (variational).
   [[nodiscard]] OptimalSteps solve(StepPolicy rule, const StepFunction& sigma, int stages, long long intervals) const;
 
  private:

@@ -23,7 +23,7 @@ std::shared_ptr<const Problem> transfer_with(const std::string& name, int revolu
   return problem;
 }
 
-/// The answer of a method with some Gauss stages on so many intervals per revolution.
+/// The answer of a method with given numbers of Gauss stages and of intervals per revolution.
 Trajectory solved_transfer(const std::shared_ptr<const Problem>& problem, const char* method, int stages,
                            long long intervals, const Motion& start, const Solver& solver) {
   const Case the_case{.problem = problem,

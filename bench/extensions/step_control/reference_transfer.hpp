@@ -15,7 +15,7 @@ namespace dmocbench {
 /// The optimal orbital transfer with many revolutions, from which solves start and against which errors are measured.
 ///
 /// DMOC with three Gauss stages on 16 intervals per revolution solves it from the problem's guess, a spiral. The
-/// indirect method goes on from there, with two to eight intervals of orders 16 and 20 per revolution. Where it does
+/// indirect method continues from there, with two to eight intervals of orders 16 and 20 per revolution. Where it does
 /// not certify `wanted_digits`, the reference is DMOC with four Gauss stages on 32 intervals per revolution; its digits
 /// are then those that it shares with tangent-space collocation with three Gauss stages on 48.
 class ReferenceTransfer {
@@ -23,7 +23,7 @@ class ReferenceTransfer {
   static constexpr double wanted_digits = 9.0;
 
   /// `problem` is the name of one with the parameter `revolutions`. Throws `Error` if there is no such problem, if
-  /// it does not allow so many revolutions, or if no optimum is found.
+  /// it does not allow this number of revolutions, or if no optimum is found.
   ReferenceTransfer(const std::string& problem, int revolutions, const SolverOptions& options);
 
   [[nodiscard]] const std::shared_ptr<const Problem>& problem() const noexcept { return problem_; }

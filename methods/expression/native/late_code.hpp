@@ -15,7 +15,7 @@ namespace dmocbench {
 /// Machine code of a tape, made once enough evaluations repay it.
 ///
 /// All threads that evaluate the tape share this: the one whose evaluation reaches the number of intervals makes the
-/// code, while the others go on without.
+/// code, while the others continue without it.
 class LateCode {
  public:
   /// Longer tapes stay interpreted: their code would not fit the first-level cache, and to make it takes much memory.

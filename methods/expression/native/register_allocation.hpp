@@ -32,9 +32,9 @@ struct MachineSteps {
   std::size_t stack_places = 0;    ///< vectors on the stack
 };
 
-/// The arithmetic of a stage on so many registers, at least three. Where they do not suffice, the value leaves them
-/// that is needed last (Belady's rule), which for straight-line code loads as few values as possible. Registers that
-/// are left hold constants.
+/// The arithmetic of a stage with a given number of registers, at least three. If they do not suffice, the value leaves
+/// them that is needed last (Belady's rule), which for straight-line code loads as few values as possible. Registers
+/// that are left hold constants.
 [[nodiscard]] MachineSteps allocate_registers(const NativeStage& stage, const std::vector<NativePlan::Home>& homes,
                                               std::size_t registers);
 

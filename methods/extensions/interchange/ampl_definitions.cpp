@@ -14,7 +14,7 @@ using Step = Schedule::Step;
 
 /// The number of an operation in AMPL's format.
 int ampl_number(Operation operation) {
-  switch (operation) {  // NOLINT(clang-diagnostic-switch-enum): operations that AMPL lacks are refused below
+  switch (operation) {  // NOLINT(clang-diagnostic-switch-enum): operations that AMPL lacks are rejected below
     case Operation::add:
       return 0;
     case Operation::subtract:

@@ -67,7 +67,7 @@ class SolutionLines {
   std::size_t number_ = 0;
 };
 
-/// The solver's words: all that stands before the line "Options".
+/// The solver's message: all text before the line "Options".
 std::string message_of(SolutionLines& lines) {
   std::string message;
   while (true) {

@@ -12,7 +12,7 @@ namespace dmocbench {
 
 /// The contents of the file STUB.sol that a solver writes.
 struct AmplSolution {
-  std::string message;     ///< the solver's words, as one line
+  std::string message;     ///< the solver's message, as one line
   Eigen::VectorXd primal;  ///< empty if the solver has no point
   /// Multipliers λ of φ + λᵀa. AMPL's dual of a row is the derivative of the optimum by its bound, hence -λ. Empty if
   /// the solver wrote none.

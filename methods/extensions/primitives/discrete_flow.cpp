@@ -21,7 +21,7 @@ class TracedStep {
     u_ = inputs.take(problem.control_size());
   }
 
-  /// (q, v) at the end, then the cost, by so many Newton steps, whose matrix is L_vv.
+  /// (q, v) at the end, then the cost, by a given number of Newton steps with the matrix L_vv.
   [[nodiscard]] ExpressionVector end(int newton_steps) const {
     const ExpressionVector p = at(q_, v_).momentum;
     ExpressionVector rate = v_;  // (q_{k+1} - q_k)/h

@@ -23,7 +23,7 @@ struct TreeConnection {
 /// A tree of motions from the first state of a problem, one backwards from the last, and where they come near.
 class MeetingTrees {
  public:
-  /// `flow` goes one interval forwards.
+  /// `flow` advances by one interval.
   MeetingTrees(const Problem& problem, const DiscreteFlow& flow, const LatticeOptions& options);
 
   /// The layers of the tree that begins at the start.

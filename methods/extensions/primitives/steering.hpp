@@ -32,9 +32,9 @@ class Steering {
   Eigen::Index controls_ = 0;
 };
 
-/// The steerings from the states in the rows of a table, about the constant control `u`, over so many intervals. Those
-/// whose motion leaves the domain of the formulas, or that some direction cannot be steered from, need an effort that
-/// is not finite.
+/// The steerings from the states in the rows of a table, about the constant control `u`, over a number of intervals.
+/// Those whose motion leaves the domain of the formulas, or that some direction cannot be steered from, need an effort
+/// that is not finite.
 [[nodiscard]] std::vector<Steering> steerings(const DiscreteFlow& flow, const Eigen::MatrixXd& states,
                                               const Eigen::VectorXd& u, int intervals);
 

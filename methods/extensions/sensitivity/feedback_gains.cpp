@@ -66,7 +66,7 @@ Eigen::MatrixXd conditions_matrix(const LocalFunctions& functions, const Eigen::
   return matrix;
 }
 
-/// Linear equations in named groups of unknowns, of which the null space is wanted.
+/// Linear equations in named groups of unknowns, for computing their null space.
 class Equations {
  public:
   Equations(Eigen::Index rows, Eigen::Index columns) : matrix_(Eigen::MatrixXd::Zero(rows, columns)) {}

@@ -23,7 +23,7 @@ struct FeedbackGains {
 /// From the last node to the first, the pairs (δx_k, δψ_k) of a deviation of the state and of the costate, along which
 /// the linearised conditions of all later intervals hold, are a space of dimension 2n: Riccati's recursion, which needs
 /// no cost-to-go where a prescribed end makes it infinite. Where the space has a δx_k for every deviation, the controls
-/// that belong to it are K δx_k. Bounds and inequalities are active as they are in the solution: a control on its bound
+/// that belong to it are K δx_k. Bounds and inequalities are active as in the solution: a control on its bound
 /// has gain 0.
 ///
 /// Throws `Error` if a size is wrong, or the optimal control does not follow from the state at a node alone: with a

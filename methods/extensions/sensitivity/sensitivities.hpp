@@ -41,7 +41,7 @@ struct Sensitivity {
 /// The cost: the derivative of the Lagrangian, as the optimum's own motion does not change it (except for fixed
 /// variables and active bounds, which move with their values). The optimum: one linear system with the matrix of a
 /// Newton step there, factorised with pivoting since nothing corrects its answer, whose right-hand side is the rate of
-/// change of the conditions. Bounds and inequalities are active as they are at the optimum; where one is about to
+/// change of the conditions. Bounds and inequalities are active as at the optimum; where one is about to
 /// change, the derivative belongs to neither side.
 class Sensitivities {
  public:

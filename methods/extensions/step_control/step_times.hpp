@@ -16,8 +16,9 @@ struct StepTimes {
 /// Throws `Error` unless σ, met at time t, is positive and finite.
 void require_positive_step(double sigma, double t);
 
-/// Divides a motion into so many steps. The integral uses the trapezoidal rule with some thousand points: exact
-/// to rounding over the period of a smooth motion. Throws `Error` if σ is not positive and finite along the motion.
+/// Divides a motion into a given number of steps. The integral uses the trapezoidal rule with some thousand points:
+/// exact to rounding over the period of a smooth motion. Throws `Error` if σ is not positive and finite along the
+/// motion.
 [[nodiscard]] StepTimes step_times(const StepFunction& sigma, const Motion& motion, Eigen::Index intervals);
 
 }  // namespace dmocbench

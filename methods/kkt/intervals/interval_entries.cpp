@@ -153,7 +153,7 @@ class EntryTable {
     return m.index == interval ? this_node + m.number : -1;
   }
 
-  /// Quantity by quantity: with a single interval, a run may go on from one to the next.
+  /// Quantity by quantity: with a single interval, a run may extend from one to the next.
   void place(Source source, PatternRun rest) {
     while (rest.length > 0) {
       const Member column = member(structure_.unknowns, unknowns_, rest.column);

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(lane_count == instance_lanes);
 
-/// Every so many refusals in a row the other multiples of the weights are tried.
+/// The number of refusals in a row after which the other multiples of the weights are tried.
 constexpr int most_believed = 4;
 /// Systems in a row that are not refused, after which a lane goes back to the usual weights, which keep more digits.
 constexpr int enough_calm = 3;

@@ -105,7 +105,7 @@ inline double smallest_of(const Lanes& lanes) {
   return smallest;
 }
 
-/// Whether a sweep goes on: while for all segments, or for one instance at least, the remaining steps can change
+/// Whether a sweep continues: while for all segments, or for one instance at least, the remaining steps can change
 /// the result of the pivots. `state`: how many entries a state has.
 inline bool is_worth_while(const SegmentGroup& group, const PivotSigns& signs, int state) {
   if (group.is_interleaved) return smallest_of(-signs.hold) < 0.0;
@@ -180,7 +180,7 @@ template <class S>
   CostToGo<S> V = cost_to_go;  // a copy that nothing else refers to can live in registers
   const bool has_shorter_lanes = sweep.group.shortest < sweep.group.steps;
   const Lanes::Mask active = active_at(sweep.group, sweep.group.steps - 1);
-  // Whether to go on is tested before every block, and in segments of one block before every step.
+  // Whether to continue is tested before every block, and in segments of one block before every step.
   const bool is_one_block = sweep.group.steps <= block_steps;
   const auto goes_on = [&] { return is_worth_while(sweep.group, V.signs, state_size(shape)); };
   // Blocks are cut from the end; only the first may be shorter, so `read_block` stays inside the array.

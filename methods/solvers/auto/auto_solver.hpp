@@ -20,7 +20,7 @@ struct AutoOptions {
 [[nodiscard]] AutoOptions auto_options(const NamedOptions& named);
 
 /// `interior_point` first and, where that fails, Ipopt from the point where it ended (from the start where it has
-/// none, as where it refuses the program). `Solution::solver` names the one whose answer it is.
+/// none, as where it rejects the program). `Solution::solver` names the one whose answer it is.
 ///
 /// Counts and times include both: evaluations, seconds, major iterations. The limit of time holds for
 /// both together, the limit of iterations for each. Linear systems are counted where `interior_point` gives the answer.

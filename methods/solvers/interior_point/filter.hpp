@@ -12,7 +12,7 @@ class Filter {
   /// γ_θ = γ_φ: how much better a point has to be, as a share of the violation.
   static constexpr double margin = 1e-5;
 
-  /// Forgets all pairs; from now on points with θ > θ_max are refused, (21).
+  /// Removes all pairs; from now on points with θ > θ_max are rejected, (21).
   void reset(double theta_max) {
     theta_max_ = theta_max;
     pairs_.clear();

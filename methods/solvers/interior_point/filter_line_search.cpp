@@ -94,9 +94,9 @@ bool FilterLineSearch::decreases(const PointValues& from, const PointValues& to,
   return true;
 }
 
-/// Empties the filter after several searches in a row whose last refusal was the filter's. Without its pairs only θ_max
-/// keeps the violation from growing step by step as the cost falls: it becomes the violation of the start, or of this
-/// point.
+/// Empties the filter after several searches in a row whose last rejection was the filter's. Without its pairs only
+/// θ_max keeps the violation from growing step by step as the cost falls: it becomes the violation of the start, or of
+/// this point.
 void FilterLineSearch::end_search(double theta) {
   blocked_searches_ = is_blocked_ ? blocked_searches_ + 1 : 0;
   is_blocked_ = false;

@@ -18,7 +18,7 @@ struct PointValues {
 /// a filter that blocks the way is emptied.
 class FilterLineSearch {
  public:
-  /// Call before a solve of a program with so many unknowns from a point with the violation θ, where violations below
+  /// Call before a solve of a program with this many unknowns from a point with the violation θ, where violations below
   /// `rounding_of_theta` are rounding.
   void begin(double theta, double rounding_of_theta, Eigen::Index unknowns);
   /// Call before another barrier problem: the filter forgets its points.
@@ -52,8 +52,8 @@ class FilterLineSearch {
   void end_search(double theta);
 
   Filter filter_;
-  bool is_blocked_ = false;      // the last point that was refused was so by the filter
-  int blocked_searches_ = 0;     // in a row, whose last refusal was the filter's
+  bool is_blocked_ = false;      // the last rejected point was rejected by the filter
+  int blocked_searches_ = 0;     // in a row, whose last rejection was the filter's
   int emptied_ = 0;              // how often the filter was
   double restored_theta_ = 0.0;  // the violation at which restoration may end
   int very_short_steps_ = 0;     // of restoration, in a row

@@ -19,7 +19,7 @@ class KktSystem;
 struct InteriorPointOptions {
   /// The factorisation of the linear systems.
   enum class Factorisation : std::uint8_t {
-    intervals,  ///< interval by interval; a program whose structure does not allow it is refused
+    intervals,  ///< interval by interval; a program whose structure does not allow it is rejected
     sparse,     ///< by MUMPS, for any program
   };
   Factorisation factorisation = Factorisation::intervals;  ///< the factorisation that is tried first

@@ -18,7 +18,7 @@ class BasisFactorisation {
   /// The column at `position` of B becomes the one with `solved` = B⁻¹ (new column); solved[position] must not be 0.
   void replace(Eigen::Index position, const Eigen::VectorXd& solved);
 
-  /// True if so many columns have been replaced that new factors are cheaper and more accurate.
+  /// True if enough columns have been replaced that new factors are cheaper and more accurate.
   [[nodiscard]] bool needs_refactorisation() const noexcept { return replacements_.size() >= most_replacements; }
 
   /// B⁻¹ y.
