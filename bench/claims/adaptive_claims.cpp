@@ -137,7 +137,7 @@ Claims adaptive_claims() {
        .states = "from one solve, the error of state, momentum, costate and cost is estimated within a factor of 0.3 "
                  "to 3",
        .judge = effective,
-       .condition = "true errors are those against the indirect solution, above rounding; of answers whose largest "
+       .condition = "true errors are measured against the indirect solution, above rounding, for answers whose largest "
                     "relative error is at most 1 %",
        .evidence = {"adaptive_effectivity.csv", "figures/adaptive_effectivity.svg"}},
       {.id = "adapted_grids_need_fewer_intervals",

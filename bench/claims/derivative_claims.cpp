@@ -154,7 +154,7 @@ Finding faster(const ResultTables& tables, const std::string& problem) {
   }
   require(ratios.rounds() > 0, "{}.csv and {}.csv: no program of {} is solved by forward differences and by the tape",
           quasi_newton, warm, problem);
-  return judged(ratios, "whole solves by forward differences take this many times those by the tape: ", unsolved)
+  return judged(ratios, "ratio of the times of whole solves by forward differences and by the tape: ", unsolved)
       .because(costs_of_jacobians(tables, problem));
 }
 

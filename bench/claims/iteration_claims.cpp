@@ -33,7 +33,7 @@ PublishedRange published_range(const std::string& problem) {
 struct SqpRatios {
   PublishedRange range;
   Selection all;                    ///< rows of all methods on these grids
-  Selection used;                   ///< those with a ratio
+  Selection used;                   ///< the rows with a ratio
   std::vector<double> ratios;       ///< of every grid and kind of collocation
   std::vector<std::string> majors;  ///< major iterations of DMOC and collocation, where the table has them
 

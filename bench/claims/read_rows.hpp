@@ -17,7 +17,7 @@ struct ReadRows {
   std::vector<std::string> columns;  ///< that were read of these rows, numbers and texts, by their names
 };
 
-/// The columns that were read, by the files of their tables; also those by which rows were only chosen.
+/// The columns that were read, by the files of their tables, including columns used only to select rows.
 [[nodiscard]] std::map<std::string, std::set<std::string>> read_columns(const ReadFields& fields);
 
 /// The rows read, table by table. For a table from which only texts were read, the rows of these texts.

@@ -37,7 +37,7 @@ constexpr std::string_view set_by_merge = " --part --out --name ";
 /// Options that may name a file to be read, code to be loaded, or an option of a library by which it writes files.
 constexpr std::string_view options_with_files = " --library --grid --start --option ";
 
-/// True if a word is one of those in a list with a space on either side of each.
+/// True if a word is in a list that has a space on either side of each word.
 bool is_in(std::string_view list, const std::string& word) {
   return word.find(' ') == std::string::npos && list.find(" " + word + " ") != std::string_view::npos;
 }

@@ -40,7 +40,7 @@ struct FittedOrders {
 /// Prediction of the true error by the worst interval (`accuracy`, which needs no other solution): a row per curve of a
 /// convergence table against an exact reference.
 ///
-/// Both slopes, of `largest_jump` and of the state error, are fitted on the same grids: those where both are above
+/// Both slopes, of `largest_jump` and of the state error, are fitted on the same grids, where both are above
 /// their floors by the rules of `fit_orders`.
 /// `error_of_jumps` is the state error divided by N times the jump:
 /// it does not depend on N where the slopes are one order apart, because an error is the sum of N jumps that the motion

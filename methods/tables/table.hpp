@@ -54,7 +54,7 @@ class Row {
   [[nodiscard]] double number(std::string_view column, double missing) const {
     return number(column).value_or(missing);
   }
-  /// The field as a number; none if it is empty or no finite number.
+  /// The field as a number; empty if it is not a finite number.
   [[nodiscard]] std::optional<double> number(std::string_view column) const;
   /// The field as a number that has to be there. Throws `Error` that names the place, the column and the text there.
   [[nodiscard]] double needed(std::string_view column) const;

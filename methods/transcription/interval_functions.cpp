@@ -4,7 +4,7 @@ namespace dmocbench {
 
 namespace {
 
-/// The unknowns of an element, and those that the whole program adds.
+/// The unknowns of an element, and the unknowns that the program adds.
 struct Unknowns : IntervalUnknowns {
   ExpressionVector left_sums;   // z_k: the cost in Mayer form, integrals
   ExpressionVector right_sums;  // z_{k+1}

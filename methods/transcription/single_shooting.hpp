@@ -14,7 +14,7 @@ namespace dmocbench {
 
 /// Direct single shooting (section 3.3 of the paper): the program of multiple shooting without its nodes.
 ///
-/// The unknowns w are those that are left: the controls, the state of node 0 (fixed or free) and a free horizon. The
+/// The remaining unknowns w are the controls, the state of node 0 (fixed or free) and a free horizon. The
 /// states follow by forward simulation, x_{k+1} = Φ(x_k, U_k). Constraints: bounds of the nodes 1 .. N where there are
 /// any, a prescribed final state among them, then path constraints and boundary conditions. With S = ∂x/∂w,
 ///   gradient       φ_w + (∂a/∂w)ᵀμ with (∂a/∂x)ᵀμ = -φ_x, a the equations of the intervals: the adjoint sweep,

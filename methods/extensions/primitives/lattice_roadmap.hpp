@@ -28,7 +28,7 @@ struct LatticeOptions {
 /// of all states are within reach of each other. Their last layers are a connection apart. Those pairs are joined that
 /// take the least cost in all, first by the linearised estimate (`Steering`), then by the result of some Newton steps
 /// of shooting. These connections, and the branches that lead to them, are solved by DMOC (`solve_primitives`); the
-/// edges are those that are solved.
+/// edges are the solved ones.
 ///
 /// Primitives keep the problem's bounds on q at the states, but none in between, and none on velocities and controls:
 /// the solve that starts from a path has to impose them. Throws `Error` as `solve_primitives` does, and if sizes do not
