@@ -1,9 +1,10 @@
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include "bench/extensions/python/bindings.hpp"
 #include "bench/extensions/python/traced_numbers.hpp"
@@ -116,6 +117,11 @@ py::type_error neither_number_nor_formula(const char* function, py::handle argum
                                     Py_TYPE(argument.ptr())->tp_name));
 }
 
+/// The value of an object that is `traced` as a formula, where it is a number and not a formula of one.
+std::optional<double> number_of(py::handle object, const Expression& traced) {
+  return py::isinstance<Expression>(object) ? std::nullopt : traced.constant_value();
+}
+
 /// A function of each entry of an array, of numbers where they are all numbers.
 py::object entry_by_entry(const py::object& array, const py::object& function) {
   const py::module_ numpy = py::module_::import("numpy");
@@ -132,8 +138,10 @@ void bind_function(py::module_& module, const char* name, const char* method, co
   module.def(
       name,
       [=](const py::object& x) -> py::object {
-        if (py::isinstance<Expression>(x)) return py::cast(Expression(of_formula(x.cast<const Expression&>())));
-        if (const auto number = as_expression(x)) return py::float_(of_number(*number->constant_value()));
+        if (const auto traced = as_expression(x)) {
+          const auto number = number_of(x, *traced);
+          return number ? py::object(py::float_(of_number(*number))) : py::cast(Expression(of_formula(*traced)));
+        }
         if (py::isinstance<py::str>(x) || !(py::isinstance<py::array>(x) || py::isinstance<py::sequence>(x))) {
           throw neither_number_nor_formula(name, x);
         }
@@ -156,10 +164,10 @@ void bind_function_of_two(py::module_& module, const char* name, const char* met
         const auto right = as_expression(y);
         if (!left) throw neither_number_nor_formula(name, x);
         if (!right) throw neither_number_nor_formula(name, y);
-        if (py::isinstance<Expression>(x) || py::isinstance<Expression>(y)) {
-          return py::cast(Expression(of_formulas(*left, *right)));
-        }
-        return py::float_(of_numbers(*left->constant_value(), *right->constant_value()));
+        const auto first_number = number_of(x, *left);
+        const auto second_number = number_of(y, *right);
+        if (first_number && second_number) return py::float_(of_numbers(*first_number, *second_number));
+        return py::cast(Expression(of_formulas(*left, *right)));
       },
       py::arg(first), py::arg(second), doc);
   py::class_<Expression>(module.attr("Expression")).def(method, [=](const Expression& x, const py::object& y) {
@@ -205,8 +213,9 @@ void bind_smooth(py::module_& module) {
                      "The natural cubic spline through points, as a function of numbers and formulas.")
       .def(py::init<std::vector<double>, std::vector<double>>(), py::arg("x"), py::arg("y"))
       .def("__call__", [](const Spline& spline, const py::object& x) -> py::object {
-        if (py::isinstance<Expression>(x)) return py::cast(spline(x.cast<const Expression&>()));
-        return py::float_(spline(*required(x, "Spline").constant_value()));
+        const Expression traced = required(x, "Spline");
+        const auto number = number_of(x, traced);
+        return number ? py::object(py::float_(spline(*number))) : py::cast(spline(traced));
       });
 }
 

@@ -59,7 +59,8 @@ std::size_t operation_count(const ProblemHandle& handle) {
     const Problem& problem = *handle.problem;
     InputCounter inputs;
     const auto n = problem.configuration_size();
-    const ControlledState x{inputs.take(n), inputs.take(n), inputs.take(problem.control_size()), inputs.take()};
+    ControlledState x{inputs.take(n), inputs.take(n), inputs.take(problem.control_size()), inputs.take()};
+    x.y = inputs.take(problem.first_order_size());
     const TracedProblem::Values values = TracedProblem(problem).at(x);
     std::vector<Expression> formulas{problem.lagrangian(x.state()), values.running_cost};
     for (const ExpressionVector* part : {&values.momentum, &values.generalised_force, &values.path_constraints}) {

@@ -54,9 +54,9 @@ std::string what_was_returned(py::handle object) {
 std::vector<Parameter> parameters_of(const py::object& original) {
   std::vector<Parameter> parameters;
   for (const py::handle item : original.attr("_declared_parameters")()) {
-    const auto [name, value, unit, meaning, lower, upper, whole] =
-        item.cast<std::tuple<std::string, double, std::string, std::string, double, double, bool>>();
-    parameters.push_back({name, value, unit, meaning, lower, upper, whole});
+    const auto [name, value, unit, meaning, lower, upper, whole, is_unknown] =
+        item.cast<std::tuple<std::string, double, std::string, std::string, double, double, bool, bool>>();
+    parameters.push_back({name, value, unit, meaning, lower, upper, whole, is_unknown});
   }
   return parameters;
 }
@@ -64,6 +64,11 @@ std::vector<Parameter> parameters_of(const py::object& original) {
 Bounds bounds_of(const py::dict& numbers, const char* name) {
   const auto [lower, upper] = numbers[name].cast<std::pair<Eigen::VectorXd, Eigen::VectorXd>>();
   return {.lower = lower, .upper = upper};
+}
+
+/// A single pair of bounds is meant for every one of `size` entries.
+Bounds for_each(const Bounds& bounds, Eigen::Index size) {
+  return bounds.lower.size() == 1 ? Bounds::all(size, bounds.lower[0], bounds.upper[0]) : bounds;
 }
 
 }  // namespace
@@ -85,6 +90,7 @@ PythonProblem::PythonProblem(const py::object& original)
   name_ = object_.attr("_problem_name")().cast<std::string>();
   configuration_names_ = object_.attr("_coordinate_names")().cast<std::vector<std::string>>();
   control_names_ = object_.attr("_control_names")().cast<std::vector<std::string>>();
+  first_order_names_ = object_.attr("_first_order_names")().cast<std::vector<std::string>>();
   members_ = object_.attr("_stated_members")().cast<std::vector<std::string>>();
   has_constant_numbers_ = object_.attr("_has_constant_numbers")().cast<bool>();
   const auto values = object_.attr("_values").cast<std::map<std::string, double>>();
@@ -131,10 +137,12 @@ auto PythonProblem::asked_of_python(const char* member, const Work& work) const 
 
 bool PythonProblem::states(const char* member) const { return std::ranges::find(members_, member) != members_.end(); }
 
-py::object PythonProblem::point(const ExpressionVector& q, const ExpressionVector& v, const ExpressionVector* u,
-                                const Expression& t) const {
-  const py::object controls = u == nullptr ? py::object(py::none()) : py::object(list_of(*u));
-  return object_.attr("_point")(list_of(q), list_of(v), controls, number_or_formula(t));
+py::object PythonProblem::point(const State& x) const {
+  return object_.attr("_point")(list_of(x.q), list_of(x.v), py::none(), number_or_formula(x.t), list_of(x.y));
+}
+
+py::object PythonProblem::point(const ControlledState& x) const {
+  return object_.attr("_point")(list_of(x.q), list_of(x.v), list_of(x.u), number_or_formula(x.t), list_of(x.y));
 }
 
 template <class Arguments>
@@ -187,6 +195,14 @@ Expression PythonProblem::running_cost(const ControlledState& x) const {
   return single_formula("running_cost", [&] { return py::make_tuple(point(x)); });
 }
 
+ExpressionVector PythonProblem::first_order_rates(const ControlledState& x) const {
+  return optional_formula("first_order_rates", [&] { return py::make_tuple(point(x)); });
+}
+
+ExpressionVector PythonProblem::integrands(const ControlledState& x) const {
+  return optional_formula("integrands", [&] { return py::make_tuple(point(x)); });
+}
+
 ExpressionVector PythonProblem::path_constraints(const ControlledState& x) const {
   return optional_formula("path_constraints", [&] { return py::make_tuple(point(x)); });
 }
@@ -213,9 +229,9 @@ double PythonProblem::cost_scale() const {
 MotionPoint PythonProblem::guess(double t) const {
   if (!states("guess")) return Problem::guess(t);
   return asked_of_python("guess", [&]() -> MotionPoint {
-    const auto [q, v, u] =
-        object_.attr("_guess_at")(t).cast<std::tuple<Eigen::VectorXd, Eigen::VectorXd, Eigen::VectorXd>>();
-    return {.q = q, .v = v, .u = u};
+    using Vector = Eigen::VectorXd;
+    const auto [q, v, u, y] = object_.attr("_guess_at")(t).cast<std::tuple<Vector, Vector, Vector, Vector>>();
+    return {.q = q, .v = v, .u = u, .y = y};
   });
 }
 
@@ -228,6 +244,8 @@ ProblemCard PythonProblem::card() const {
     if (states("guess")) card.guess = stated["guess"].cast<std::string>();
     const auto [unit, factor] = stated["time_unit"].cast<std::pair<std::string, double>>();
     card.time_unit = {unit, factor};
+    card.configuration_units = stated["configuration_units"].cast<std::vector<std::string>>();
+    card.control_units = stated["control_units"].cast<std::vector<std::string>>();
     card.path_constraint_names = stated["path_constraint_names"].cast<std::vector<std::string>>();
     card.boundary_condition_names = stated["boundary_condition_names"].cast<std::vector<std::string>>();
     if (!stated["reference"].is_none()) {
@@ -251,6 +269,14 @@ ProblemCard PythonProblem::card() const {
   });
 }
 
+ControlledState PythonProblem::some_point() const {
+  InputCounter inputs;
+  ControlledState x{inputs.take(configuration_size()), inputs.take(configuration_size()), inputs.take(control_size()),
+                    inputs.take()};
+  x.y = inputs.take(first_order_size());
+  return x;
+}
+
 std::shared_ptr<const PythonProblem::Numbers> PythonProblem::numbers() const {
   const Eigen::VectorXd parameters = parameter_values(*this);
   {
@@ -269,16 +295,26 @@ PythonProblem::Numbers PythonProblem::read_numbers() const {
     const auto vector = [&](const char* name) { return stated[name].cast<Eigen::VectorXd>(); };
     Numbers numbers;
     numbers.parameters = parameter_values(*this);
-    numbers.first = {.q = vector("first_q"), .v = vector("first_v")};
-    numbers.last = {.q = vector("last_q"), .v = vector("last_v")};
+    numbers.first = {.q = vector("first_q"), .v = vector("first_v"), .y = vector("first_y")};
+    numbers.last = {.q = vector("last_q"), .v = vector("last_v"), .y = vector("last_y")};
     const auto [horizon, least, largest] = stated["horizon"].cast<std::tuple<double, double, double>>();
     numbers.horizon = horizon;
     numbers.bounds.horizon = {least, largest};
-    numbers.bounds.first = {.q = bounds_of(stated, "first_q_bounds"), .v = bounds_of(stated, "first_v_bounds")};
-    numbers.bounds.last = {.q = bounds_of(stated, "last_q_bounds"), .v = bounds_of(stated, "last_v_bounds")};
+    numbers.bounds.first = {.q = bounds_of(stated, "first_q_bounds"),
+                            .v = bounds_of(stated, "first_v_bounds"),
+                            .y = bounds_of(stated, "first_y_bounds")};
+    numbers.bounds.last = {.q = bounds_of(stated, "last_q_bounds"),
+                           .v = bounds_of(stated, "last_v_bounds"),
+                           .y = bounds_of(stated, "last_y_bounds")};
     numbers.bounds.q = bounds_of(stated, "q_bounds");
     numbers.bounds.v = bounds_of(stated, "v_bounds");
     numbers.bounds.u = bounds_of(stated, "u_bounds");
+    numbers.bounds.y = bounds_of(stated, "y_bounds");
+    const ControlledState x = some_point();
+    if (stated.contains("path_bounds"))
+      numbers.bounds.path = for_each(bounds_of(stated, "path_bounds"), path_constraints(x).size());
+    if (stated.contains("integrals_bounds"))
+      numbers.bounds.integrals = for_each(bounds_of(stated, "integrals_bounds"), integrands(x).size());
     return numbers;
   });
 }

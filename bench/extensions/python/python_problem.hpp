@@ -47,6 +47,7 @@ class PythonProblem final : public Problem {
   [[nodiscard]] ProblemCard card() const override;
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return configuration_names_; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return control_names_; }
+  [[nodiscard]] std::vector<std::string> first_order_names() const override { return first_order_names_; }
 
   [[nodiscard]] Expression lagrangian(const State& x) const override;
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override;
@@ -57,6 +58,8 @@ class PythonProblem final : public Problem {
 
   // Each optional member of `Problem` is one function here and one member of the Python class.
   [[nodiscard]] ProblemBounds bounds() const override { return numbers()->bounds; }
+  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override;
+  [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override;
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override;
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override;
   [[nodiscard]] Expression final_cost(const State& last) const override;
@@ -87,10 +90,10 @@ class PythonProblem final : public Problem {
   /// `work()` with the GIL; Python exceptions become an `Error` that names the member.
   template <class Work>
   [[nodiscard]] auto asked_of_python(const char* member, const Work& work) const;
-  [[nodiscard]] pybind11::object point(const ExpressionVector& q, const ExpressionVector& v, const ExpressionVector* u,
-                                       const Expression& t) const;
-  [[nodiscard]] pybind11::object point(const State& x) const { return point(x.q, x.v, nullptr, x.t); }
-  [[nodiscard]] pybind11::object point(const ControlledState& x) const { return point(x.q, x.v, &x.u, x.t); }
+  [[nodiscard]] pybind11::object point(const State& x) const;
+  [[nodiscard]] pybind11::object point(const ControlledState& x) const;
+  /// Inputs, to ask how many entries a formula has.
+  [[nodiscard]] ControlledState some_point() const;
   [[nodiscard]] std::shared_ptr<const Numbers> numbers() const;
   [[nodiscard]] Numbers read_numbers() const;
 
@@ -101,6 +104,7 @@ class PythonProblem final : public Problem {
   std::string name_;
   std::vector<std::string> configuration_names_;
   std::vector<std::string> control_names_;
+  std::vector<std::string> first_order_names_;
   std::vector<std::string> members_;
   bool has_constant_numbers_ = false;  ///< no number depends on a parameter
   mutable std::mutex last_numbers_use_;

@@ -1,3 +1,4 @@
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,9 +57,12 @@ struct Answer {
 Start start_from(const Answer& answer, const Problem& problem) {
   const std::optional<Trajectory>& motion = answer.solved.trajectory;
   if (!motion) throw Error("the solution to start from has no motion");
-  const bool fits =
-      motion->q.cols() == problem.configuration_size() && motion->stage_u.cols() == problem.control_size();
-  if (!fits) throw Error("the solution to start from is of a problem with other numbers of coordinates or controls");
+  const bool fits = motion->q.cols() == problem.configuration_size() &&
+                    motion->stage_u.cols() == problem.control_size() && motion->y.cols() == problem.first_order_size();
+  if (!fits) {
+    throw Error(
+        "the solution to start from is of a problem with other numbers of coordinates, controls or first-order states");
+  }
   Start start{.motion = moved_to_ends(smooth_motion(*motion), problem.bounds())};
   if (motion->has_costates()) start.with_costates = motion;
   return start;
@@ -181,6 +185,18 @@ void bind_options(py::module_& module) {
       .def_readwrite("refinement", &Asked::refinement);
 }
 
+/// The unknown parameters that were found, by their names.
+std::map<std::string, double> unknowns_of(const SolvedCase& solved) {
+  std::map<std::string, double> values;
+  if (!solved.trajectory) return values;
+  const Problem& problem = *solved.the_case.problem;
+  for (const std::size_t number : problem.unknowns()) {
+    const auto i = static_cast<Eigen::Index>(values.size());
+    values[problem.parameters()[number].name] = solved.trajectory->unknowns[i];
+  }
+  return values;
+}
+
 void bind_numbers(py::class_<Answer>& answer) {
   const auto number = [&](const char* name, auto read) {
     answer.def_property_readonly(name, [read](const Answer& one) { return read(one.solved); });
@@ -207,6 +223,8 @@ void bind_numbers(py::class_<Answer>& answer) {
   });
   number("coordinates", [](const SolvedCase& solved) { return solved.the_case.problem->configuration_names(); });
   number("controls", [](const SolvedCase& solved) { return solved.the_case.problem->control_names(); });
+  number("first_order_states", [](const SolvedCase& solved) { return solved.the_case.problem->first_order_names(); });
+  number("unknowns", &unknowns_of);
 }
 
 /// Arrays of a motion are views: they keep the answer.
@@ -230,13 +248,18 @@ void bind_arrays(py::class_<Answer>& answer) {
   array("q", &Trajectory::q);
   array("v", &Trajectory::v);
   array("p", &Trajectory::p);
+  array("y", &Trajectory::y);
   array("psi_q", &Trajectory::psi_q);
   array("psi_p", &Trajectory::psi_p);
+  array("psi_y", &Trajectory::psi_y);
+  array("integrals", &Trajectory::integrals);
+  array("integral_prices", &Trajectory::integral_prices);
   array("stage_t", &Trajectory::stage_times);
   array("stage_q", &Trajectory::stage_q);
   array("stage_v", &Trajectory::stage_v);
   array("stage_u", &Trajectory::stage_u);
   array("stage_p", &Trajectory::stage_p);
+  array("stage_y", &Trajectory::stage_y);
   array("stage_psi_q", &Trajectory::stage_psi_q);
   array("stage_psi_p", &Trajectory::stage_psi_p);
 }

@@ -248,3 +248,135 @@ class SlidingMass(db.Problem):
 
     def final_cost(self, last):
         return last.t
+
+
+class PushedInABand(db.Problem):
+    """a unit mass over 1 m in 1 s, with two-sided bounds on its path"""
+
+    q = db.coordinates("place", unit="m")
+    u = db.controls("push", unit="N")
+    horizon = 1.0
+    start = db.at_rest(place=0.0)
+    end = db.at_rest(place=1.0)
+    bounds = {"path": ([-5.0, -math.inf], [5.0, 4.5])}
+
+    def lagrangian(self, x):
+        return 0.5 * x.v[0] * x.v[0]
+
+    def force(self, x):
+        return x.u
+
+    def running_cost(self, x):
+        return 0.5 * x.u[0] * x.u[0]
+
+    def path_constraints(self, x):
+        return [x.u[0] + x.v[0], x.u[0]]
+
+
+class TwoLinkWithMotors(TwoLinkManipulator):
+    """swing-up of a planar two-link arm by motors with inductance, least heat"""
+
+    u = db.controls("voltage_1", "voltage_2", unit="V")
+    y = db.first_order_states("current_1", "current_2", unit="A")
+    start = db.state([-0.5 * math.pi] * 2, y=[0.0, 0.0])
+    end = db.state([0.5 * math.pi] * 2, y=db.free())
+
+    def first_order_rates(self, x):
+        induced = np.array([x.v[0], x.v[1] - x.v[0]])
+        return (x.u - x.y - induced) / 0.1
+
+    def force(self, x):
+        return [x.y.current_1 - x.y.current_2, x.y.current_2]
+
+    def running_cost(self, x):
+        return 0.5 * x.y @ x.y + 0.5 * 0.01 * x.u @ x.u
+
+
+class OrbitalTransferWithMass(db.Problem):
+    """low thrust transfer of a satellite that burns mass, least control effort"""
+
+    q = db.coordinates("r", "phi")
+    u = db.controls("u")
+    y = db.first_order_states("mass")
+    inverse_power = db.parameter(5e3, "", "mass flow per square of the thrust", 0.0, 1e4)
+    ratio = (6371.0 + 330.0) / (6371.0 + 30.0)
+    horizon = 2.0 * math.sqrt(4.0 * math.pi**2 / 8.0 * (1.0 + ratio) ** 3)
+    start = db.state([1.0, 0.0], [0.0, 1.0], [1.0])
+    end = db.state([ratio, 4.0 * math.pi], [0.0, ratio**-1.5], {"mass": db.free(1.0)})
+    cost_scale = 1e4
+
+    def first_order_rates(self, x):
+        return [-self.inverse_power * x.u.u**2]
+
+    def lagrangian(self, x):
+        return x.y.mass * (0.5 * (x.v.r**2 + x.q.r**2 * x.v.phi**2) + 1.0 / x.q.r)
+
+    def force(self, x):
+        (rate,) = self.first_order_rates(x)
+        return [rate * x.v.r, x.q.r * x.u.u + rate * x.q.r**2 * x.v.phi]
+
+    def running_cost(self, x):
+        return x.u.u**2
+
+
+class CannonballOfUnknownRadius(db.Problem):
+    """radius and launch of a cannonball of given muzzle energy for the largest range"""
+
+    name = "cannonball"
+    q = db.coordinates("x", "height", unit="km")
+    radius = db.unknown(0.05, "m", "of the ball", 0.01, 0.1)
+    horizon = db.between(0.5, 10.0, guess=2.5)
+    start = db.state([0.0, 0.0], db.free(3.0))
+    end = db.state([db.free(3.0), 0.0], [db.free(1.0), db.free(-1.5)])
+    cost_scale = 1e-3
+
+    @property
+    def mass(self):
+        return 4.0 / 3.0 * math.pi * 7870.0 * self.radius**3
+
+    def lagrangian(self, x):
+        return 0.5 * x.v @ x.v - 0.980665 * x.q.height
+
+    def force(self, x):
+        air = 1.225 * db.exp(-x.q.height * (1000.0 / 8440.0))
+        factor = 0.5 * 0.5 * 1000.0 * air * math.pi * self.radius**2 / self.mass
+        return -factor * db.sqrt(x.v @ x.v) * x.v
+
+    def final_cost(self, last):
+        return -1000.0 * last.q.x
+
+    def boundary_conditions(self, first, last):
+        return 0.5 * 100.0**2 / 4e5 * self.mass * (first.v @ first.v) - 1.0
+
+    def guess(self, t):
+        return [3.0 * t / 2.5, 3.0 * t - 1.2 * t * t], [3.0 / 2.5, 3.0 - 2.4 * t]
+
+
+class ChainOfGivenLength(db.Problem):
+    """chain of given length between two points, least potential energy"""
+
+    name = "hanging_chain"
+    q = db.coordinates("height")
+    u = db.controls("bend")
+    length = db.parameter(4.0, "", "of the chain", 2.25, 100.0)
+    horizon = 1.0
+    start = db.state([1.0], [db.free(-2.0)])
+    end = db.state([3.0], [db.free(6.0)])
+
+    def bounds(self):
+        return {"integrals": (self.length, self.length)}
+
+    def lagrangian(self, x):
+        return 0.5 * x.v[0] ** 2
+
+    def force(self, x):
+        return x.u
+
+    def running_cost(self, x):
+        return x.q[0] * db.sqrt(1.0 + x.v[0] ** 2)
+
+    def integrands(self, x):
+        return db.sqrt(1.0 + x.v[0] ** 2)
+
+    def guess(self, t):
+        return [8.0 * t * (0.5 * t - 0.25) + 1.0], [8.0 * t - 2.0], [8.0]

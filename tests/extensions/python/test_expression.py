@@ -61,6 +61,18 @@ class Expressions(unittest.TestCase):
 
         at_point(look)
 
+    def test_of_arrays_without_dimensions_are_formulas(self):
+        spline = db.Spline([0.0, 1.0, 2.0], [0.0, 1.0, 0.0])
+
+        def look(x):
+            a = x.q.theta
+            self.assertIsInstance(x.q @ x.v, db.Expression)
+            for function in (db.sqrt, db.cos, spline, lambda b: db.atan2(b, 1.0), lambda b: db.hypot(1.0, b)):
+                self.assertEqual(repr(function(np.array(a, dtype=object))), repr(function(a)))
+            self.assertEqual(db.cos(np.array(1.0)), math.cos(1.0))
+
+        at_point(look)
+
     def test_give_functions_of_numbers_where_numbers_are(self):
         self.assertEqual(db.cos(1.0), math.cos(1.0))
         self.assertEqual(db.atan2(1.0, 2.0), math.atan2(1.0, 2.0))

@@ -66,7 +66,7 @@ class Mistakes(unittest.TestCase):
         self.refused("lower bound 1 above the upper bound -1",
                      variant(u=db.controls("tau", lower=1.0, upper=-1.0)))
         self.refused("bounds has an entry 'w'", variant(bounds=lambda self: {"w": (0.0, 1.0)}))
-        self.refused("end and bounds\\(\\).q leave no value for q\\[0\\]",
+        self.refused("end and bounds of q leave no value for q\\[0\\]",
                      variant(q=db.coordinates("theta", upper=1.0)))
 
     def test_parameters_out_of_range(self):

@@ -10,6 +10,7 @@ import threading
 import unittest
 
 import dmocbench as db
+import restated
 from pendulum import PendulumSwingUp
 
 program = os.environ.get("DMOCBENCH_TEST_PROGRAM")
@@ -20,6 +21,11 @@ here = os.path.dirname(os.path.abspath(__file__))
 def without_times(table):
     return [{name: value for name, value in row.items() if "second" not in name and name not in ("library",)}
             for row in table]
+
+
+def renamed(cls):
+    """A problem by another name than the one in C++, which experiments have already."""
+    return type(cls.__name__, (cls,), {"name": "my_" + cls()._problem_name()})()
 
 
 class Runs(unittest.TestCase):
@@ -69,6 +75,23 @@ class Runs(unittest.TestCase):
         table = db.run("sweep", PendulumSwingUp(), out=self.out, method="dmoc", intervals=16, over="length=0.9:1.1:3")
         self.assertEqual(len(table), 3)
         self.assertEqual(len({row["objective"] for row in table}), 3)
+
+    def test_take_problems_with_every_kind_of_statement(self):
+        problems = [renamed(cls) for cls in (restated.TwoLinkWithMotors, restated.CannonballOfUnknownRadius,
+                                             restated.ChainOfGivenLength, restated.PushedInABand)]
+        table = db.run("solve", problems, out=self.out, method="dmoc", intervals=64, stages=2)
+        self.assertEqual(set(table["status"]), {"solved"})
+        for row in table:
+            motion = db.read_table(os.path.join(self.out, f"solve_{row['problem']}_dmoc_gauss2_64_nodes.csv"))
+            for column in {"my_two_link_with_motors": ["current_1"], "my_cannonball": ["radius"]}.get(row["problem"], []):
+                self.assertEqual(len(motion[column]), 65)
+
+    def test_vary_parameters_of_problems_with_first_order_states(self):
+        table = db.run("sweep", renamed(restated.OrbitalTransferWithMass), out=self.out, method="dmoc", intervals=64, stages=2,
+                       over="inverse_power=0:5000:3")
+        self.assertEqual(len(table), 3)
+        single = db.solve(restated.OrbitalTransferWithMass(inverse_power=2500.0), intervals=64, stages=2)
+        self.assertAlmostEqual(table["objective"][1] / single.cost, 1.0, places=8)
 
     def test_use_several_processes(self):
         class Second(PendulumSwingUp):

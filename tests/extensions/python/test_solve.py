@@ -147,6 +147,54 @@ class RestatedProblems(unittest.TestCase):
                 self.assertTrue(a.is_solved, a)
                 self.assertLess(abs(a.cost - b.cost), 1e-10 * abs(b.cost))
 
+    @unittest.skipIf(library is None, "no library of problems is given")
+    def test_with_every_kind_of_statement_have_the_costs_of_those_in_cpp(self):
+        db.load_library(library)
+        for cls, name in ((restated.TwoLinkWithMotors, "two_link_with_motors"),
+                          (restated.OrbitalTransferWithMass, "orbital_transfer_with_mass"),
+                          (restated.CannonballOfUnknownRadius, "cannonball"), (restated.ChainOfGivenLength, "hanging_chain"),
+                          (restated.PushedInABand, "pushed_in_a_band")):
+            for method in ("dmoc", "tangent"):
+                with self.subTest(name, method=method):
+                    a, b = (db.solve(problem, method, intervals=64, stages=2) for problem in (cls(), name))
+                    self.assertEqual(a.status, b.status)
+                    self.assertTrue(a.is_solved or method == "tangent", a)
+                    self.assertLess(abs(a.cost - b.cost), 1e-9 * abs(b.cost))
+                    self.assertEqual(a.unknowns.keys(), b.unknowns.keys())
+
+    def test_with_first_order_states_have_arrays_of_them(self):
+        solution = db.solve(restated.TwoLinkWithMotors(), intervals=64, stages=2)
+        self.assertTrue(solution.is_solved, solution)
+        self.assertEqual([part.shape for part in (solution.y, solution.psi_y, solution.stages.y)], [(65, 2), (65, 2), (128, 2)])
+        self.assertTrue(np.array_equal(solution.y[0], [0.0, 0.0]))
+        self.assertTrue(np.array_equal(solution.column("current_2"), solution.y[:, 1]))
+        induced = np.column_stack([solution.v[:, 0], solution.v[:, 1] - solution.v[:, 0]])
+        change = np.diff(solution.y, axis=0)  # the voltages that the equations of the motors then need
+        resisted = solution.y + induced
+        voltage = 0.1 * change / np.diff(solution.t)[:, None] + 0.5 * (resisted[1:] + resisted[:-1])
+        self.assertLess(abs(voltage - solution.stages.u.reshape(64, 2, 2).mean(axis=1)).max(), 0.02 * abs(voltage).max())
+
+    def test_with_unknowns_report_what_they_found(self):
+        solution = db.solve(restated.CannonballOfUnknownRadius(), intervals=64, stages=2)
+        fixed = type("Fixed", (restated.CannonballOfUnknownRadius,),
+                     {"radius": db.parameter(solution.unknowns["radius"] * 1.01)})
+        self.assertNotAlmostEqual(solution.unknowns["radius"], 0.05, places=3)
+        self.assertGreater(db.solve(fixed(), intervals=64, stages=2).cost, solution.cost)
+
+    def test_with_integral_constraints_report_their_prices(self):
+        solution = db.solve(restated.ChainOfGivenLength(), intervals=64, stages=2)
+        self.assertAlmostEqual(solution.integrals[0], 4.0, places=9)
+        longer, shorter = (db.solve(restated.ChainOfGivenLength(length=length), intervals=64, stages=2)
+                           for length in (4.01, 3.99))
+        self.assertAlmostEqual(solution.integral_prices[0], (longer.cost - shorter.cost) / 0.02, places=4)
+
+    def test_with_bounds_of_path_constraints_keep_both_sides(self):
+        solution = db.solve(restated.PushedInABand(), intervals=64)
+        u, v = solution.stages.u[:, 0], solution.stages.v[:, 0]
+        self.assertAlmostEqual((u + v).max(), 5.0, places=6)
+        self.assertAlmostEqual((u + v).min(), -5.0, places=6)
+        self.assertAlmostEqual(u.max(), 4.5, places=6)
+
     def test_of_textbooks_have_the_published_costs(self):
         for cls, cost, places, options in (
             (restated.ControlRate, 24.0 / 13.0, 3, {"intervals": 200}),

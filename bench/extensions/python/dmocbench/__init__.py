@@ -53,5 +53,17 @@ from ._core import (  # noqa: F401
     tanh,
 )
 from .experiments import Results, Table, convergence, load_library, read_table, register, run  # noqa: F401
-from .problem import Problem, at_rest, between, controls, coordinates, free, motion, parameter, state  # noqa: F401
+from .problem import (  # noqa: F401
+    Problem,
+    at_rest,
+    between,
+    controls,
+    coordinates,
+    first_order_states,
+    free,
+    motion,
+    parameter,
+    state,
+    unknown,
+)
 from .solving import Batch, Solution, problem, solve, solve_batch  # noqa: F401

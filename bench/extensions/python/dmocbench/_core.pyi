@@ -86,9 +86,75 @@ class ProblemHandle:
     parameters: dict[str, float]
     def operation_count(self) -> int: ...
 
-class Asked: ...
-class BatchAsked: ...
-class Answer: ...
+class Asked:
+    method: str
+    tableau: str
+    stages: int
+    intervals: int
+    nodes: Array
+    solver: str
+    derivatives: str
+    form: str
+    tolerance: float
+    most_iterations: int
+    most_seconds: float
+    verbose: bool
+    options: dict[str, str]
+    accuracy: float | None
+    refinement: str
+
+class BatchAsked:
+    method: str
+    tableau: str
+    stages: int
+    intervals: int
+    tolerance: float
+    most_iterations: int
+    threads: int
+    motions: bool
+
+class Answer:
+    problem: str
+    method: str
+    tableau: str
+    stage_count: int
+    intervals: int
+    solver: str
+    status: str
+    message: str
+    is_solved: bool
+    cost: float | None
+    iterations: int | None
+    kkt_residual: float | None
+    constraint_violation: float | None
+    seconds: float
+    setup_seconds: float | None
+    relative_jump: float | None
+    replay_error: float | None
+    largest_violation: float | None
+    coordinates: list[str]
+    controls: list[str]
+    first_order_states: list[str]
+    unknowns: dict[str, float]
+    integrals: Array | None
+    integral_prices: Array | None
+    t: Array | None
+    q: Array | None
+    v: Array | None
+    p: Array | None
+    y: Array | None
+    psi_q: Array | None
+    psi_p: Array | None
+    psi_y: Array | None
+    stage_t: Array | None
+    stage_q: Array | None
+    stage_v: Array | None
+    stage_u: Array | None
+    stage_p: Array | None
+    stage_y: Array | None
+    stage_psi_q: Array | None
+    stage_psi_p: Array | None
+    def estimated_error(self) -> float: ...
 
 __version__: str
 

@@ -12,6 +12,9 @@ class Named(np.ndarray):
         self._names = ()
         self._kind = "this vector"
 
+    def __array_wrap__(self, array, context=None):
+        return array[()] if array.ndim == 0 else super().__array_wrap__(array, context)  # x.v @ x.v is one number
+
     def __getattr__(self, name):
         names = self.__dict__.get("_names", ())
         if name in names:
@@ -34,19 +37,21 @@ def named(entries, names, kind):
 class Point:
     """A state, at which a formula is stated, and the control that acts there.
 
-    q: coordinates; v: their rates, by the same names; u: controls (not at the ends, nor in a Lagrangian); t: time.
+    q: coordinates; v: their rates, by the same names; u: controls (not at the ends, nor in a Lagrangian); y:
+    first-order states; t: time.
     """
 
-    __slots__ = ("q", "v", "t", "_u")
+    __slots__ = ("q", "v", "t", "_u", "y")
 
-    def __init__(self, q, v, u, t):
+    def __init__(self, q, v, u, t, y):
         self.q = q
         self.v = v
         self._u = u
         self.t = t
+        self.y = y
 
     @property
     def u(self):
         if self._u is None:
-            raise AttributeError("x.u is not there: the Lagrangian and formulas of the ends depend on q, v and t only")
+            raise AttributeError("x.u is not there: the Lagrangian and formulas of the ends depend on q, v, y and t only")
         return self._u

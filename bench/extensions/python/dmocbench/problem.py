@@ -22,7 +22,8 @@ Numbers = Union[float, Sequence[float], Mapping[str, float], None]
 
 # Names in messages of C++ and their Python names.
 _words = {"initial_state": "start", "final_state": "end", "bounds().first": "start", "bounds().last": "end",
-          "bounds().horizon": "horizon", "configuration_names": "q", "control_names": "u", "varying()": "a formula",
+          "bounds().horizon": "horizon", "bounds().": "bounds of ", "configuration_names": "q", "control_names": "u", "first_order_names": "y",
+          "varying()": "a formula",
           "parameter()": "its number"}
 
 
@@ -115,6 +116,13 @@ def controls(*names: str, unit: str | Sequence[str] | Mapping[str, str] = "", lo
     return _Vector("controls", names, unit, {"u": (lower, upper)})
 
 
+def first_order_states(*names: str, unit: str | Sequence[str] | Mapping[str, str] = "", lower: Numbers = None,
+                       upper: Numbers = None) -> Any:
+    """Declares y by the names of its entries: quantities with a rate and no inertia, such as a mass or a current. Bounds
+    hold at every node, as for `coordinates`."""
+    return _Vector("first-order states", names, unit, {"y": (lower, upper)})
+
+
 class parameter:
     """A number of a problem that its user may set: Pendulum(length=2.0), problem.length = 2.0, or --set length=2.
 
@@ -129,6 +137,7 @@ class parameter:
         self.lower = float(lower)
         self.upper = float(upper)
         self.whole = bool(whole)
+        self.is_unknown = False
         self.name = ""
 
     def __set_name__(self, owner, name):
@@ -154,6 +163,16 @@ class parameter:
         instance._values[self.name] = self.check(value)
 
 
+class unknown(parameter):
+    """A parameter that a solve chooses in its range, from `guess` on: `Solution.unknowns` has what it found. Formulas
+    must read it; start, end, horizon and bounds see the guess."""
+
+    def __init__(self, guess: float, unit: str = "", meaning: str = "", lower: float = -_infinity,
+                 upper: float = _infinity):
+        super().__init__(guess, unit, meaning, lower, upper)
+        self.is_unknown = True
+
+
 class between:
     """A number that is left open between two bounds. guess: where solves start, by default the middle."""
 
@@ -175,35 +194,36 @@ class free(between):
 
 
 class state:
-    """A state at an end of the horizon: configuration q and rates v, each a list or a dict by names.
+    """A state at an end of the horizon: configuration q, rates v and first-order states y, each a list or a dict by
+    names.
 
-    Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None is at rest. state(theta=0.0) is q by
-    names, at rest.
+    Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None is at rest.
     """
 
-    def __init__(self, q: Any = None, v: Any = None, **by_name: Any):
-        if q is not None and by_name:
-            raise Error("state takes either q= or coordinates by their names")
-        self.q = by_name if q is None else q
+    def __init__(self, q: Any, v: Any = None, y: Any = None):
+        self.q = q
         self.v = v
+        self.y = y
 
-    def resolved(self, names, where):
-        """(values, lower bounds, upper bounds) of q, and of v."""
-        return _end_part(self.q, names, f"{where}: q"), _end_part(self.v, names, f"{where}: v", is_rate=True)
+    def resolved(self, q_names, y_names, where):
+        """(values, lower bounds, upper bounds) of q, v and y."""
+        y = () if self.y is None and not y_names else self.y
+        return {"q": _end_part(self.q, q_names, f"{where}: q"), "v": _end_part(self.v, q_names, f"{where}: v", is_rate=True),
+                "y": _end_part(y, y_names, f"{where}: y")}
 
 
 def at_rest(*q: Any, **by_name: Any) -> state:
     """A state at rest: at_rest(theta=0.0), or at_rest([0.0, 1.0])."""
     if len(q) > 1 or (q and by_name):
         raise Error("at_rest takes coordinates by their names, or one list of them")
-    return state(q=q[0]) if q else state(**by_name)
+    return state(q[0] if q else by_name)
 
 
 def _end_part(part, names, what, is_rate=False):
     if part is None:
         part = [0.0] * len(names) if is_rate else None
     if part is None:
-        raise Error(f"{what} is not given")
+        raise Error(f"{what} is not given; it has {', '.join(names)}")
     if isinstance(part, dict):
         _require_known(part, names, what)
         missing = [name for name in names if name not in part]
@@ -230,20 +250,23 @@ def _fixed(value, what):
 
 class motion:
     """A guess from arrays: between the times t it is linear. q: len(t) x n; v: by default the slopes of q; u: by
-    default 0. Times are the problem's; for another horizon the motion is stretched."""
+    default 0; y: by default the straight line between the ends. Times are the problem's; for another horizon the motion
+    is stretched."""
 
-    def __init__(self, t: Any, q: Any, v: Any = None, u: Any = None):
+    def __init__(self, t: Any, q: Any, v: Any = None, u: Any = None, y: Any = None):
         self.t = np.asarray(t, dtype=float)
         self.q = _table(q, self.t, "q")
         self.v = np.gradient(self.q, self.t, axis=0) if v is None else _table(v, self.t, "v")
         self.u = None if u is None else _table(u, self.t, "u")
+        self.y = None if y is None else _table(y, self.t, "y")
         if self.t.ndim != 1 or len(self.t) < 2 or np.any(np.diff(self.t) <= 0.0):
             raise Error("guess: t must be at least two times that ascend")
 
-    def at(self, t, horizon, m):
+    def at(self, t, horizon):
+        """(q, v, u, y) at a time; None where there is no table."""
         t = self.t[0] + t / horizon * (self.t[-1] - self.t[0])
-        parts = [self.q, self.v, np.zeros((len(self.t), m)) if self.u is None else self.u]
-        return tuple(np.array([np.interp(t, self.t, column) for column in part.T]) for part in parts)
+        return tuple(None if part is None else np.array([np.interp(t, self.t, column) for column in part.T])
+                     for part in (self.q, self.v, self.u, self.y))
 
 
 def _table(values, t, name):
@@ -254,9 +277,9 @@ def _table(values, t, name):
     return table
 
 
-_declared = {"q", "u", "start", "end", "horizon", "bounds", "guess", "cost_scale", "name", "source", "time_unit",
+_declared = {"q", "u", "y", "start", "end", "horizon", "bounds", "guess", "cost_scale", "name", "source", "time_unit",
              "reference", "path_constraint_names", "boundary_condition_names"}
-_formulas = {"lagrangian", "force", "running_cost", "path_constraints", "boundary_conditions", "final_cost", "symmetry",
+_formulas = {"lagrangian", "force", "running_cost", "first_order_rates", "integrands", "path_constraints", "boundary_conditions", "final_cost", "symmetry",
              "picture"}
 _members = _declared | _formulas
 
@@ -272,13 +295,22 @@ class Problem:
     lagrangian(self, x): L(q, v, t); force(self, x): the generalised force, n entries (may be left out);
     running_cost(self, x): the integrand of the cost.
 
-    Optional: final_cost(self, last), path_constraints(self, x) >= 0, boundary_conditions(self, first, last) = 0,
-    bounds(self) (a dict of "q", "v", "u" to (lower, upper)), guess(self, t) -> (q, v, u) or `motion`, symmetry(self, q),
-    cost_scale, picture(self, x) (a dict of a name to a formula or (formula, unit)), name, source, time_unit
-    ("s", 1.0), reference (cost, digits, certificate), path_constraint_names, boundary_condition_names.
+    Optional:
 
-    start, end, horizon and cost_scale may be methods too, where they depend on parameters. The docstring of the class
-    is the description. Formulas are traced once: they may loop and call functions, but not branch on x.
+    final_cost(self, last): a cost of the end, where last.t is the horizon; boundary_conditions(self, first, last) = 0;
+    path_constraints(self, x) >= 0, or between bounds = {"path": (lower, upper)}; equal bounds make an equality;
+    integrands(self, x): their integrals over the horizon are between bounds = {"integrals": (lower, upper)};
+    y = first_order_states("mass", ...) with first_order_rates(self, x), read as x.y.mass: what has a rate, but no
+    inertia; L is varied with y held fixed;
+    any number of `unknown`s: parameters that a solve chooses;
+    bounds: (lower, upper) of "q", "v", "u", "y", "path", "integrals" where they depend on parameters, or of the last two;
+    guess(self, t) -> (q, v), (q, v, u) or (q, v, u, y), or a `motion`: where solves start;
+    symmetry(self, q): the generator of a group action, n entries; cost_scale: the factor by which solvers see the cost;
+    picture(self, x): a dict of a name to a formula or (formula, unit); name, source, time_unit ("s", 1.0), reference
+    (cost, digits, certificate), path_constraint_names, boundary_condition_names: words for tables and figures.
+
+    start, end, horizon, bounds and cost_scale may be methods too, where they depend on parameters. The docstring of the
+    class is the description. Formulas are traced once: they may loop and call functions, but not branch on x.
     """
 
     q: Any
@@ -339,8 +371,15 @@ class Problem:
     def _controls(self):
         return getattr(self, "u", None) or controls()
 
+    def _first_order_names(self):
+        return list(self._first_order_states().names)
+
+    def _first_order_states(self):
+        return getattr(self, "y", None) or first_order_states()
+
     def _declared_parameters(self):
-        return [(one.name, one.value, one.unit, one.meaning, one.lower, one.upper, one.whole)
+        return [(one.name, one.value, one.unit, one.meaning, one.lower, one.upper, one.whole,
+                 one.is_unknown)
                 for one in _parameters_of(type(self)).values()]
 
     def _stated_members(self):
@@ -358,10 +397,10 @@ class Problem:
     def _number_of(self, name):
         return _number(self._value_of(name), name)
 
-    def _point(self, q, v, u, t):
+    def _point(self, q, v, u, t, y):
         names = self.q.names
         control = None if u is None else named(u, self._controls().names, "u")
-        return Point(named(q, names, "q"), named(v, names, "v"), control, t)
+        return Point(named(q, names, "q"), named(v, names, "v"), control, t, named(y, self._first_order_names(), "y"))
 
     def _coordinates_at(self, q):
         return named(q, self.q.names, "q")
@@ -370,7 +409,7 @@ class Problem:
         end = self._value_of(name)
         if not isinstance(end, state):
             raise Error(f"{name} is {end!r}, expected state(...) or at_rest(...)")
-        return end.resolved(self.q.names, name)
+        return end.resolved(self.q.names, self._first_order_names(), name)
 
     def _horizon(self):
         horizon = self._value_of("horizon")
@@ -380,41 +419,64 @@ class Problem:
         return number, number, number
 
     def _bounds(self):
-        bounds = dict(zip("qvu", (self.q.limits("q"), self.q.limits("v"), self._controls().limits("u"))))
+        declared = {"q": self.q, "v": self.q, "u": self._controls(), "y": self._first_order_states()}
+        bounds = {part: vector.limits(part) for part, vector in declared.items()}
         stated = self._value_of("bounds") if getattr(self, "bounds", None) is not None else {}
         if not isinstance(stated, dict):
             raise Error(f"bounds is {type(stated).__name__}, expected a dict such as {{\"u\": (lower, upper)}}")
         for part, limits in stated.items():
-            if part not in bounds:
-                raise Error(f"bounds has an entry {part!r}; the entries are \"q\", \"v\" and \"u\"")
-            names = self._controls().names if part == "u" else self.q.names
+            what = f"bounds[{part!r}]"
+            if part not in (*bounds, "path", "integrals"):
+                raise Error(f"bounds has an entry {part!r}; the entries are {', '.join(bounds)}, path and integrals")
             if not isinstance(limits, (list, tuple)) or len(limits) != 2:
-                raise Error(f"bounds[{part!r}] is {limits!r}, expected (lower, upper)")
-            bounds[part] = tuple(_numbers(side, names, f"bounds[{part!r}]", default)
-                                 for side, default in zip(limits, (-_infinity, _infinity)))
+                raise Error(f"{what} is {limits!r}, expected (lower, upper)")
+            if part in declared:
+                names = declared[part].names
+                bounds[part] = tuple(_numbers(side, names, what, default)
+                                     for side, default in zip(limits, (-_infinity, _infinity)))
+            else:
+                bounds[part] = self._bounds_of_formulas(limits, what, part)
         return bounds
 
+    def _bounds_of_formulas(self, limits, what, part):
+        """Lower and upper bounds, an entry each, or one for all."""
+        if getattr(self, {"path": "path_constraints", "integrals": "integrands"}[part], None) is None:
+            raise Error(f"{what} has nothing to bound; write path_constraints(self, x) or integrands(self, x)")
+        names = list(getattr(self, "path_constraint_names", [])) if part == "path" else []
+        sides = []
+        for side, default in zip(limits, (-_infinity, _infinity)):
+            if isinstance(side, dict):
+                sides.append(_numbers(side, names, what, default))
+            else:
+                entries = [default if side is None else side] if np.ndim(side) == 0 else side
+                sides.append(np.array([_number(entry, what) for entry in entries]))
+        if 1 not in map(len, sides) and len(sides[0]) != len(sides[1]):
+            raise Error(f"{what} has {len(sides[0])} lower and {len(sides[1])} upper bounds")
+        return tuple(np.broadcast_arrays(*sides))
+
     def _numbers(self):
-        (first_q, first_v), (last_q, last_v) = self._end("start"), self._end("end")
         numbers = {"horizon": self._horizon()}
-        for name, (guess, lower, upper) in (("first_q", first_q), ("first_v", first_v), ("last_q", last_q),
-                                            ("last_v", last_v)):
-            numbers[name] = guess
-            numbers[name + "_bounds"] = (lower, upper)
+        for where, name in (("first", "start"), ("last", "end")):
+            for part, (guess, lower, upper) in self._end(name).items():
+                numbers[f"{where}_{part}"] = guess
+                numbers[f"{where}_{part}_bounds"] = (lower, upper)
         for part, limits in self._bounds().items():
             numbers[part + "_bounds"] = limits
         return numbers
 
     def _guess_at(self, t):
         guess = self.guess
-        m = len(self._controls().names)
-        if isinstance(guess, motion):
-            return guess.at(t, self._horizon()[0], m)
-        point = guess(t)
-        if not isinstance(point, (tuple, list)) or len(point) not in (2, 3):
-            raise Error(f"guess returns {type(point).__name__}, expected (q, v, u)")
-        parts = list(point) + ([np.zeros(m)] if len(point) == 2 else [])
-        return tuple(np.atleast_1d(np.asarray(part, dtype=float)) for part in parts)
+        horizon = self._horizon()[0]
+        point = guess.at(t, horizon) if isinstance(guess, motion) else guess(t)
+        if not isinstance(point, (tuple, list)) or not 2 <= len(point) <= 4:
+            raise Error(f"guess returns {type(point).__name__}, expected (q, v), (q, v, u) or (q, v, u, y)")
+        q, v, u, y = (*point, None, None)[:4]
+        if u is None:
+            u = np.zeros(len(self._controls().names))
+        if y is None:
+            first, last = (self._end(name)["y"][0] for name in ("start", "end"))
+            y = first + t / horizon * (last - first)
+        return tuple(np.atleast_1d(np.asarray(part, dtype=float)) for part in (q, v, u, y))
 
     def _card(self):
         cls = type(self)
@@ -429,6 +491,8 @@ class Problem:
             "source": getattr(self, "source", ""),
             "guess": " ".join((guess or "as stated").split()) if not isinstance(
                 getattr(self, "guess", None), motion) else "linear between given points",
+            "configuration_units": self.q.units if any(self.q.units) else [],
+            "control_units": self._controls().units if any(self._controls().units) else [],
             "time_unit": tuple(getattr(self, "time_unit", ("s", 1.0))),
             "reference": reference,
             "path_constraint_names": list(getattr(self, "path_constraint_names", [])),
@@ -437,7 +501,7 @@ class Problem:
 
     def _picture(self, x):
         if getattr(self, "picture", None) is None:
-            pairs = [(self.q, x.q), (self._controls(), x.u)]
+            pairs = [(self.q, x.q), (self._first_order_states(), x.y), (self._controls(), x.u)]
             return [(name, unit, value) for declared, values in pairs
                     for name, unit, value in zip(declared.names, declared.units, values)]
         quantities = self.picture(x)
@@ -459,7 +523,7 @@ def _check_members(problem):
                          ("start", "start = at_rest(...)"), ("end", "end = at_rest(...)"), ("horizon", "horizon = 1.0")):
         if getattr(problem, member, None) is None:
             raise Error(f"{name} lacks {member}; write {kind}")
-    for member, maker in (("q", "coordinates"), ("u", "controls")):
+    for member, maker in (("q", "coordinates"), ("u", "controls"), ("y", "first_order_states")):
         value = getattr(problem, member, None)
         if value is not None and not isinstance(value, _Vector):
             raise Error(f"{name}: {member} is {value!r}, expected {maker}(\"name\", ...)")
@@ -467,6 +531,8 @@ def _check_members(problem):
         raise Error(f"{name}: q = coordinates() has no names")
     if getattr(problem, "u", None) is not None and getattr(problem, "force", None) is None:
         raise Error(f"{name} has controls but lacks force(self, x)")
+    if getattr(problem, "y", None) is not None and getattr(problem, "first_order_rates", None) is None:
+        raise Error(f"{name} has first-order states but lacks first_order_rates(self, x)")
     if getattr(problem, "running_cost", None) is None and getattr(problem, "final_cost", None) is None:
         raise Error(f"{name} lacks running_cost(self, x) and final_cost(self, last); write at least one of them")
     for member in _formulas:

@@ -66,9 +66,18 @@ def _fill(asked, given):
 
 
 class Stages:
-    """Values at the stages of all intervals, a row each: t, q, v, u, p, psi_q, psi_p."""
+    """Values at the stages of all intervals, a row each: t, q, v, u, p, y, psi_q, psi_p."""
 
-    def __init__(self, answer):
+    t: np.ndarray | None
+    q: np.ndarray | None
+    v: np.ndarray | None
+    u: np.ndarray | None
+    p: np.ndarray | None
+    y: np.ndarray | None
+    psi_q: np.ndarray | None
+    psi_p: np.ndarray | None
+
+    def __init__(self, answer: _core.Answer):
         self._answer = answer
 
     def __getattr__(self, name):
@@ -83,7 +92,9 @@ class Solution:
     status, message, is_solved; cost, iterations, seconds, setup_seconds, kkt_residual, constraint_violation,
     relative_jump, replay_error (distance from the end when the controls are replayed), largest_violation (of bounds and
     path constraints anywhere on the motion); t, q, v, p, psi_q, psi_p, psi = (psi_q, psi_p); stages.t, .q, .v, .u, .p.
-    None where the solve ended without it. Arrays are views of C++ results; they may outlive the solution.
+    With first-order states y, psi_y and stages.y; unknowns: a dict of the parameters that the solve chose; integrals, and
+    integral_prices: by how much the least cost grows per unit of the bound that acts. None where the solve ended without
+    it. Arrays are views of C++ results; they may outlive the solution.
     """
 
     problem: str
@@ -111,6 +122,12 @@ class Solution:
     p: np.ndarray | None
     psi_q: np.ndarray | None
     psi_p: np.ndarray | None
+    first_order_states: list[str]
+    y: np.ndarray | None
+    psi_y: np.ndarray | None
+    unknowns: dict[str, float]
+    integrals: np.ndarray | None
+    integral_prices: np.ndarray | None
 
     def __init__(self, answer: _core.Answer):
         self._answer = answer
@@ -141,23 +158,27 @@ class Solution:
     @property
     def psi(self) -> np.ndarray | None:
         """The costates, (psi_q, psi_p) side by side: (N + 1) x 2n."""
-        return None if self.psi_q is None else np.hstack([self.psi_q, self.psi_p])
+        return None if self.psi_q is None or self.psi_p is None else np.hstack([self.psi_q, self.psi_p])
 
     def column(self, name: str) -> np.ndarray | None:
-        """A coordinate at the nodes, or a control at the stages, by its name."""
-        for names, table in ((self.coordinates, self.q), (self.controls, self._answer.stage_u)):
+        """A coordinate or a first-order state at the nodes, or a control at the stages, by its name."""
+        for names, table in ((self.coordinates, self.q), (self.first_order_states, self.y),
+                             (self.controls, self._answer.stage_u)):
             if name in names:
                 return None if table is None else table[:, names.index(name)]
-        raise Error(f"there is no {name}; there are {', '.join(self.coordinates + self.controls)}")
+        there = self.coordinates + self.first_order_states + self.controls
+        raise Error(f"there is no {name}; there are {', '.join(there)}")
 
     def to_pandas(self) -> Any:
-        """The nodes as a DataFrame of pandas: t, q, v and p by names."""
+        """The nodes as a DataFrame of pandas: t, q, v, p and y by names."""
         import pandas
 
         columns = {"t": self.t}
         for prefix, table in (("", self.q), ("rate_", self.v), ("momentum_", self.p)):
-            for i, name in enumerate(self.coordinates):
-                columns[prefix + name] = table[:, i]
+            if table is None:
+                raise Error(f"{self.status}: the solution has no motion")
+            columns.update({prefix + name: table[:, i] for i, name in enumerate(self.coordinates)})
+        columns.update({name: self.column(name) for name in self.first_order_states})
         return pandas.DataFrame(columns)
 
     def __repr__(self):
