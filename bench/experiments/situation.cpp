@@ -26,7 +26,7 @@ bool meets(const Bounds& bounds, const Eigen::MatrixXd& values) {
   constexpr double near = 1e-6;
   if (bounds.empty()) return false;
   for (Eigen::Index i = 0; i < values.cols(); ++i) {
-    if (bounds.lower[i] == bounds.upper[i]) continue;  // an equation is no active bound
+    if (bounds.lower[i] == bounds.upper[i]) continue;  // equations do not count
     const double least = values.col(i).minCoeff();
     const double largest = values.col(i).maxCoeff();
     const double margin = near * std::max(largest - least, std::numeric_limits<double>::min());
