@@ -25,7 +25,7 @@ int judge_all(CommandLine& line) {
   std::filesystem::path out = "results";
   std::vector<std::string> required;
   line.option("--out", out, "the results folder");
-  line.list("--require", required, "claims that have to be reproduced; exit code 1 if one is not");
+  line.list("--require", required, "claims that must be reproduced; exit code 1 otherwise");
   line.parse();
   const ResultTables tables = ResultTables::read(out);
   std::vector<JudgedClaim> claims = judge_claims(tables);

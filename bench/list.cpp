@@ -216,7 +216,7 @@ int print_all(CommandLine& line) {
   std::vector<std::string> names;
   std::vector<std::string> settings;
   line.group(group_of_problem);
-  line.list("--problem", names, "all that these problems prescribe");
+  line.list("--problem", names, "show the whole statement of these problems");
   line.option("--set", settings, "parameter=value of a problem; may be repeated");
   line.group(group_of_output);
   bool as_json = false;
@@ -229,7 +229,7 @@ int print_all(CommandLine& line) {
   line.flag("--families", as_gnuplot, "the families of methods with labels and line styles instead, for figures");
   std::string kind;
   line.option("--names", kind,
-              "names alone, a line each: of problem, method, tableau, solver, derivatives or integrator");
+              "only names, one per line: of problem, method, tableau, solver, derivatives or integrator");
   line.example("--problem cart_pole");
   parse_with_libraries(line);
   if (!kind.empty()) return print_names(kind);

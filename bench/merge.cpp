@@ -19,7 +19,7 @@ int merge(CommandLine& line) {
   line.option("--out", options.out,
               "results folder where the parts are (in NAME.parts), and where the table is written");
   line.option("--from", folders, "further results folder with parts, of another machine; may be repeated");
-  line.option("--grid", options.grid, "the grid file of the parts: names of files are not taken from parts");
+  line.option("--grid", options.grid, "the grid file of the parts, whose file names are not trusted");
   line.option("--start", options.start, "the start of the parts, if it was a file");
   line.option("--option", options.passed_on,
               "the options of the parts, if they are a foreign solver's; may be repeated");

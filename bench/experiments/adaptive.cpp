@@ -78,7 +78,7 @@ int measure_all(CommandLine& line) {
   std::string solver = "auto";
   ProblemOptions asked{.problems = all_problems};
   asked.add_to(line);
-  line.number("--rounds", rounds, 0, 10000, "times that a whole way from the first grid to the last is timed");
+  line.number("--rounds", rounds, 0, 10000, "number of timed repetitions of the whole refinement");
   line.option("--solver", solver, "solver, as `list` names them");
   line.flag("--quick", is_quick, "the uneven problems alone, unless --problem names others");
   TableRun run("adaptive", line);

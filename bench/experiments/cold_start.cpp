@@ -78,7 +78,7 @@ class ColdStart final : public Experiment {
                  "the best branch, with intervals of confidence, and quartiles of iterations, evaluations and seconds "
                  "to there. NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of "
                  "evaluations alone for solves in a batch). A failed start keeps its row and counts. "
-                 "NAME_indirect.csv: from how many of the same motions, with costates 0, the indirect method "
+                 "NAME_indirect.csv: the number of these motions, with costates 0, from which the indirect method "
                  "converges.",
              .options = {.problems = {"all"},
                          .solvers = {"auto"},

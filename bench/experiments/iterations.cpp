@@ -28,9 +28,9 @@ class Iterations final : public ExperimentOf<Measured> {
       : ExperimentOf({.name = "iterations",
                       .description =
                           "Major and minor iterations of the SQP method with the law that predicts them, and the same "
-                          "solves in other currencies: Ipopt's iterations, SLSQP's evaluations (up to 400 free "
-                          "variables), seconds, entries of the KKT matrix and of its factor. NAME_ratios.csv sets "
-                          "collocation against DMOC. Default start: the problem's guess.",
+                          "solves in other measures of cost: Ipopt's iterations, SLSQP's evaluations (up to 400 free "
+                          "variables), seconds, entries of the KKT matrix and of its factor. NAME_ratios.csv compares "
+                          "collocation with DMOC. Default start: the problem's guess.",
                       .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
                       .further_files = {"_ratios.csv"},
                       .branches = BranchesTold::of_any_start,
@@ -54,7 +54,7 @@ class Iterations final : public ExperimentOf<Measured> {
   }
   void add_options(CommandLine& line) override {
     line.list("--crash", crashes_,
-              "first basis of sqp: none (all slacks; phase 1 has to bring every row in), basis (chosen for free)");
+              "first basis of sqp: none (all slacks; phase 1 brings every row in), basis (chosen for free)");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

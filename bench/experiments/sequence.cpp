@@ -110,12 +110,12 @@ void add_options(CommandLine& line, SequenceOptions& options) {
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
   line.number("--steps", options.steps, 1, 100000, "problems in a sequence");
   line.number("--cold-every", options.cold_every, 0, 100000,
-              "every how many steps the problem is solved cold too; 0: never");
+              "interval of steps after which the problem is also solved cold; 0: never");
   line.number("--repeats", options.repeats, 1, 1000, "solves of every step; its time is the smallest of them");
   line.number("--disturbance", options.disturbance, 0.0, 1.0,
               "of the initial states of a receding horizon, a share of the range of the first motion");
   line.number("--barrier", options.barrier, 0.0, 1.0,
-              "barrier parameter that warm solves begin with; 0: that with which the solve before ended");
+              "barrier parameter that warm solves begin with; 0: the final one of the previous solve");
   line.number("--seed", options.seed, 0, 0xffffffffU, "of the disturbances");
   line.option("--over", options.over, "NAME=LOWER:UPPER: the parameter or end state that a homotopy changes");
 }

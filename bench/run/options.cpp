@@ -168,10 +168,11 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
             fmt::format("methods: {}", fmt::join(all_families(), ", ")) +
                 (options.methods.empty() ? fmt::format("; default: {}", fmt::join(paper_families(), ", ")) : ""));
   line.list("--tableau", options.tableaus, "families of Butcher tableaus");
-  line.list("--stages", options.stages, "numbers of stages s; a tableau takes those that it is offered with");
-  line.option("--controls", options.controls,
-              "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
-              "the tables then call lobatto_shared");
+  line.list("--stages", options.stages, "numbers of stages s; each tableau uses the ones that it supports");
+  line.option(
+      "--controls", options.controls,
+      "stage: every stage has its control; shared: one at the node between two intervals, for --tableau lobatto, which "
+      "the tables then call lobatto_shared");
   line.list("--integrator", options.integrators,
             "of shooting: rk4, midpoint, dmoc (its own map as a step); default: rk4");
   line.list("--substeps", options.substeps, "steps of the integrator per interval, of shooting; default: 1");
@@ -183,7 +184,7 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.group("Start");
   line.option("--start", options.start,
               "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a CSV "
-              "file with columns t, q and v_q per configuration, and controls and costates if it has them");
+              "file with columns t, q and v_q per configuration, and optionally controls and costates");
   line.number(
       "--start-seconds", options.start_seconds, 0.0, 1e6,
       "time limit for finding the common start of a problem (and tableau); afterwards solves start at the guess");
@@ -192,23 +193,23 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them");
   line.option("--tolerance", options.tolerance, "for the KKT residual of the scaled program");
   line.option("--iterations", options.most_iterations, "largest number of iterations of a solver");
-  line.number("--seconds", options.most_seconds, 0.0, 1e6, "time after which a solve has failed; 0: no limit");
+  line.number("--seconds", options.most_seconds, 0.0, 1e6, "time limit of a solve; 0: no limit");
   line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
   line.option("--repeats", options.repeats, "solves per row; times are medians");
   line.flag("--verbose", options.verbose, "show the solver's own output");
   line.group(group_of_output);
   line.option("--out", options.out, "folder for the results");
   line.option("--name", options.name, "name of the table and of the files next to it");
-  line.flag("--fresh", options.fresh, "solve all cases, also where an interrupted run could be resumed");
+  line.flag("--fresh", options.fresh, "solve all cases instead of resuming an interrupted run");
 }
 
 void add_jobs_option(CommandLine& line, ExperimentOptions& options) {
   line.number("--jobs", options.jobs, 1, 256,
-              "problems, in large batches also methods, worked on at the same time, each in a process of its own");
+              "problems, in large batches also methods, worked on at the same time, each in its own process");
 }
 
 void add_tolerances_option(CommandLine& line, ExperimentOptions& options) {
-  line.list("--tolerances", options.tolerances, "several tolerances, a row for each; wins over --tolerance");
+  line.list("--tolerances", options.tolerances, "several tolerances, a row for each; overrides --tolerance");
 }
 
 void add_batch_option(CommandLine& line, ExperimentOptions& options) {

@@ -57,8 +57,8 @@ std::vector<std::string> libraries_of_environment() {
 void add_library_option(CommandLine& line, std::vector<std::string>& libraries) {
   line.group(group_of_problem);
   line.option("--library", libraries,
-              "shared library of problems, made by dmocbench_add_problems; may be repeated. Those that "
-              "DMOCBENCH_LIBRARIES names come first");
+              "shared library of problems, made by dmocbench_add_problems; may be repeated. Libraries in "
+              "DMOCBENCH_LIBRARIES are loaded first");
 }
 
 void load_problem_libraries(const std::vector<std::string>& libraries) {

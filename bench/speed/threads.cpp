@@ -99,7 +99,7 @@ void register_threads() {
 int run_threads(int argc, char** argv) {
   const BenchmarkProgram program{
       .name = "threads",
-      .description = "The gain of DMOCBENCH_THREADS threads in whole solves, and in work that shares nothing.",
+      .description = "The gain of DMOCBENCH_THREADS threads in whole solves, and in independent work.",
       .default_filter = "^machine|/(65536|262144)/",
       .register_benchmarks = register_threads};
   return program.run(argc, argv);

@@ -18,7 +18,7 @@ class ReadSol final : public ExperimentOf<IndependentChecks> {
             {.name = "read-sol",
              .description =
                  "Reads the answer of another solver to a program that write-nl has written with the same "
-                 "options, judges it as every answer, and writes its motion: NAME_nodes.csv (t, q, v, p, psi), "
+                 "options, judges it like any other answer, and writes its motion: NAME_nodes.csv (t, q, v, p, psi), "
                  "NAME_stages.csv (t, u) and NAME_picture.csv.",
              .options = {.intervals = "128", .start = "guess"},
              .further_files = endings_of_motion_files(),
