@@ -90,16 +90,17 @@ Row row_of_answer(const SolvedCase& solved, const IndependentChecks& checks, con
 class Solve final : public ExperimentOf<Measured> {
  public:
   Solve()
-      : ExperimentOf({.name = "solve",
-                      .description =
-                          "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
-                          "NAME_picture.csv; with several cases each NAME carries the case's label. The last iterate "
-                          "of a failed solve is also written and can be continued with --start NAME_nodes.csv.",
-                      .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
-                      .finishes_interrupted = true,
-                      .wants_motions = true,
-                      .takes_parts = false,
-                      .example = "--problem two_link_manipulator --method dmoc --intervals 64"}) {}
+      : ExperimentOf(
+            {.name = "solve",
+             .description =
+                 "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
+                 "NAME_picture.csv; with several cases each NAME carries the case's label. The last iterate of "
+                 "every failed solve is also written, and can be continued with --start NAME_nodes.csv.",
+             .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
+             .finishes_interrupted = true,
+             .wants_motions = true,
+             .takes_parts = false,
+             .example = "--problem two_link_manipulator --method dmoc --intervals 64"}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return columns_through<Measured>(&Measured::checks, check_columns()) +
            Columns<Measured>{{"estimated_error", "",
