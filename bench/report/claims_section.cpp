@@ -102,7 +102,7 @@ std::string other_claims_html(const ResultsFolder& results) {
 std::string claims_section(const ResultsFolder& results) {
   const Table& claims = results.claims;
   if (claims.rows().empty()) return "";
-  return "<section id=\"claims\"><h2>Claims</h2>\n<p>A predicate on the tables decides every verdict. Each line "
+  return "<section id=\"claims\"><h2>Claims</h2>\n<p>Each verdict is computed by a predicate on the tables. Each line "
          "opens to the measurement, the reason, the rows of tables, and the commands that produce them.</p>\n" +
          counts_html(claims) + filter_html(claims) + paper_claims_html(results) + other_claims_html(results) +
          "</section>\n";

@@ -110,9 +110,9 @@ std::string times_section(const ComparedRun& first, const ComparedRun& second) {
   }
   if (html.empty() && unjudged == 0) return "";
   return fmt::format(
-             "<section id=\"times\"><h2>Times</h2>\n<p>The median time in B by the median in A, with a 99 % interval "
-             "from the rounds of both. The runs were not made in turn: other work of the machine during one of them is "
-             "in the ratio. {} solves were timed in fewer than {} rounds and are not judged.</p>\n",
+             "<section id=\"times\"><h2>Times</h2>\n<p>The median time in B over the median in A, with a 99 % interval "
+             "from the rounds of both. The runs were not interleaved, so the ratio contains other load of the machine "
+             "during one of them. {} solves were timed in fewer than {} rounds and are not judged.</p>\n",
              unjudged, fewest_rounds) +
          html + "</section>\n";
 }

@@ -40,7 +40,7 @@ std::string optimum_html(const ProblemCard& card, const std::optional<double>& l
 }
 
 std::string reached_html(const std::vector<ReachedOptimum>& methods, const std::string& problem) {
-  if (methods.empty()) return "<p>No run in this folder solves it as it is stated here.</p>\n";
+  if (methods.empty()) return "<p>No run in this folder solves this statement of the problem.</p>\n";
   std::string html = fmt::format(
       "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"methods on {}\"><table><thead><tr><th "
       "scope=\"col\">method<th scope=\"col\">solves<th scope=\"col\">solved<th scope=\"col\">within 1 %<th "
@@ -89,9 +89,9 @@ std::string unknown_motions(const ResultsFolder& results, const std::vector<std:
 std::string gallery_section(const ResultsFolder& results) {
   if (results.motions.empty()) return "";
   std::string html =
-      "<section id=\"gallery\"><h2>Gallery</h2>\n<p>Every problem of the library as it is stated, in the units in "
-      "which it is solved, with the motions that were found. A method reaches an optimum where its cost comes within 1 "
-      "%; other minima and coarse grids are farther away.</p>\n";
+      "<section id=\"gallery\"><h2>Gallery</h2>\n<p>Statements of all problems of the library, in the units in which "
+      "they are solved, with the motions found. A method reaches an optimum if its cost is within 1 %; other minima "
+      "and coarse grids are farther away.</p>\n";
   std::vector<std::string> names = problem_names();
   html += unknown_motions(results, names);
   // Problems of this folder come first.

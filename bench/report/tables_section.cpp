@@ -58,8 +58,8 @@ std::string tables_section(const ResultsFolder& results, const std::string& fold
   if (results.tables.empty()) return "";
   std::string html = fmt::format(
       "<section id=\"tables\"><h2>Tables</h2>\n<p>A row is one solve where there is a status; rows that were not "
-      "solved are marked. A column's unit stands in its head, its meaning above the table. The files with all rows are "
-      "not in this page but {}: a page that is sent alone does not bring them.</p>\n",
+      "solved are marked. A column's unit is in its head, its meaning above the table. The files with all rows are not "
+      "part of this page but {}: the page alone does not include them.</p>\n",
       folder.empty() ? "next to it" : escaped("in the folder " + folder + " next to it"));
   for (const ReportedTable& table : results.tables) html += table_html(table, results.metadata_of(table.run), folder);
   return html + "</section>\n";
