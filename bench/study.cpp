@@ -39,7 +39,7 @@ int run_and_wait(const std::vector<std::string>& words) {
   fmt::print("+ {}\n", fmt::join(words, " "));
   std::fflush(nullptr);
   const ::pid_t child = ::fork();
-  if (child < 0) throw Error("the system gives no more processes");
+  if (child < 0) throw Error("cannot create a process");
   if (child == 0) {
     try {
       run_in_place(words);
@@ -89,7 +89,7 @@ int run_all(CommandLine& line) {
   line.example("--problem cart_pole");
   line.exit_code_1("a step has failed; the others have run");
   line.parse();
-  if (study.problem.empty()) throw Error("name a problem: study --problem cart_pole; list shows those there are");
+  if (study.problem.empty()) throw Error("name a problem: study --problem cart_pole; list shows all problems");
   if (study.out.empty()) study.out = "study_" + study.problem;
   listen_for_interrupt();
   int failures = 0;

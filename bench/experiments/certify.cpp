@@ -199,7 +199,7 @@ class Certify final : public ExperimentOf<Measured> {
     std::ranges::transform(route_names_, std::back_inserter(routes), parse_route);
     for (const std::string& route : route_names_) {
       if (std::ranges::count(route_names_, route) == 1) continue;
-      throw Error(fmt::format("--routes: {} stands there twice; routes have to differ", route));
+      throw Error(fmt::format("--routes: {} is given twice; routes must differ", route));
     }
     std::vector<Case> cases;
     for (const std::vector<Case>& curve : curves_of(chosen)) {

@@ -172,7 +172,7 @@ Entry solution_near(const Problem& problem, const Trajectory& direct, const std:
     try {
       write_file(path, written(problem, *solution));
     } catch (const Error& error) {
-      notes.push_back(fmt::format("{}: its indirect solution is kept in no file: {}", problem.name(), error.what()));
+      notes.push_back(fmt::format("{}: its indirect solution is not saved: {}", problem.name(), error.what()));
     }
   }
   constexpr double replay_tolerance = 1e-13;

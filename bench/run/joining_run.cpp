@@ -122,8 +122,8 @@ void require_libraries(const PartFile& part, std::vector<std::string> given) {
 std::vector<std::string> program_of(const PartFile& part) {
   const std::string experiment = JsonPlace(part.description, part.path.string()).at("identity").at("experiment").text();
   if (!is_in(experiments, experiment)) {
-    throw Error(fmt::format("{} is of \"{}\", and there is no such experiment; remove that part", part.path.string(),
-                            experiment));
+    throw Error(fmt::format("{} was written by \"{}\", which is not an experiment; remove that part",
+                            part.path.string(), experiment));
   }
   return start_of_program(experiment);
 }

@@ -149,7 +149,7 @@ std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
   }
   for (const int stages : options.stages) {
     if (std::ranges::count(schemes, stages, &FamilyAndStages::second) > 0) continue;
-    throw Error(fmt::format("--stages: {} is offered with {} stages, not with {}", families.front(),
+    throw Error(fmt::format("--stages: {} supports {} stages, not {}", families.front(),
                             fmt::join(tableau_stages(families.front()), ", "), stages));
   }
   return schemes;

@@ -63,7 +63,7 @@ std::pair<Worker, std::string> wait_for_one(std::map<pid_t, Worker>& running) {
     }
     int state = 0;
     const pid_t ended = waitpid(-1, &state, WNOHANG);
-    if (ended < 0 && errno != EINTR) throw Error("lost sight of a process that works");
+    if (ended < 0 && errno != EINTR) throw Error("could not wait for a worker process");
     const auto child = running.extract(ended);
     if (!child) continue;
     std::array<char, 4096> sentence{};  // fits into the pipe, so that no process waits to be heard
@@ -112,14 +112,14 @@ void for_each_in_processes(std::size_t count, std::size_t jobs, const std::funct
   };
   const auto begin = [&](std::size_t number) {
     std::array<int, 2> complaint{};
-    if (::pipe(complaint.data()) != 0) throw Error("cannot make a pipe from a process to work in; try --jobs 1");
+    if (::pipe(complaint.data()) != 0) throw Error("cannot create a pipe to a worker process; try --jobs 1");
     std::fflush(nullptr);
     const pid_t parent = ::getpid();
     const pid_t child = fork();
     if (child == 0) work_in_child({number, complaint[1]}, parent, work);
     ::close(complaint[1]);
     if (child < 0) ::close(complaint[0]);
-    if (child < 0) throw Error("cannot make a process to work in; try --jobs 1");
+    if (child < 0) throw Error("cannot create a worker process; try --jobs 1");
     running.emplace(child, Worker{number, complaint[0]});
   };
   for (std::size_t next = 0;;) {

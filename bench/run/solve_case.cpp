@@ -126,7 +126,7 @@ void note_cost_scale(SolvedCase& solved, double optimum) {
   const double scale = solved.program->cost_scale();
   const double seen = cost * scale;
   if (!is_solved(solved.solution.status) || !std::isnormal(seen) || (seen < far && seen > 1.0 / far)) return;
-  solved.note(fmt::format("The optimum is {:.3g}: cost_scale = {:g} would suit, not {:g}.", optimum,
+  solved.note(fmt::format("The optimum is {:.3g}: consider cost_scale = {:g} instead of {:g}.", optimum,
                           std::pow(10.0, -std::round(std::log10(cost))), scale));
 }
 
@@ -148,7 +148,7 @@ void note_variable_sizes(SolvedCase& solved, const Trajectory& motion) {
   look("", motion.q, problem.configuration_names());
   look("the rate of ", motion.v, problem.configuration_names());
   look("", motion.stage_u, problem.control_names());
-  if (!found.empty()) solved.note(fmt::format("Sizes far from 1: {}; other units would suit.", fmt::join(found, ", ")));
+  if (!found.empty()) solved.note(fmt::format("Sizes far from 1: {}; consider other units.", fmt::join(found, ", ")));
 }
 
 /// Judges a solved case as far as the time goes; one whose time is up is not solved.

@@ -63,9 +63,9 @@ void require_same_structure(const Problem& problem, const ProgramBounds& before,
     return true;
   };
   if (same(before.variables, now.variables) && same(before.constraints, now.constraints)) return;
-  throw Error(problem.name() +
-              ": with these values a bound appears, vanishes, or joins or leaves its opposite; that is another "
-              "transcription");
+  throw Error(
+      problem.name() +
+      ": with these values a bound appears, vanishes, or joins or leaves its opposite; make a new transcription");
 }
 
 ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,

@@ -26,7 +26,7 @@ void require_changeable(const Problem& problem, const TracedProblem& traced, con
 
 void require_same_velocities(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
   if (before.bounded_velocities() == now.bounded_velocities()) return;
-  throw Error(problem.name() + ": other velocities than before have bounds; that is another transcription");
+  throw Error(problem.name() + ": other velocities than before have bounds; make a new transcription");
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ void Transcription::use(Values values) {
                             values.horizon, horizon.lower, horizon.upper));
   }
   if (horizon.is_free() != end_rules_.free_horizon) {
-    throw Error(problem_->name() + ": whether the horizon is free cannot change; that is another transcription");
+    throw Error(problem_->name() + ": whether the horizon is free cannot change; make a new transcription");
   }
   require_same_velocities(*problem_, problem_bounds_, values.bounds);
   require_readable_ends(values);

@@ -47,7 +47,7 @@ TEST(SolveCase, SaysWhichScaleWouldSuitACostFarFromOne) {
   // u is about 2 speed, so the cost is about 2 a speed².
   const SolvedCase small = solved(1.0, 0.5e-5);
   ASSERT_EQ(small.solution.status, Status::solved) << small.solution.message;
-  EXPECT_NE(small.solution.message.find("cost_scale = 100000 would suit, not 1"), std::string::npos)
+  EXPECT_NE(small.solution.message.find("consider cost_scale = 100000 instead of 1"), std::string::npos)
       << small.solution.message;
   EXPECT_EQ(solved(1.0, 0.5).solution.message.find("cost_scale"), std::string::npos);
 }

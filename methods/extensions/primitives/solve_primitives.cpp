@@ -110,8 +110,9 @@ class PrimitiveBatch {
 
 void require_possible(const PrimitiveRequest& request, const PrimitiveLibrary& library) {
   if (request.first < library.states.size() && request.last < library.states.size() && request.duration >= 1) return;
-  throw Error(fmt::format("a primitive from state {} to state {} in {} time steps is none of a library with {} states",
-                          request.first, request.last, request.duration, library.states.size()));
+  throw Error(
+      fmt::format("a primitive from state {} to state {} in {} time steps does not belong to a library with {} states",
+                  request.first, request.last, request.duration, library.states.size()));
 }
 
 }  // namespace

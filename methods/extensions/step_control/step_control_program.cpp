@@ -28,7 +28,8 @@ void require_plain(const Problem& problem, const TracedProblem& traced) {
                         traced.unknown_count() == 0 && traced.first_order_size() == 0;
   if (is_plain) return;
   throw Error(
-      "steps inside the principle are known for problems with fixed ends, a fixed horizon and no constraints; " +
+      "steps inside the variational principle are supported for problems with fixed ends, a fixed horizon and no "
+      "constraints; " +
       problem.name() + " is none");
 }
 
