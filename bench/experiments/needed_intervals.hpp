@@ -42,7 +42,7 @@ struct StepOfGrid {
                                         const SolverOptions& options, std::vector<StepOfGrid>& steps);
 
 /// The smallest uniform grid, to 2 %, whose true error is at most the accuracy: solves begin at the optimum, and
-/// numbers of intervals follow from the order. No grid has more than 6000 intervals.
+/// numbers of intervals follow from the order. Grids with more than 6000 intervals are not tried.
 [[nodiscard]] NeededGrid needed_uniform(const CertifiedProblem& certified, const Scheme& scheme, double accuracy,
                                         const std::string& solver_name, const SolverOptions& options);
 
