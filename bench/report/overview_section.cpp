@@ -137,7 +137,7 @@ std::string comparison_html(const ResultsFolder& results) {
   std::set<std::string> methods;
   for (const std::string& method : fields_of(results, "method")) methods.insert(method_in_words(method));
   return fmt::format("<p>{} by the methods {}: {} in {}, {}, {}.</p>\n",
-                     counted(fields_of(results, "problem").size(), "problem"), escaped(listed(methods)),
+                     counted(fields_of(results, "problem").size(), "problem"), escaped(fmt::format("{}", fmt::join(methods, "; "))),
                      counted(rows, "row"), counted(results.tables.size(), "table"),
                      counted(results.figures.size(), "figure"), counted(results.claims.rows().size(), "claim"));
 }
