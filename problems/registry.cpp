@@ -11,6 +11,7 @@
 #include "problems/brachistochrone.hpp"
 #include "problems/cannonball.hpp"
 #include "problems/cart_pole.hpp"
+#include "problems/cart_pole_cartesian.hpp"
 #include "problems/container_crane.hpp"
 #include "problems/control_rate.hpp"
 #include "problems/double_integrator.hpp"
@@ -24,6 +25,7 @@
 #include "problems/hypersensitive.hpp"
 #include "problems/kepler_cartesian.hpp"
 #include "problems/link_chain.hpp"
+#include "problems/link_chain_maximal.hpp"
 #include "problems/orbital_transfer.hpp"
 #include "problems/orbital_transfer_with_mass.hpp"
 #include "problems/particle_steering.hpp"
@@ -32,9 +34,12 @@
 #include "problems/problem_registry.hpp"
 #include "problems/rigid_quadrotor.hpp"
 #include "problems/robot_arm.hpp"
+#include "problems/satellite_directors.hpp"
 #include "problems/spherical_pendulum.hpp"
+#include "problems/spherical_pendulum_cartesian.hpp"
 #include "problems/spring_arm.hpp"
 #include "problems/two_link_manipulator.hpp"
+#include "problems/two_link_maximal.hpp"
 #include "problems/two_link_with_motors.hpp"
 
 namespace dmocbench {
@@ -90,6 +95,11 @@ Registry problems_of_the_suite() {
   registry.add<HangingChain>();
   registry.add<Cannonball>();
   registry.add<SpringArm>();
+  registry.add<SphericalPendulumCartesian>();
+  registry.add<CartPoleCartesian>();
+  registry.add<TwoLinkMaximal>();
+  registry.add<LinkChainMaximal>();
+  registry.add<SatelliteDirectors>();
   return registry;
 }
 

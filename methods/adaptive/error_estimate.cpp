@@ -225,6 +225,7 @@ double second_order_of_cost(const ExtremalCoordinates::Canonical& misses,
 const Transcription& with_fixed_ends(const Transcription& program) {
   const LayoutShape& shape = program.layout().shape();
   if (shape.free_horizon) throw Error("the error cannot be estimated where the horizon is free; fix it");
+  program.traced_problem().require_no_constraints("the estimate of the error");
   if (shape.conditions > 0) {
     throw Error(
         "the error cannot be estimated where the problem has boundary conditions; state the ends by initial_state, "

@@ -10,8 +10,9 @@ namespace dmocbench {
 DiscreteLagrangian::DiscreteLagrangian(const Problem& problem, const Tableau& tableau)
     : n_(problem.configuration_size()), stages_(tableau.stages()) {
   const TracedProblem traced(problem);
+  traced.require_no_constraints("the discrete Lagrangian");
   InputCounter counter;  // q_0, q_1, the interior rates, the stage controls, h, t
-  IntervalUnknowns unknowns = take_unknowns(counter, traced, DmocElement(), stages_);
+  IntervalUnknowns unknowns = take_unknowns(counter, traced, DmocElement(), tableau);
   unknowns.h = counter.take();
   unknowns.t = counter.take();
   const IntervalTrace trace = DmocElement().trace(traced, tableau, unknowns);

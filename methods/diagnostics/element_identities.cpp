@@ -96,7 +96,7 @@ class ExactMotion {
 struct TracedInterval {
   TracedInterval(const TracedProblem& problem, const Element& element, const Tableau& tableau) {
     InputCounter counter;
-    unknowns = take_unknowns(counter, problem, element, tableau.stages());
+    unknowns = take_unknowns(counter, problem, element, tableau);
     solved_for = static_cast<Eigen::Index>(counter.taken()) - degrees - tableau.stages() * degrees;
     unknowns.h = counter.take();
     unknowns.t = counter.take();

@@ -108,6 +108,7 @@ StepSeries partial_sums(const StepSeries& series, long double h) {
 
 ModifiedEnergy::ModifiedEnergy(const Problem& problem) {
   const TracedProblem traced(problem);
+  traced.require_no_constraints("the modified energy");
   const Eigen::Index n = traced.configuration_size();
   const Inputs in(n, traced.control_size());
   const TracedProblem::Values values = traced.at({in.q, in.v, in.u, in.t});

@@ -1,6 +1,7 @@
 #include "methods/diagnostics/replay_error.hpp"
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,6 +9,7 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
@@ -55,7 +57,9 @@ class Replay {
         motion_(traced_),
         running_cost_(
             traced_.configuration_size(), traced_.control_size(),
-            [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced_.at(x).running_cost); }, l_) {}
+            [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced_.at(x).running_cost); }, l_) {
+    if (traced_.holonomic_count() > 0) constraints_.emplace(traced_);
+  }
 
   /// q, v, y and a cost so far of 0.
   [[nodiscard]] static std::vector<double> begin_at(const BoundaryState& start) {
@@ -85,6 +89,9 @@ class Replay {
     if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n_ + l_ + 1).allFinite()) {
       throw Error(fmt::format("the replay left the set where the equations of motion make sense in interval {}", k));
     }
+    if (constraints_)
+      constraints_->project(Eigen::Map<Eigen::VectorXd>(state.data(), n_),
+                            Eigen::Map<Eigen::VectorXd>(state.data() + n_, n_));
   }
 
  private:
@@ -94,6 +101,7 @@ class Replay {
   Eigen::Index l_;
   TracedProblem traced_;
   EquationsOfMotion motion_;
+  std::optional<HolonomicConstraints> constraints_;  // of reduced index, the equations of motion drift away from them
   PointFunction running_cost_;
   Eigen::VectorXd cost_rate_ = Eigen::VectorXd(1);
 };

@@ -21,3 +21,19 @@ void throw_no_entry(char name, Eigen::Index entry, Eigen::Index size) {
 }
 
 }  // namespace dmocbench::detail
+
+namespace dmocbench {
+
+ExpressionVector stacked(const std::vector<ExpressionVector>& parts) {
+  Eigen::Index size = 0;
+  for (const ExpressionVector& part : parts) size += part.size();
+  ExpressionVector all(size);
+  Eigen::Index next = 0;
+  for (const ExpressionVector& part : parts) {
+    all.segment(next, part.size()) = part;
+    next += part.size();
+  }
+  return all;
+}
+
+}  // namespace dmocbench

@@ -151,6 +151,9 @@ class InputCounter {
   std::size_t taken_;
 };
 
+/// One vector below the other.
+[[nodiscard]] ExpressionVector stacked(const std::vector<ExpressionVector>& parts);
+
 /// Appends the entries, column by column.
 inline void append(std::vector<Expression>& outputs, const ExpressionMatrix& entries) {
   outputs.insert(outputs.end(), entries.data(), entries.data() + entries.size());

@@ -1,6 +1,7 @@
 #include "methods/mechanics/equations_of_motion.hpp"
 
 #include "methods/error.hpp"
+#include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
@@ -8,6 +9,7 @@ namespace dmocbench {
 EquationsOfMotion::EquationsOfMotion(const TracedProblem& problem)
     : n_(problem.configuration_size()),
       l_(problem.first_order_size()),
+      c_(problem.holonomic_count()),
       function_(
           n_, problem.control_size(),
           [&](const ControlledState& x) {
@@ -17,7 +19,9 @@ EquationsOfMotion::EquationsOfMotion(const TracedProblem& problem)
             if (l_ > 0) right_hand_side -= values.momentum_by_first_order * values.first_order_rates;
             ExpressionVector outputs(n_ + l_ + n_ * n_);
             outputs << right_hand_side, values.first_order_rates, values.mass.reshaped();
-            return outputs;
+            if (c_ == 0) return outputs;
+            const TracedProblem::HolonomicValues holonomic = problem.holonomic_at(x.q, x.v);
+            return stacked({outputs, -holonomic.curvature, holonomic.jacobian.reshaped()});
           },
           l_),
       values_(function_.output_count()) {}
@@ -27,10 +31,18 @@ Eigen::VectorXd EquationsOfMotion::acceleration(const Eigen::Ref<const Eigen::Ve
                                                 const Eigen::Ref<const Eigen::VectorXd>& u, double t,
                                                 const Eigen::Ref<const Eigen::VectorXd>& y) {
   function_.evaluate(q, v, u, t, values_, y);
-  const std::optional<Eigen::VectorXd> acceleration =
-      solve_if_invertible(values_.tail(n_ * n_).reshaped(n_, n_), values_.head(n_));
+  const auto mass = values_.segment(n_ + l_, n_ * n_).reshaped(n_, n_);
+  std::optional<Eigen::VectorXd> acceleration;
+  if (c_ == 0) {
+    acceleration = solve_if_invertible(mass, values_.head(n_));
+  } else {
+    const auto holonomic = values_.tail(c_ + c_ * n_);
+    Eigen::VectorXd right(n_ + c_);
+    right << values_.head(n_), holonomic.head(c_);
+    acceleration = solve_if_invertible(saddle_matrix(mass, holonomic.tail(c_ * n_).reshaped(c_, n_)), right);
+  }
   if (!acceleration) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
-  return *acceleration;
+  return acceleration->head(n_);
 }
 
 void EquationsOfMotion::write_rate(const std::vector<double>& state, const Eigen::Ref<const Eigen::VectorXd>& u,

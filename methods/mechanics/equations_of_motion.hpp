@@ -10,13 +10,15 @@
 namespace dmocbench {
 
 /// The forced Euler-Lagrange equations (eq:varmech_FEL), solved for the acceleration:
-/// L_vv q̈ = L_q + f - L_vq q̇ - L_vy ẏ - L_vt.
+/// L_vv q̈ = L_q + f - L_vq q̇ - L_vy ẏ - L_vt; with holonomic constraints their index is reduced: L_vv q̈ + Gᵀλ is that
+/// right-hand side, and G q̈ = -Ġ q̇.
 class EquationsOfMotion {
  public:
   /// Traces them for the problem.
   explicit EquationsOfMotion(const TracedProblem& problem);
 
-  /// q̈ at (q, v) under the control u at time t, n entries. Throws `Error` if L_vv is singular there.
+  /// q̈ at (q, v) under the control u at time t, n entries. Throws `Error` if L_vv is singular there, or with
+  /// constraints (L_vv, Gᵀ; G, 0).
   [[nodiscard]] Eigen::VectorXd acceleration(const Eigen::Ref<const Eigen::VectorXd>& q,
                                              const Eigen::Ref<const Eigen::VectorXd>& v,
                                              const Eigen::Ref<const Eigen::VectorXd>& u, double t,
@@ -31,7 +33,8 @@ class EquationsOfMotion {
  private:
   Eigen::Index n_;
   Eigen::Index l_;
-  PointFunction function_;  // outputs: the right-hand side, ẏ, then L_vv column by column
+  Eigen::Index c_;
+  PointFunction function_;  // outputs: the right-hand side, ẏ, L_vv column by column, then -Ġ q̇ and G likewise
   Eigen::VectorXd values_;
 };
 

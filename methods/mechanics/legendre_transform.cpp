@@ -3,12 +3,14 @@
 #include <limits>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 
 LegendreTransform::LegendreTransform(const TracedProblem& problem)
     : n_(problem.configuration_size()),
+      c_(problem.holonomic_count()),
       function_(
           n_, problem.control_size(),
           [&](const ControlledState& x) {
@@ -16,7 +18,8 @@ LegendreTransform::LegendreTransform(const TracedProblem& problem)
             ExpressionVector outputs(n_ + 2 * n_ * n_ + values.momentum_by_first_order.size());
             outputs << values.momentum, values.mass.reshaped(), values.momentum_by_configuration.reshaped(),
                 values.momentum_by_first_order.reshaped();
-            return outputs;
+            if (c_ == 0) return outputs;
+            return stacked({outputs, problem.holonomic_at(x.q, x.v).jacobian.reshaped()});
           },
           problem.first_order_size()),
       values_(function_.output_count()) {}
@@ -47,7 +50,19 @@ Eigen::MatrixXd LegendreTransform::momentum_by_configuration(const Eigen::Vector
 Eigen::MatrixXd LegendreTransform::momentum_by_first_order(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                                            const Eigen::VectorXd& y) {
   evaluate(q, v, t, y);
-  return values_.tail(n_ * y.size()).reshaped(n_, y.size());
+  return values_.segment(n_ + 2 * n_ * n_, n_ * y.size()).reshaped(n_, y.size());
+}
+
+std::optional<Eigen::VectorXd> LegendreTransform::velocity_correction(const Eigen::MatrixXd& mass,
+                                                                      const Eigen::VectorXd& residual,
+                                                                      const Eigen::VectorXd& v) const {
+  if (c_ == 0) return solve_if_invertible(mass, residual);
+  const Eigen::MatrixXd jacobian = values_.tail(c_ * n_).reshaped(c_, n_);
+  Eigen::VectorXd right(n_ + c_);
+  right << residual, -(jacobian * v);
+  std::optional<Eigen::VectorXd> correction = solve_if_invertible(saddle_matrix(mass, jacobian), right);
+  if (correction) correction->conservativeResize(n_);
+  return correction;
 }
 
 Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& p, double t,
@@ -60,11 +75,11 @@ Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eige
     evaluate(q, v, t, y);
     const Eigen::VectorXd residual = p - values_.head(n_);
     const Eigen::MatrixXd mass = values_.segment(n_, n_ * n_).reshaped(n_, n_);
-    const std::optional<Eigen::VectorXd> correction = solve_if_invertible(mass, residual);
+    const std::optional<Eigen::VectorXd> correction = velocity_correction(mass, residual, v);
     if (!correction) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
     // A residual of rounding size counts as zero, however large a correction an ill-conditioned L_vv makes of it.
     const Eigen::VectorXd smallest = rounding * (p.cwiseAbs() + mass.cwiseAbs() * v.cwiseAbs());
-    const bool is_rounding = (residual.array().abs() <= smallest.array()).all();
+    const bool is_rounding = c_ == 0 && (residual.array().abs() <= smallest.array()).all();
     v += *correction;
     if (is_rounding || correction->norm() <= tolerance * (1.0 + v.norm())) return v;
   }

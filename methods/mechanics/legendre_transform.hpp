@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 #include "methods/mechanics/point_function.hpp"
@@ -19,8 +21,9 @@ class LegendreTransform {
   [[nodiscard]] Eigen::VectorXd momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                          const Eigen::VectorXd& y = {});
 
-  /// The v with L_v(q, v, t) = p, by Newton's method from v = `start` (one step if L is quadratic in v).
-  /// Throws `Error` if L_vv is singular there or the iteration does not converge.
+  /// The v with L_v(q, v, t) = p, by Newton's method from v = `start` (one step if L is quadratic in v). With holonomic
+  /// constraints the v with G v = 0 and L_v(q, v, t) = p - Gᵀμ for some μ: that of the projected momentum. Throws
+  /// `Error` if L_vv is singular there, or (L_vv, Gᵀ; G, 0), or the iteration does not converge.
   [[nodiscard]] Eigen::VectorXd velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& p, double t,
                                          const Eigen::VectorXd& start, const Eigen::VectorXd& y = {});
 
@@ -37,10 +40,15 @@ class LegendreTransform {
                                                         const Eigen::VectorXd& y);
 
  private:
+  /// A step of Newton's method.
+  [[nodiscard]] std::optional<Eigen::VectorXd> velocity_correction(const Eigen::MatrixXd& mass,
+                                                                   const Eigen::VectorXd& residual,
+                                                                   const Eigen::VectorXd& v) const;
   void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, const Eigen::VectorXd& y);
 
   Eigen::Index n_;
-  PointFunction function_;  // outputs: L_v, then L_vv, L_vq and L_vy, column by column
+  Eigen::Index c_;
+  PointFunction function_;  // outputs: L_v, then L_vv, L_vq and L_vy, then G, column by column
   Eigen::VectorXd values_;
 };
 

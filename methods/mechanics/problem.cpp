@@ -132,6 +132,8 @@ ProblemBounds Problem::bounds() const {
 
 ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const { return {}; }
 
+ExpressionVector Problem::constraints(const ExpressionVector& /*q*/) const { return {}; }
+
 ExpressionVector Problem::integrands(const ControlledState& /*x*/) const { return {}; }
 
 ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }

@@ -100,6 +100,10 @@ class Problem {
   /// `ProblemBounds::path` lower <= h <= upper, entry by entry; equal bounds make an equality along the motion, of
   /// which there may be at most m.
   [[nodiscard]] virtual ExpressionVector path_constraints(const ControlledState& x) const;
+  /// g(q) = 0, c entries, of a mechanism in redundant coordinates: the forces of constraint -(∂g/∂q)ᵀλ hold the motion
+  /// there. G = ∂g/∂q needs full rank along the motion, and c < n; L_vv may then be singular as long as
+  /// (L_vv, Gᵀ; G, 0) is not. Forces are evaluated off g = 0 too, and have to be smooth there. Default: none.
+  [[nodiscard]] virtual ExpressionVector constraints(const ExpressionVector& q) const;
   /// c(q, q̇, u, t) of the integral constraints lower <= ∫₀ᵀ c dt <= upper, whose bounds are
   /// `ProblemBounds::integrals`: as many entries as there are. Every method integrates them as it does the cost.
   [[nodiscard]] virtual ExpressionVector integrands(const ControlledState& x) const;

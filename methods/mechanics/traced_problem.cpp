@@ -90,6 +90,7 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
   open_values_.resize(static_cast<Eigen::Index>(open_.size()));
   unknown_values_.resize(static_cast<Eigen::Index>(unknowns_.size()));
   set_parameters(values);
+  trace_holonomic(problem);
   trace_formulas(problem);
   trace_ends(problem);
   parameters.require_unknowns_read();
@@ -116,7 +117,7 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   const ExpressionVector momentum = gradient(lagrangian, point.v);
   const ExpressionMatrix mass = jacobian(momentum, point.v);
   const auto is_zero = [](const Expression& entry) { return entry.is_zero(); };
-  for (Eigen::Index i = 0; i < n_; ++i) {
+  for (Eigen::Index i = 0; i < n_ && holonomic_count_ == 0; ++i) {
     const auto row = mass.row(i);
     if (std::all_of(row.begin(), row.end(), is_zero)) {
       throw Error(problem.name() + ": the Lagrangian is not regular, L_vv has an empty row for " +
@@ -161,6 +162,47 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   schedule_ = Schedule(formulas);
   require_controls(schedule_, parameter_inputs() + 2 * static_cast<std::size_t>(n_), problem);
   tape_ = Tape(schedule_);
+}
+
+void TracedProblem::trace_holonomic(const Problem& problem) {
+  InputCounter inputs(parameter_inputs());
+  const ExpressionVector q = inputs.take(n_);
+  const ExpressionVector v = inputs.take(n_);
+  const ExpressionVector residual = asked(problem, "constraints", [&] { return problem.constraints(q); });
+  holonomic_count_ = residual.size();
+  if (holonomic_count_ == 0) return;
+  if (holonomic_count_ >= n_) {
+    throw Error(fmt::format("{}: {} constraints leave {} coordinates no degree of freedom; there have to be fewer",
+                            problem.name(), holonomic_count_, n_));
+  }
+  for (Eigen::Index i = 0; i < holonomic_count_; ++i) {
+    if (reads(Schedule(residual.segment(i, 1)), parameter_inputs(), static_cast<std::size_t>(n_))) continue;
+    throw Error(fmt::format("{}: constraints[{}] depends on no coordinate", problem.name(), i));
+  }
+  const ExpressionMatrix holonomic_jacobian = jacobian(residual, q);
+  std::vector<Expression> formulas;
+  append(formulas, residual);
+  append(formulas, holonomic_jacobian);
+  append(formulas, jacobian(holonomic_jacobian * v, q) * v);
+  holonomic_ = Schedule(formulas);
+}
+
+void TracedProblem::require_no_constraints(const char* method) const {
+  if (holonomic_count_ == 0) return;
+  throw Error(
+      fmt::format("{} does not take constraints g(q) = 0 (Problem::constraints); state the problem in minimal "
+                  "coordinates",
+                  method));
+}
+
+TracedProblem::HolonomicValues TracedProblem::holonomic_at(const ExpressionVector& q, const ExpressionVector& v) const {
+  const ExpressionVector parameters = this->parameters();
+  FormulaReader read(holonomic_, {&parameters, &q, &v}, {});
+  HolonomicValues values;
+  values.residual = read.vector(holonomic_count_);
+  values.jacobian = read.matrix(holonomic_count_, n_);
+  values.curvature = read.vector(holonomic_count_);
+  return values;
 }
 
 void TracedProblem::trace_ends(const Problem& problem) {

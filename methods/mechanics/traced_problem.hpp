@@ -39,6 +39,13 @@ class TracedProblem {
     ExpressionMatrix symmetry_jacobian;          ///< Dξ(q), n × n, empty without symmetry
   };
 
+  /// The holonomic constraints g(q) = 0, with what methods need of them.
+  struct HolonomicValues {
+    ExpressionVector residual;   ///< g, c entries
+    ExpressionMatrix jacobian;   ///< G = ∂g/∂q, c × n
+    ExpressionVector curvature;  ///< Ġ v, c entries: G q̈ = -Ġ v keeps G q̇ = 0
+  };
+
   /// The formulas of both ends of the horizon.
   struct EndValues {
     ExpressionVector conditions;  ///< r, as many entries as there are boundary conditions
@@ -77,6 +84,11 @@ class TracedProblem {
   [[nodiscard]] Eigen::Index path_constraint_count() const noexcept { return path_constraints_; }
   /// How many entries c has.
   [[nodiscard]] Eigen::Index integral_count() const noexcept { return integrals_; }
+  /// Throws `Error` if there are holonomic constraints, which `method`, "a batch" or "the modified energy", does not
+  /// have.
+  void require_no_constraints(const char* method) const;
+  /// How many holonomic constraints there are: c.
+  [[nodiscard]] Eigen::Index holonomic_count() const noexcept { return holonomic_count_; }
   /// Whether entry i of h reads a control.
   [[nodiscard]] const std::vector<bool>& constraints_read_controls() const noexcept {
     return constraints_read_controls_;
@@ -105,6 +117,8 @@ class TracedProblem {
   /// All formulas with the given point substituted. Throws `Error` if the point lacks first-order states: not every
   /// method supports them.
   [[nodiscard]] Values at(const ControlledState& point) const;
+  /// The holonomic constraints at q and, for their curvature, at v.
+  [[nodiscard]] HolonomicValues holonomic_at(const ExpressionVector& q, const ExpressionVector& v) const;
   /// The formulas of the ends with the given states substituted.
   [[nodiscard]] EndValues at_ends(const State& first, const State& last) const;
   /// The same with u = 0, for formulas that do not depend on the control (momentum, mass, symmetry).
@@ -113,6 +127,7 @@ class TracedProblem {
  private:
   void require_first_order(Eigen::Index given) const;
   void trace_formulas(const Problem& problem);
+  void trace_holonomic(const Problem& problem);
   void trace_ends(const Problem& problem);
   /// Whether an input of the ends' formulas is read, numbered without the parameters.
   [[nodiscard]] bool ends_read(Eigen::Index first, Eigen::Index count) const;
@@ -126,6 +141,7 @@ class TracedProblem {
   Eigen::Index l_;
   Eigen::Index path_constraints_ = 0;
   Eigen::Index integrals_ = 0;
+  Eigen::Index holonomic_count_ = 0;
   Eigen::Index boundary_conditions_ = 0;
   bool has_symmetry_ = false;
   bool momentum_depends_on_time_ = false;
@@ -143,6 +159,7 @@ class TracedProblem {
   ExpressionVector unknown_inputs_;  // where it has open inputs
   Schedule schedule_;
   Tape tape_;  // of the schedule
+  Schedule holonomic_;
   Schedule ends_;
 };
 

@@ -1,5 +1,6 @@
 #include "methods/transcription/costates.hpp"
 
+#include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/numerics/dense_solve.hpp"
 #include "methods/transcription/derivatives/point_derivatives.hpp"
@@ -99,6 +100,41 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
         (legendre.momentum_by_first_order(node.q, node.v, t, node.y).transpose() * psi_p).transpose();
   }
   return result;
+}
+
+void move_to_projected_momenta(const TracedProblem& problem, const Eigen::MatrixXd& gaps, const Trajectory& trajectory,
+                               Costates& psi) {
+  HolonomicConstraints constraints(problem);
+  LegendreTransform legendre(problem);
+  const Eigen::Index c = constraints.count();
+  for (Eigen::Index k = 0; k < gaps.rows(); ++k) {
+    const MotionPoint node = trajectory.node(k);
+    const double t = trajectory.node_times[k];
+    constraints.evaluate(node.q);
+    const Eigen::MatrixXd jacobian = constraints.jacobian();
+    const Eigen::MatrixXd gram = jacobian * jacobian.transpose();
+    Eigen::VectorXd psi_q = psi.psi_q.row(k).transpose();
+    Eigen::VectorXd psi_p = psi.psi_p.row(k).transpose();
+    // V(q, p) = V(q, p + G(q)'mu): at p + G'mu, its derivative by q at fixed p has one of G'mu besides.
+    const Eigen::VectorXd mu = solve_square(gram, Eigen::VectorXd(jacobian * gaps.row(k).transpose()));
+    psi_q += constraints.hessian(mu) * psi_p;
+    // The gradients of G H_p, D by q and G L_vv⁻¹ by p, and those of g vanish along motions.
+    const Eigen::VectorXd normal = jacobian * psi_p;
+    const Eigen::MatrixXd mass = legendre.mass(node.q, node.v, t, node.y);
+    if (is_invertible(mass)) {
+      const Eigen::MatrixXd by_p = solve_square(mass, Eigen::MatrixXd(jacobian.transpose()));  // L_vv⁻¹ Gᵀ
+      Eigen::MatrixXd by_q = -by_p.transpose() * legendre.momentum_by_configuration(node.q, node.v, t, node.y);
+      for (Eigen::Index a = 0; a < c; ++a) {
+        by_q.row(a) += (constraints.hessian(Eigen::VectorXd::Unit(c, a)) * node.v).transpose();
+      }
+      const Eigen::VectorXd beta = solve_square(Eigen::MatrixXd(jacobian * by_p), normal);
+      psi_p -= by_p * beta;
+      psi_q -= by_q.transpose() * beta;
+    }
+    psi_q -= jacobian.transpose() * solve_square(gram, Eigen::VectorXd(jacobian * psi_q));
+    psi.psi_q.row(k) = psi_q.transpose();
+    psi.psi_p.row(k) = psi_p.transpose();
+  }
 }
 
 StageCostates stage_costates(const Transcription& transcription, const Eigen::VectorXd& multipliers,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/expression/schedule.hpp"
+#include "methods/mechanics/holonomic_constraints.hpp"
 
 namespace dmocbench {
 
@@ -111,6 +113,30 @@ void require_path_constraints_at_ends(const Problem& problem, const TracedProble
   require_constraints_at(known_point("initial_state", bounds.first, m, 0.0, true), problem, traced, path);
   require_constraints_at(known_point("final_state", bounds.last, m, horizon, !bounds.horizon.is_free()), problem,
                          traced, path);
+}
+
+void require_holonomic_constraints_at_ends(const Problem& problem, const TracedProblem& traced,
+                                           const ProblemBounds& bounds) {
+  // Unknown parameters may be such that the ends keep the constraints.
+  if (traced.holonomic_count() == 0 || traced.unknown_count() > 0) return;
+  constexpr double known_digits = 1e-9;  // ends are numbers that users compute
+  HolonomicConstraints constraints(traced);
+  const auto require_small = [&](const Eigen::VectorXd& values, const Eigen::VectorXd& of, const char* what,
+                                 const char* name) {
+    const Eigen::VectorXd terms = constraints.jacobian().cwiseAbs() * of.cwiseAbs();
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      if (std::abs(values[i]) <= known_digits * (1.0 + terms[i])) continue;
+      throw Error(fmt::format("{}: {} does not keep constraints[{}]: {} = {:.3g} there, and has to be 0",
+                              problem.name(), name, i, what, values[i]));
+    }
+  };
+  for (const auto& [end, name] : {std::pair(&bounds.first, "initial_state"), std::pair(&bounds.last, "final_state")}) {
+    if (!end->q.all_fixed()) continue;
+    constraints.evaluate(end->q.lower);
+    require_small(constraints.residual(), end->q.lower, "g", name);
+    if (!end->v.all_fixed()) continue;
+    require_small(constraints.jacobian() * end->v.lower, end->v.lower, "G v", name);
+  }
 }
 
 }  // namespace dmocbench

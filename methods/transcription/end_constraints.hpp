@@ -14,4 +14,9 @@ namespace dmocbench {
 void require_path_constraints_at_ends(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
                                       double horizon);
 
+/// Throws `Error` that says by how much an end whose configuration is given leaves the holonomic constraints, g(q) = 0,
+/// or one whose velocity is given too leaves G v = 0.
+void require_holonomic_constraints_at_ends(const Problem& problem, const TracedProblem& traced,
+                                           const ProblemBounds& bounds);
+
 }  // namespace dmocbench

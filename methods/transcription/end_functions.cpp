@@ -2,6 +2,14 @@
 
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+#include "methods/mechanics/holonomic_constraints.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/problem_bounds.hpp"
+#include "methods/numerics/dense_solve.hpp"
+
 namespace dmocbench {
 
 namespace {
@@ -14,6 +22,33 @@ struct End {
   ExpressionVector y;
 };
 
+/// The components of an end that are released: independent columns of G, and of G L_vv⁻¹ where p is fixed.
+ReleasedComponents released(const Problem& problem, const TracedProblem& traced, const BoundaryState& state,
+                            const EndBounds& end, double t, bool fixes_momentum, const char* name) {
+  HolonomicConstraints constraints(traced);
+  constraints.evaluate(state.q);
+  const auto choose = [&](const Eigen::MatrixXd& jacobian, const Bounds& bounds) {
+    std::vector<bool> is_free;
+    for (Eigen::Index i = 0; i < bounds.lower.size(); ++i) is_free.push_back(!bounds.is_fixed(i));
+    std::vector<Eigen::Index> columns = independent_columns(jacobian, is_free);
+    if (std::ssize(columns) < constraints.count()) {
+      throw Error(fmt::format("{}: constraints are dependent at {}: G = dg/dq has rank {}, not {}", problem.name(),
+                              name, columns.size(), constraints.count()));
+    }
+    std::erase_if(columns, [&](Eigen::Index i) { return is_free[static_cast<std::size_t>(i)]; });
+    return columns;
+  };
+  const Eigen::MatrixXd jacobian = constraints.jacobian();
+  ReleasedComponents result{.q = choose(jacobian, end.q), .second = {}};
+  if (!fixes_momentum) {
+    result.second = choose(jacobian, end.v);
+    return result;
+  }
+  const Eigen::MatrixXd mass = LegendreTransform(traced).mass(state.q, state.v, t, state.y);
+  result.second = choose(solve_square(mass, Eigen::MatrixXd(jacobian.transpose())).transpose(), end.v);
+  return result;
+}
+
 }  // namespace
 
 EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeState node_state, bool mayer) {
@@ -21,7 +56,7 @@ EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeStat
   rules.node_state = node_state;
   rules.cost_scale = problem.cost_scale();
   rules.mayer = mayer;
-  const ProblemBounds bounds = problem.bounds();
+  const ProblemBounds bounds = problem_bounds(problem);
   rules.free_horizon = bounds.horizon.is_free();
   // The momentum of a given velocity may depend on a free horizon, or on unknown parameters.
   const bool has_momenta = node_state != NodeState::velocity;
@@ -33,6 +68,16 @@ EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeStat
   };
   rules.first_clamped = is_clamped(bounds.first);
   rules.last_clamped = is_clamped(bounds.last) && !moves;
+  rules.holonomic = traced.holonomic_count();
+  if (rules.holonomic == 0) return rules;
+  const BoundaryState first = problem.initial_state();
+  const BoundaryState last = problem.final_state();
+  if (!rules.first_clamped) {
+    rules.released_at_first = released(problem, traced, first, bounds.first, 0.0, false, "initial_state");
+  }
+  const bool fixes_momentum = node_state == NodeState::momentum && rules.last_clamped;
+  rules.released_at_last =
+      released(problem, traced, last, bounds.last, problem.horizon(), fixes_momentum, "final_state");
   return rules;
 }
 
@@ -50,6 +95,7 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
   };
   const End first = take_end(rules.first_has_velocity(), problem.initial_state());
   const End last = take_end(rules.last_has_velocity(), problem.final_state());
+  const ExpressionVector last_multiplier = unknowns.take(rules.last_multipliers());
   const Expression running = rules.mayer ? unknowns.take() : Expression(0.0);
   const Expression horizon = rules.free_horizon ? unknowns.take() : Expression(problem.horizon());
   const TracedProblem traced = closed.with_open_inputs(unknowns.take(closed.unknown_count()));
@@ -66,11 +112,25 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
   };
   if (rules.first_has_velocity()) tie(first, first_state, 1.0);
   if (rules.last_has_velocity()) tie(last, last_state, -1.0);
+  if (rules.last_multipliers() > 0) {
+    const ExpressionVector force = -(traced.holonomic_at(last.q, last.v).jacobian.transpose() * last_multiplier);
+    if (rules.last_has_velocity()) {
+      ties.back() += force;
+    } else {
+      ties.push_back(force);
+    }
+  }
   const ExpressionVector tied = stacked(ties);
-  if (tied.size() == 0 && ends.conditions.size() == 0 && cost.is_zero()) return std::nullopt;
+  std::vector<ExpressionVector> holonomic;
+  if (rules.first_holonomic() > 0) {
+    const TracedProblem::HolonomicValues values = traced.holonomic_at(first.q, first.v);
+    holonomic = {values.residual, values.jacobian * first.v};
+  }
+  if (rules.last_holonomic() > 0) holonomic.emplace_back(traced.holonomic_at(last.q, last.v).jacobian * last.v);
+  if (tied.size() == 0 && holonomic.empty() && ends.conditions.size() == 0 && cost.is_zero()) return std::nullopt;
   EndFunctions functions;
-  static_cast<LocalFunctions&>(functions) =
-      differentiate(cost, stacked({tied, ends.conditions}), unknowns.taken() - parameters, parameters);
+  static_cast<LocalFunctions&>(functions) = differentiate(cost, stacked({tied, stacked(holonomic), ends.conditions}),
+                                                          unknowns.taken() - parameters, parameters);
   functions.ties = tied.size();
   functions.conditions = ends.conditions.size();
   return functions;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -11,12 +12,21 @@
 
 namespace dmocbench {
 
+/// Components of an end that are given and that holonomic constraints imply too: stated twice, they would leave the
+/// rows of the program dependent. They are not fixed; the rows of the constraints determine them.
+struct ReleasedComponents {
+  std::vector<Eigen::Index> q;       ///< of the configuration
+  std::vector<Eigen::Index> second;  ///< of v, or of p where that is fixed (Hamiltonian)
+};
+
 /// How the two ends of the horizon enter a program.
 ///
 /// An end is clamped if its whole state is given, and with it its momentum, which is then a number: it is not where L_v
 /// depends on an unknown parameter, or on a first-order state that is not given there. At any other end, DMOC and
 /// Hamiltonian collocation have the velocity as a further unknown, tied to the momentum by p = L_v(q, v); nothing else
 /// changes. Tangent-space collocation has that unknown at every node.
+///
+/// Every interval states the holonomic constraints of its right node, so that those of the last one hold at T.
 struct EndRules {
   NodeState node_state = NodeState::configuration;  ///< the second part of the nodes' states
   double cost_scale = 1.0;                          ///< factor of the cost
@@ -24,11 +34,24 @@ struct EndRules {
   bool last_clamped = true;                         ///< the state of the last end is given completely
   bool mayer = false;                               ///< the cost is the last z of the Mayer form
   bool free_horizon = false;                        ///< T is an unknown
+  Eigen::Index holonomic = 0;                       ///< how many holonomic constraints there are: c
+  ReleasedComponents released_at_first = {};        ///< where the first end is not clamped
+  ReleasedComponents released_at_last = {};         ///< at the last end
 
+  /// How many rows of holonomic constraints the first end has: g(q_0) and G v_0, unless its state is given.
+  [[nodiscard]] Eigen::Index first_holonomic() const noexcept { return first_clamped ? 0 : 2 * holonomic; }
+  /// The same of the last end besides those of the last interval: DMOC's G v_N where that velocity is an unknown.
+  [[nodiscard]] Eigen::Index last_holonomic() const noexcept {
+    return carries_q_alone() && !last_clamped ? holonomic : 0;
+  }
+  /// How many multipliers node N has besides those of the intervals: DMOC's λ_N.
+  [[nodiscard]] Eigen::Index last_multipliers() const noexcept { return carries_q_alone() ? holonomic : 0; }
   /// True if the velocity of the first (last) end is an unknown in addition to its node's.
   [[nodiscard]] bool first_has_velocity() const noexcept { return !first_clamped && node_state != NodeState::velocity; }
   /// True if the velocity of the last end is an unknown of its own.
   [[nodiscard]] bool last_has_velocity() const noexcept { return !last_clamped && node_state != NodeState::velocity; }
+  /// True of DMOC.
+  [[nodiscard]] bool carries_q_alone() const noexcept { return node_state == NodeState::configuration; }
 };
 
 /// The rules for a problem and a family of elements. Tangent-space ends count as clamped where their state is fixed.
@@ -40,9 +63,11 @@ struct EndRules {
 /// (tangent-space: q, v, y); then z_N in
 /// Mayer form; T where it is free; unknown parameters. Cost: Φ, in Mayer form z_N + Φ. Local constraints (rows): per
 /// end whose velocity is an unknown, ±L_v(q, v), added to the equation of the node (DMOC), or p - L_v(q, v) = 0
-/// (Hamiltonian); then the boundary conditions r = 0 (eq:gDLOCP6).
+/// (Hamiltonian); -Gᵀλ_N joins DMOC's equation of node N, where that
+/// multiplier is the last unknown of the end; then g(q_0), G v_0 and G v_N, where `EndRules` asks for them; then the
+/// boundary conditions r = 0 (eq:gDLOCP6).
 struct EndFunctions : LocalFunctions {
-  Eigen::Index ties = 0;        ///< equations that tie velocities to momenta
+  Eigen::Index ties = 0;        ///< equations that tie velocities to momenta, and those of λ_N
   Eigen::Index conditions = 0;  ///< boundary conditions
 };
 

@@ -17,7 +17,7 @@ Unknowns make_unknowns(const TracedProblem& problem, const Element& element, con
   const std::size_t parameters = problem.open_parameters().size();
   InputCounter counter(parameters);
   Unknowns unknowns;
-  static_cast<IntervalUnknowns&>(unknowns) = take_unknowns(counter, problem, element, tableau.stages());
+  static_cast<IntervalUnknowns&>(unknowns) = take_unknowns(counter, problem, element, tableau);
   const Eigen::Index sums = problem.integral_count() + (rules.mayer ? 1 : 0);
   unknowns.left_sums = counter.take(sums);
   unknowns.right_sums = counter.take(sums);
@@ -105,6 +105,7 @@ IntervalFunctions trace_interval(const TracedProblem& traced, const Element& ele
   functions.mayer = rules.mayer;
   functions.free_horizon = rules.free_horizon;
   functions.integrals = problem.integral_count();
+  functions.multipliers = std::ssize(unknowns.multipliers) * problem.holonomic_count();
   functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum}));
   functions.stages = stage_table(trace.stages, unknowns.rates_y);
   return functions;

@@ -36,6 +36,8 @@ struct IntervalFunctions : LocalFunctions {
 
   Eigen::Index integrals = 0;  ///< integral constraints
 
+  Eigen::Index multipliers = 0;  ///< of holonomic constraints
+
   Schedule momenta;  ///< left momentum, then right momentum
   Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i, Y_i, Ẏ_i
 };

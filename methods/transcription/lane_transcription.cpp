@@ -78,6 +78,7 @@ LaneTranscription::LaneTranscription(const Transcription& program)
       hessian_entries_(static_cast<Eigen::Index>(program.hessian_structure().size())),
       steps_(each_for_all_lanes(program.step_inputs())),
       times_(each_for_all_lanes(program.time_inputs())) {
+  program.traced_problem().require_no_constraints("a batch");
   if (program.layout().shape().first_order_size > 0 || program.layout().shape().integrals > 0) {
     throw Error("a batch supports neither first-order states nor integral constraints");
   }

@@ -16,8 +16,8 @@ std::size_t Layout::append(Places& places, Place::Kind kind, Eigen::Index count,
   return head;
 }
 
-void Layout::append_singles(Places& places, std::size_t node) const {
-  for (Eigen::Index i = 0; i < shape_.configuration_size; ++i) places.append(Place::Kind::node, node, 1);
+void Layout::append_singles(Places& places, std::size_t node, Eigen::Index count) {
+  for (Eigen::Index i = 0; i < count; ++i) places.append(Place::Kind::node, node, 1);
 }
 
 void Layout::append_unknowns() {
@@ -29,10 +29,12 @@ void Layout::append_unknowns() {
   rates_ = append(unknowns, interval, interior_stages() * node_columns());
   controls_ = append(unknowns, node, shape_.shares_controls ? m : 0, true);
   inner_controls_ = append(unknowns, interval, (shape_.shares_controls ? shape_.stages - 2 : shape_.stages) * m, true);
+  multipliers_ = append(unknowns, interval, shape_.multipliers);
   sums_ = append(unknowns, node, shape_.sums());
   single_unknowns_ = unknowns.size();
-  if (shape_.first_has_velocity) append_singles(unknowns, 0);
-  if (shape_.last_has_velocity) append_singles(unknowns, shape_.intervals);
+  if (shape_.first_has_velocity) append_singles(unknowns, 0, shape_.configuration_size);
+  if (shape_.last_has_velocity) append_singles(unknowns, shape_.intervals, shape_.configuration_size);
+  append_singles(unknowns, shape_.intervals, shape_.last_multipliers);
   const auto globals = static_cast<std::size_t>(shape_.unknown_parameters) + (shape_.free_horizon ? 1 : 0);
   if (globals > 0) unknowns.append(border, 0, globals);
 }
@@ -44,8 +46,10 @@ void Layout::append_rows() {
   interval_rows_ = append(rows, interval, shape_.interval_rows());
   single_rows_ = rows.size();
   const bool own_ties = shape_.node_state == NodeState::momentum;
-  if (shape_.first_has_velocity && own_ties) append_singles(rows, 0);
-  if (shape_.last_has_velocity && own_ties) append_singles(rows, shape_.intervals);
+  if (shape_.first_has_velocity && own_ties) append_singles(rows, 0, shape_.configuration_size);
+  if (shape_.last_has_velocity && own_ties) append_singles(rows, shape_.intervals, shape_.configuration_size);
+  append_singles(rows, 0, shape_.first_holonomic);
+  append_singles(rows, shape_.intervals, shape_.last_holonomic);
   if (shape_.conditions > 0) rows.append(border, 0, static_cast<std::size_t>(shape_.conditions));
 }
 
@@ -61,6 +65,7 @@ void Layout::place_interval() {
   for (Eigen::Index stage = 0; stage < shape_.stages; ++stage) {
     for (Eigen::Index i = 0; i < m; ++i) unknown_places_.emplace_back(control_head(stage, i));
   }
+  for (Eigen::Index i = 0; i < shape_.multipliers; ++i) unknown_places_.emplace_back(multiplier_head(i));
   for (const std::size_t right : {0U, 1U}) {
     for (Eigen::Index i = 0; i < shape_.sums(); ++i) unknown_places_.emplace_back(sum_head(i) + right);
   }
@@ -82,6 +87,7 @@ void Layout::place_ends() {
   };
   place_end(0, shape_.first_has_velocity, first_velocity(0));
   place_end(shape_.intervals, shape_.last_has_velocity, last_velocity(0));
+  for (Eigen::Index i = 0; i < shape_.last_multipliers; ++i) end_unknown_places_.emplace_back(last_multiplier(i));
   if (shape_.mayer) end_unknown_places_.emplace_back(cost_head() + shape_.intervals);
   if (shape_.free_horizon) end_unknown_places_.emplace_back(horizon());
   for (Eigen::Index i = 0; i < shape_.unknown_parameters; ++i) end_unknown_places_.emplace_back(unknown_parameter(i));
@@ -93,8 +99,9 @@ void Layout::place_ends() {
     }
   };
   if (shape_.first_has_velocity) place_tie(0);
-  if (shape_.last_has_velocity) place_tie(shape_.intervals);
-  for (Eigen::Index i = 0; i < shape_.conditions; ++i) end_row_places_.emplace_back(own_row++);
+  if (shape_.last_has_velocity || shape_.last_multipliers > 0) place_tie(shape_.intervals);
+  const Eigen::Index others = shape_.first_holonomic + shape_.last_holonomic + shape_.conditions;
+  for (Eigen::Index i = 0; i < others; ++i) end_row_places_.emplace_back(own_row++);
 }
 
 std::size_t Layout::control_head(Eigen::Index stage, Eigen::Index i) const noexcept {

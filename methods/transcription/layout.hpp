@@ -31,6 +31,10 @@ struct LayoutShape {
   Eigen::Index conditions = 0;          ///< boundary conditions
   Eigen::Index first_order_size = 0;    ///< l: nodes carry y besides
   Eigen::Index integrals = 0;           ///< nodes carry each so far, and intervals have a row for it
+  Eigen::Index multipliers = 0;         ///< per interval: those of holonomic constraints
+  Eigen::Index last_multipliers = 0;    ///< of node N besides
+  Eigen::Index first_holonomic = 0;     ///< rows of holonomic constraints at the first end
+  Eigen::Index last_holonomic = 0;      ///< rows at the last end besides those of the last interval
   Eigen::Index unknown_parameters = 0;  ///< each is an unknown of the whole horizon
 
   /// Sums that nodes carry: the cost in Mayer form, then the integrals.
@@ -42,10 +46,11 @@ struct LayoutShape {
 /// Where the unknowns and rows of all intervals stand in the program's vectors.
 ///
 /// Vectors are stored column by column: q_1 of all nodes, q_2 of all nodes, ..., then p or v, y, interior rates,
-/// controls, z; at last v_0, v_N, unknown parameters and T where they are unknowns. Every local quantity of an element
-/// is therefore contiguous over the intervals: interval k's is at `first` + k. For a quantity of the left
-/// node `first` is the head of its series, for the same quantity of the right node one more. Rows: of the nodes,
-/// of the intervals, then p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
+/// controls, multipliers of holonomic constraints, z; at last v_0, v_N, multipliers of node N, unknown parameters and T
+/// where they are unknowns. Every local quantity of an element is therefore contiguous over the intervals: interval k's
+/// is at `first` + k. For a quantity of the left node `first` is the head of its series, for the same quantity of the
+/// right node one more. Rows: of the nodes, of the intervals, then p = L_v(q, v) of the ends (Hamiltonian only),
+/// holonomic constraints of the ends and the boundary conditions.
 class Layout {
  public:
   /// Numbers all unknowns and rows of a program of this shape.
@@ -91,6 +96,8 @@ class Layout {
   [[nodiscard]] std::size_t second_rate_head(Eigen::Index stage, Eigen::Index i) const noexcept {
     return rate_head(interior_stages() + stage, i);
   }
+  /// Of multiplier i of an interval.
+  [[nodiscard]] std::size_t multiplier_head(Eigen::Index i) const noexcept { return interval_head(multipliers_, i); }
   /// Of component i of U_stage.
   [[nodiscard]] std::size_t control_head(Eigen::Index stage, Eigen::Index i) const noexcept;
   [[nodiscard]] std::size_t cost_head() const noexcept { return sum_head(0); }  ///< of z, in Mayer form
@@ -122,6 +129,10 @@ class Layout {
   [[nodiscard]] std::size_t last_velocity(Eigen::Index i) const noexcept {
     return first_velocity((shape_.first_has_velocity ? shape_.configuration_size : 0) + i);
   }
+  /// The number of multiplier i of node N.
+  [[nodiscard]] std::size_t last_multiplier(Eigen::Index i) const noexcept {
+    return last_velocity((shape_.last_has_velocity ? shape_.configuration_size : 0) + i);
+  }
   /// The number of the i-th unknown parameter.
   [[nodiscard]] std::size_t unknown_parameter(Eigen::Index i) const noexcept {
     return variable_count() - (shape_.free_horizon ? 1 : 0) - static_cast<std::size_t>(shape_.unknown_parameters - i);
@@ -152,8 +163,8 @@ class Layout {
   }
   /// `count` runs of one kind. Returns the head of the first.
   std::size_t append(Places& places, Place::Kind kind, Eigen::Index count, bool are_controls = false) const;
-  /// One of each configuration at one node.
-  void append_singles(Places& places, std::size_t node) const;
+  /// `count` at one node.
+  static void append_singles(Places& places, std::size_t node, Eigen::Index count);
   void append_unknowns();
   void append_rows();
   void place_interval();
@@ -163,9 +174,10 @@ class Layout {
   std::size_t rates_ = 0;           // head of the interior rates
   std::size_t controls_ = 0;        // of the controls
   std::size_t inner_controls_ = 0;  // of those that no other interval shares
+  std::size_t multipliers_ = 0;
   std::size_t sums_ = 0;
   std::size_t interval_rows_ = 0;
-  std::size_t single_unknowns_ = 0;  // where v_0, v_N, unknown parameters, T begin
+  std::size_t single_unknowns_ = 0;  // where v_0, v_N, the multipliers of node N, unknown parameters, T begin
   std::size_t single_rows_ = 0;      // where the rows of the ends begin
   IntervalStructure structure_;
   std::vector<SeriesPlace> unknown_places_;

@@ -1,6 +1,7 @@
 #include "methods/transcription/program_bounds.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "methods/error.hpp"
 #include "methods/program/nonlinear_program.hpp"
@@ -34,6 +35,18 @@ void bound_path_rows(Bounds& rows, const ProblemBounds& bounds, const Bounds& pa
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (const Eigen::Index i : bounds.bounded_velocities()) bound_next(bounds.v.lower[i], bounds.v.upper[i]);
     for (Eigen::Index i = 0; i < path.lower.size(); ++i) bound_next(path.lower[i], path.upper[i]);
+  }
+}
+
+/// What holonomic constraints determine at an end.
+void release(Bounds& variables, const ReleasedComponents& released, std::size_t node, bool has_velocity,
+             const Layout& layout) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const Eigen::Index i : released.q) set(variables, layout.configuration_head(i) + node, 1, -infinite, infinite);
+  if (!has_velocity && layout.node_state() == NodeState::configuration) return;  // no unknown
+  for (const Eigen::Index i : released.second) {
+    const std::size_t velocity = node == 0 ? layout.first_velocity(i) : layout.last_velocity(i);
+    set(variables, has_velocity ? velocity : layout.second_head(i) + node, 1, -infinite, infinite);
   }
 }
 
@@ -76,6 +89,7 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
   require_bounds_of_formulas(problem, bounds, traced.path_constraint_count(), traced.integral_count());
   const Bounds path = bounds.of_path(traced.path_constraint_count());
   require_path_constraints_at_ends(problem, traced, bounds, horizon);
+  require_holonomic_constraints_at_ends(problem, traced, bounds);
   const std::size_t last_node = layout.intervals();
   const Bounds first_momentum = end_momentum(ends.first_clamped, bounds.first, 0.0, traced, problem, "start");
   const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last, horizon, traced, problem, "end");
@@ -107,6 +121,8 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
     if (ends.first_has_velocity()) set_entry(variables, layout.first_velocity(i), bounds.first.v, i);
     if (ends.last_has_velocity()) set_entry(variables, layout.last_velocity(i), bounds.last.v, i);
   }
+  release(variables, ends.released_at_first, 0, ends.first_has_velocity(), layout);
+  release(variables, ends.released_at_last, last_node, ends.last_has_velocity(), layout);
   for (Eigen::Index i = 0; i < traced.first_order_size(); ++i) {
     const std::size_t head = layout.first_order_head(i);
     set(variables, head, last_node + 1, bounds.y.lower[i], bounds.y.upper[i]);

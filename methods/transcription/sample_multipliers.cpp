@@ -167,6 +167,7 @@ void write_shooting(const SampledCostates& sampled, PointDerivatives& at_point, 
 
 Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& trajectory) {
   if (!trajectory.has_costates()) throw Error("multipliers can only be sampled from a trajectory with costates");
+  program.traced_problem().require_no_constraints("the start from costates");
   const Layout& layout = program.layout();
   const NodeState family = layout.node_state();
   const Motion motion = smooth_motion(trajectory);

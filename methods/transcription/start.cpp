@@ -7,6 +7,7 @@
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/transcription/fitted_forces.hpp"
 
 namespace dmocbench {
 
@@ -58,6 +59,18 @@ Eigen::VectorXd guessed_unknowns(const Transcription& transcription) {
   return transcription.parameter_values()(std::vector<Eigen::Index>(numbers.begin(), numbers.end()));
 }
 
+/// Gives the point of an end node the components that the problem gives: those that holonomic constraints determine are
+/// free in the program.
+void move_to_end(const Transcription& transcription, Eigen::Index k, MotionPoint& point) {
+  const bool is_first = k == 0;
+  if (!is_first && k < static_cast<Eigen::Index>(transcription.layout().intervals())) return;
+  const EndBounds& end = is_first ? transcription.bounds().first : transcription.bounds().last;
+  for (Eigen::Index i = 0; i < point.q.size(); ++i) {
+    if (end.q.is_fixed(i)) point.q[i] = end.q.lower[i];
+    if (end.v.is_fixed(i)) point.v[i] = end.v.lower[i];
+  }
+}
+
 /// A motion at the nodes and stages of a program with horizon T.
 Trajectory tables_of(const Transcription& transcription, const Motion& motion, double horizon) {
   const double stretch = motion.horizon / horizon;
@@ -79,7 +92,8 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
   std::optional<LegendreTransform> legendre;  // where nodes carry momenta
   if (transcription.layout().node_state() == NodeState::momentum) legendre.emplace(problem);
   for (Eigen::Index k = 0; k < tables.node_times.size(); ++k) {
-    const MotionPoint node = point_at(tables.node_times[k]);
+    MotionPoint node = point_at(tables.node_times[k]);
+    if (problem.holonomic_count() > 0) move_to_end(transcription, k, node);
     tables.q.row(k) = node.q.transpose();
     tables.v.row(k) = node.v.transpose();
     if (node.y.size() > 0) tables.y.row(k) = node.y.transpose();
@@ -182,6 +196,7 @@ Eigen::VectorXd sample(Transcription& transcription, const Motion& motion) {
   Eigen::VectorXd x = unknowns_of(transcription, tables, Eigen::MatrixXd::Zero(tables.stage_v.rows(), tables.q.cols()));
   x = x.cwiseMax(lower).cwiseMin(upper);
   set_mean_rates(layout, horizon * transcription.grid().relative_widths(), x);
+  if (layout.shape().multipliers > 0) fit_forces(transcription, FittedForces::controls, x);
   if (layout.shape().sums() > 0) add_up(transcription, x);
   return x.cwiseMax(lower).cwiseMin(upper);
 }
@@ -198,10 +213,13 @@ Motion guessed_motion(const Transcription& program) {
           program.guessed_horizon()};
 }
 
-Eigen::VectorXd embed(const Problem& problem, const Transcription& transcription, const Trajectory& trajectory) {
+Eigen::VectorXd embed(const Problem& problem, Transcription& transcription, const Trajectory& trajectory) {
   require_same_grid(transcription, trajectory);
   const NodeState node_state = transcription.layout().node_state();
-  return unknowns_of(transcription, trajectory, second_rates(problem, node_state, trajectory));
+  Eigen::VectorXd x = unknowns_of(transcription, trajectory, second_rates(problem, node_state, trajectory));
+  // The forces of constraint, and stage rates, which contain them.
+  if (transcription.layout().shape().multipliers > 0) fit_forces(transcription, FittedForces::second_rates, x);
+  return x;
 }
 
 }  // namespace dmocbench

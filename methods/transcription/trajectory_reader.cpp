@@ -92,16 +92,20 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   read_integrals(layout, primal, trajectory);
   trajectory.p = read_momenta(transcription, primal, n);
   read_stages(transcription, primal, trajectory);
+  const Eigen::MatrixXd raw_momenta = trajectory.p;
   add_velocities(transcription.traced_problem(), trajectory);
   trajectory.cost = transcription.objective(primal) / transcription.cost_scale();
   if (static_cast<std::size_t>(multipliers.size()) == transcription.constraint_count()) {
     Costates psi = costates(transcription, primal, multipliers, trajectory.v);
+    if (transcription.functions().multipliers > 0) {
+      move_to_projected_momenta(transcription.traced_problem(), raw_momenta - trajectory.p, trajectory, psi);
+    }
     trajectory.psi_q = std::move(psi.psi_q);
     trajectory.psi_p = std::move(psi.psi_p);
     trajectory.psi_y = std::move(psi.psi_y);
     read_prices(transcription, multipliers, trajectory);
     if (transcription.functions().path_rows == 0 && trajectory.integrals.size() == 0 && trajectory.y.cols() == 0 &&
-        transcription.functions().has_stage_unknowns) {
+        transcription.functions().multipliers == 0 && transcription.functions().has_stage_unknowns) {
       StageCostates stages = stage_costates(transcription, multipliers, trajectory);
       trajectory.stage_psi_q = std::move(stages.psi_q);
       trajectory.stage_psi_p = std::move(stages.psi_p);

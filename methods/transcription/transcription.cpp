@@ -39,6 +39,10 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .conditions = traced.boundary_condition_count(),
           .first_order_size = traced.first_order_size(),
           .integrals = traced.integral_count(),
+          .multipliers = functions.multipliers,
+          .last_multipliers = ends.last_multipliers(),
+          .first_holonomic = ends.first_holonomic(),
+          .last_holonomic = ends.last_holonomic(),
           .unknown_parameters = traced.unknown_count()};
 }
 

@@ -21,6 +21,7 @@ class AmplNames {
   [[nodiscard]] std::vector<std::string> of_variables() {
     name_states();
     name_controls();
+    for (Eigen::Index i = 1; i <= shape_.multipliers; ++i) in_intervals(fmt::format("lambda_{}", i));
     if (shape_.mayer) at_nodes("cost_so_far");
     for (Eigen::Index i = 0; i < shape_.integrals; ++i) at_nodes(fmt::format("integral_{}", i + 1));
     for (const auto& [is_there, end] :
@@ -29,6 +30,7 @@ class AmplNames {
         if (is_there) names_.push_back(fmt::format("v_{}_{}", q, end));
       }
     }
+    for (Eigen::Index i = 1; i <= shape_.last_multipliers; ++i) names_.push_back(fmt::format("lambda_last_{}", i));
     for (Eigen::Index i = 0; i < shape_.unknown_parameters; ++i) names_.push_back(fmt::format("parameter_{}", i + 1));
     if (shape_.free_horizon) names_.emplace_back("T");
     return std::move(names_);
@@ -47,6 +49,8 @@ class AmplNames {
         if (is_there && has_own_ties) names_.push_back(fmt::format("momentum_{}_{}", q, end));
       }
     }
+    for (Eigen::Index i = 1; i <= shape_.first_holonomic; ++i) names_.push_back(fmt::format("constraint_first_{}", i));
+    for (Eigen::Index i = 1; i <= shape_.last_holonomic; ++i) names_.push_back(fmt::format("constraint_last_{}", i));
     for (Eigen::Index i = 0; i < shape_.conditions; ++i) names_.push_back(fmt::format("condition_{}", i + 1));
     return std::move(names_);
   }

@@ -121,12 +121,12 @@ void require_primitives(const Transcription& program) {
   const ProblemBounds bounds = program.problem().bounds();
   const LayoutShape& shape = program.layout().shape();
   if (bounds.first.all_fixed() && bounds.last.all_fixed() && !bounds.horizon.is_free() && !program.end_functions() &&
-      shape.integrals == 0 && shape.unknown_parameters == 0 && shape.first_order_size == 0) {
+      shape.integrals == 0 && shape.unknown_parameters == 0 && shape.first_order_size == 0 && shape.multipliers == 0) {
     return;
   }
   throw Error(
       fmt::format("{} has no primitives: both ends and the horizon must be fixed, without a final cost, boundary "
-                  "conditions, integral constraints, unknown parameters or first-order states",
+                  "conditions, integral constraints, unknown parameters, first-order states or constraints g(q) = 0",
                   program.problem().name()));
 }
 

@@ -39,6 +39,7 @@ class WithoutBounds final : public Problem {
   [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
     return base_.first_order_rates(x);
   }
+  [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override { return base_.constraints(q); }
   [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override { return base_.integrands(x); }
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override {
     return base_.boundary_conditions(first, last);

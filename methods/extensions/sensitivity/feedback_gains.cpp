@@ -38,6 +38,7 @@ void require_feedback(const Transcription& program, const Eigen::VectorXd& prima
                        : shape.integrals > 0          ? "integral constraints"
                        : shape.first_order_size > 0   ? "first-order states"
                        : shape.unknown_parameters > 0 ? "unknown parameters"
+                       : shape.multipliers > 0        ? "constraints g(q) = 0"
                                                       : nullptr;
   if (reason != nullptr) {
     throw Error(std::string("there are no feedback gains with ") + reason +

@@ -58,16 +58,4 @@ LocalFunctions differentiate(const Expression& cost, const ExpressionVector& row
   return functions;
 }
 
-ExpressionVector stacked(const std::vector<ExpressionVector>& parts) {
-  Eigen::Index size = 0;
-  for (const ExpressionVector& part : parts) size += part.size();
-  ExpressionVector all(size);
-  Eigen::Index next = 0;
-  for (const ExpressionVector& part : parts) {
-    all.segment(next, part.size()) = part;
-    next += part.size();
-  }
-  return all;
-}
-
 }  // namespace dmocbench

@@ -63,7 +63,4 @@ struct LocalFunctions {
 [[nodiscard]] LocalFunctions differentiate(const Expression& cost, const ExpressionVector& rows, std::size_t unknowns,
                                            std::size_t parameters, Eigen::Index adjoint_size = 0);
 
-/// One vector below the other.
-[[nodiscard]] ExpressionVector stacked(const std::vector<ExpressionVector>& parts);
-
 }  // namespace dmocbench

@@ -1,9 +1,17 @@
 #include "methods/transcription/elements/dmoc_element.hpp"
 
+#include "methods/error.hpp"
+
 namespace dmocbench {
 
 std::string DmocElement::description() const {
   return "Discrete Mechanics and Optimal Control: the discrete Lagrange-d'Alembert principle on q";
+}
+
+Eigen::Index DmocElement::multipliers(const Tableau& tableau) const {
+  if (tableau.stages() == 1) return 1;
+  if (has_stages_at_nodes(tableau)) return tableau.stages() - 1;
+  throw Error("dmoc has constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
 }
 
 IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& tableau,
@@ -14,12 +22,16 @@ IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& ta
 
   IntervalTrace trace;
   std::vector<TracedProblem::Values> values;
+  std::vector<ExpressionVector> conditions;       // g = 0
   std::vector<std::vector<ConjugatePair>> pairs;  // L_q + f works along Q_i, L_v along Q̇_i
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const Expression time = unknowns.t + Expression(tableau.c[static_cast<Eigen::Index>(i)]) * h;
     trace.stages.push_back({configurations[i], rates[i], unknowns.controls[i], time, unknowns.stage_y(i)});
     values.push_back(problem.at(trace.stages.back()));
     pairs.push_back({{configurations[i], values[i].generalised_force}, {rates[i], values[i].momentum}});
+    if (i == 0 || i >= unknowns.multipliers.size()) continue;
+    pairs.back().push_back({configurations[i], constraint_force(problem, configurations[i], unknowns.multipliers[i])});
+    conditions.push_back(problem.holonomic_at(configurations[i], rates[i]).residual);
   }
   const auto vary = [&](const ExpressionVector& x) { return variation(x, pairs, tableau.b, h); };
   trace.left_rows = vary(unknowns.left_q);
@@ -29,6 +41,12 @@ IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& ta
   for (std::size_t j = 0; j < unknowns.rates_q.size(); ++j) {
     const auto row = static_cast<Eigen::Index>(j);
     trace.stage_equations.segment(row * n, n) = vary(unknowns.rates_q[j]) / (h * Expression(tableau.b[row]));
+  }
+  if (!unknowns.multipliers.empty()) {
+    const Expression weight = h * Expression(rates.size() == 1 ? 0.5 : tableau.b[0]);
+    trace.left_rows += weight * constraint_force(problem, unknowns.left_q, unknowns.multipliers.front());
+    conditions.push_back(problem.holonomic_at(unknowns.right_q, rates.back()).residual);
+    trace.stage_equations = stacked({trace.stage_equations, stacked(conditions)});
   }
   trace.cost = quadrature_of_cost(values, tableau.b, h);
   trace.left_momentum = -trace.left_rows;

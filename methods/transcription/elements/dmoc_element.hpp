@@ -15,6 +15,11 @@ namespace dmocbench {
 ///   node k + 1:  ∂A/∂q_{k+1} + W[∂/∂q_{k+1}]  from the interval to its left; the sum of both at a node is the forced
 ///                discrete Euler-Lagrange equation (DEL) (unit: momentum),
 ///   stages:      (∂A/∂Q̇_j + W[∂/∂Q̇_j]) / (h b_j) = 0, j = 1 .. s-1 (unit: momentum).
+/// Holonomic constraints g(q) = 0 (DMOCC), by Gauss with one stage or Lobatto: λ_k at node k and, by Lobatto, λ_i at
+/// the interior stages. The equation of node k gets -h w Gᵀ(q_k) λ_k from the interval to its right, w = ½ (Gauss) or
+/// b_1, so that λ_k is that of the whole node where both steps are one half of it each; work is done by -Gᵀ(Q_i) λ_i at
+/// interior stages. Further equations of the interval: g(Q_i) = 0 there and g(q_{k+1}) = 0. Node N has a multiplier of
+/// its own (`end_functions`).
 /// Momenta: the forced discrete Legendre transforms (eq:varmech_dlegf), p_k = -(term at node k) and
 /// p_{k+1} = (term at node k + 1). The conditions at the first and last node, (eq:gDLOCP3) and (rem:inifinalvel), are
 /// in `program_bounds` and `end_functions`.
@@ -23,6 +28,7 @@ class DmocElement final : public Element {
   [[nodiscard]] std::string name() const override { return "dmoc"; }
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] NodeState node_state() const override { return NodeState::configuration; }
+  [[nodiscard]] Eigen::Index multipliers(const Tableau& tableau) const override;
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const override;
 };

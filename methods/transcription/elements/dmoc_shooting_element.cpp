@@ -19,7 +19,7 @@ class DmocStep {
       : n_(problem.configuration_size()), inputs_(input_vector(0, std::ssize(problem.open_parameters()))) {
     InputCounter counter(problem.open_parameters().size());
     const DmocElement dmoc;
-    IntervalUnknowns own = take_unknowns(counter, problem, dmoc, tableau.stages());
+    IntervalUnknowns own = take_unknowns(counter, problem, dmoc, tableau);
     own.h = counter.take();
     own.t = counter.take();
     const ExpressionVector left_momentum = counter.take(n_);

@@ -1,11 +1,17 @@
 #include "methods/transcription/elements/element.hpp"
 
+#include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 
 namespace dmocbench {
 
+Eigen::Index Element::multipliers(const Tableau& /*tableau*/) const {
+  throw Error("constraints g(q) = 0 are not offered with --method " + name() + "; take dmoc, hamiltonian or tangent");
+}
+
 IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem, const Element& element,
-                               Eigen::Index stages) {
+                               const Tableau& tableau) {
+  const Eigen::Index stages = tableau.stages();
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index second = element.node_state() == NodeState::configuration ? 0 : n;
   const Eigen::Index interior = element.has_stage_unknowns() ? stages - 1 : 0;
@@ -20,7 +26,17 @@ IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& probl
   for (Eigen::Index j = 0; j < interior && second > 0; ++j) unknowns.rates_second.push_back(counter.take(n));
   for (Eigen::Index j = 0; j < interior; ++j) unknowns.rates_y.push_back(counter.take(problem.first_order_size()));
   for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(counter.take(problem.control_size()));
+  const Eigen::Index c = problem.holonomic_count();
+  const Eigen::Index multipliers = c > 0 ? element.multipliers(tableau) : 0;
+  for (Eigen::Index i = 0; i < multipliers; ++i) unknowns.multipliers.push_back(counter.take(c));
   return unknowns;
+}
+
+bool has_stages_at_nodes(const Tableau& tableau) { return tableau.c.minCoeff() == 0.0 && tableau.c.maxCoeff() == 1.0; }
+
+ExpressionVector constraint_force(const TracedProblem& problem, const ExpressionVector& q,
+                                  const ExpressionVector& multiplier) {
+  return -(problem.holonomic_at(q, ExpressionVector(q.size())).jacobian.transpose() * multiplier);
 }
 
 std::vector<ExpressionVector> stage_rates(const ExpressionVector& left, const ExpressionVector& right,

@@ -33,8 +33,10 @@ struct IntervalUnknowns {
   ExpressionVector right_y;                    ///< y_{k+1}
   std::vector<ExpressionVector> rates_y;       ///< Ẏ_1 .. Ẏ_s of which the last is eliminated; none without y
   std::vector<ExpressionVector> stages_y;      ///< Y_i = y_k + h Σ_j a_ij Ẏ_j; none without y
-  Expression h;                                ///< the step
-  Expression t;                                ///< t_k
+  /// λ of the holonomic constraints, `Element::multipliers` vectors of c entries; none without constraints.
+  std::vector<ExpressionVector> multipliers;
+  Expression h;  ///< the step
+  Expression t;  ///< t_k
 
   /// Y_i; without entries where there are no first-order states.
   [[nodiscard]] ExpressionVector stage_y(std::size_t i) const {
@@ -108,6 +110,9 @@ class Element {
   /// True if the stages are unknowns of the program, with equations of their own; false if an interval is a map of its
   /// left node and controls (shooting).
   [[nodiscard]] virtual bool has_stage_unknowns() const { return true; }
+  /// How many multipliers each holonomic constraint has per interval: as many as its conditions among the stage
+  /// equations. Throws `Error` if constraints are not offered with the tableau; default: with none.
+  [[nodiscard]] virtual Eigen::Index multipliers(const Tableau& tableau) const;
   /// The formulas of one interval; all vectors have the sizes that `IntervalTrace` names.
   [[nodiscard]] virtual IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                             const IntervalUnknowns& unknowns) const = 0;
@@ -117,15 +122,23 @@ class Element {
 };
 
 /// The unknowns of an interval of an element as the next inputs of `counter`: nodes (q, p or v, y), rates of q, of p or
-/// v and of y, controls. h, t, the last rate of y and its stages are left to the caller.
+/// v and of y, controls, multipliers of holonomic constraints. h, t, the last rate of y and its stages are left to the
+/// caller.
 [[nodiscard]] IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem,
-                                             const Element& element, Eigen::Index stages);
+                                             const Element& element, const Tableau& tableau);
 
 /// The element of a method of one of the registered families (`Family`). Throws `Error` that lists the methods if there
 /// is no such method, or names the missing part of a name with an integrator.
 [[nodiscard]] std::unique_ptr<Element> make_element(std::string_view name);
 
+/// Whether a tableau has stages at both ends of an interval, as Lobatto's has.
+[[nodiscard]] bool has_stages_at_nodes(const Tableau& tableau);
+
 // Formulas that the families share.
+
+/// -Gᵀλ at a configuration: the force of the holonomic constraints, n entries.
+[[nodiscard]] ExpressionVector constraint_force(const TracedProblem& problem, const ExpressionVector& q,
+                                                const ExpressionVector& multiplier);
 
 /// All s stage rates: the interior ones and the last, K_s = ((x_{k+1} - x_k)/h - Σ_{j<s} b_j K_j) / b_s.
 [[nodiscard]] std::vector<ExpressionVector> stage_rates(const ExpressionVector& left, const ExpressionVector& right,

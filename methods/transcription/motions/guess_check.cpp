@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/asked.hpp"
 #include "methods/mechanics/formula_check.hpp"
+#include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
@@ -76,6 +78,8 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
 
   const Eigen::MatrixXd table = traced.table(points, times);
   GuessMagnitudes magnitudes;
+  std::optional<HolonomicConstraints> constraints;
+  if (traced.holonomic_count() > 0) constraints.emplace(traced);
   FormulaCheck check(problem, FormulaCheck::Derivatives::second);
   for (Eigen::Index i = 0; i < table.rows(); ++i) {
     const Eigen::VectorXd values = table.row(i);
@@ -88,6 +92,12 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
     if (!name.empty()) throw Error(place_of(times[i], problem, grid) + name + " is not a number");
     const std::string undefined = check.undefined_at(points[static_cast<std::size_t>(i)], times[i]);
     if (!undefined.empty()) throw Error(place_of(times[i], problem, grid) + undefined + " is not a number");
+    if (constraints) {
+      constraints->evaluate(q);
+      if (is_invertible(saddle_matrix(mass, constraints->jacobian()))) continue;
+      throw Error(place_of(times[i], problem, grid) +
+                  "(L_vv, G'; G, 0) is singular: constraints, G = dg/dq, are dependent there, or L is not regular");
+    }
     if (!is_invertible(mass)) {
       throw Error(place_of(times[i], problem, grid) + "L_vv is singular, so the Lagrangian is not regular");
     }

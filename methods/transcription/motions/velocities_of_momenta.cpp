@@ -21,6 +21,9 @@ void add_velocities(const TracedProblem& problem, Trajectory& trajectory) {
             .velocity(trajectory.q.row(k).transpose(), trajectory.p.row(k).transpose(), trajectory.node_times[k],
                       trajectory.stage_v.row(nearby).transpose(), Trajectory::row_of(trajectory.y, k))
             .transpose();
+    if (problem.holonomic_count() == 0) continue;
+    const MotionPoint node = trajectory.node(k);
+    trajectory.p.row(k) = legendre.momentum(node.q, node.v, trajectory.node_times[k], node.y).transpose();
   }
 }
 

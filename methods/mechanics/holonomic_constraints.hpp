@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+
+namespace dmocbench {
+
+/// The holonomic constraints g(q) = 0 of a problem, in numbers.
+class HolonomicConstraints {
+ public:
+  /// Traces them for the problem.
+  explicit HolonomicConstraints(const TracedProblem& problem);
+
+  /// Moves to a configuration, n entries.
+  void evaluate(const Eigen::VectorXd& q);
+
+  /// Moves q to where g vanishes to rounding, by Newton steps of least length, and v to where G v does: n entries each.
+  void project(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> v);
+
+  /// c.
+  [[nodiscard]] Eigen::Index count() const noexcept { return c_; }
+  /// g, c entries.
+  [[nodiscard]] Eigen::VectorXd residual() const { return values_.head(c_); }
+  /// G = ∂g/∂q, c × n.
+  [[nodiscard]] Eigen::MatrixXd jacobian() const { return values_.segment(c_, c_ * n_).reshaped(c_, n_); }
+  /// Σ μ_a ∂²g_a/∂q², n × n, for c numbers μ.
+  [[nodiscard]] Eigen::MatrixXd hessian(const Eigen::VectorXd& mu) const;
+
+ private:
+  Eigen::Index n_;
+  Eigen::Index c_;
+  PointFunction function_;  // outputs: g, G and the Hessians of g, column by column
+  Eigen::VectorXd values_;
+};
+
+/// Columns of G, c × n, that are independent, c of them: those with `is_preferred` first, and the largest pivots. Fewer
+/// where G has less than full rank.
+[[nodiscard]] std::vector<Eigen::Index> independent_columns(Eigen::MatrixXd jacobian,
+                                                            const std::vector<bool>& is_preferred);
+
+/// (A, Gᵀ; G, 0), n + c square.
+[[nodiscard]] Eigen::MatrixXd saddle_matrix(const Eigen::MatrixXd& a, const Eigen::MatrixXd& jacobian);
+
+}  // namespace dmocbench
