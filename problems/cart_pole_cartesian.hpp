@@ -39,7 +39,7 @@ class CartPoleCartesian final : public RedundantStatement<CartPole> {
   }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 
-  /// Those of `cart_pole`, of the force and of the cart.
+  /// `cart_pole`'s bounds on the force and on the cart.
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
     const ProblemBounds minimal_bounds = minimal().bounds();

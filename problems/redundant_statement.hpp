@@ -11,7 +11,7 @@
 namespace dmocbench {
 
 /// A problem in minimal coordinates θ, restated in more coordinates q = Φ(θ) with constraints g(q) = 0: the same
-/// motions, controls, ends, cost and optimum. Parameters are those of the minimal statement.
+/// motions, controls, ends, cost and optimum. The minimal statement has the parameters.
 template <class Minimal>
 class RedundantStatement : public Problem {
  public:

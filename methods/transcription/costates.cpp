@@ -118,7 +118,7 @@ void move_to_projected_momenta(const TracedProblem& problem, const Eigen::Matrix
     // V(q, p) = V(q, p + G(q)'mu): at p + G'mu, its derivative by q at fixed p has one of G'mu besides.
     const Eigen::VectorXd mu = solve_square(gram, Eigen::VectorXd(jacobian * gaps.row(k).transpose()));
     psi_q += constraints.hessian(mu) * psi_p;
-    // The gradients of G H_p, D by q and G L_vv⁻¹ by p, and those of g vanish along motions.
+    // The gradients of G H_p, D by q and G L_vv⁻¹ by p, and the gradients of g vanish along motions.
     const Eigen::VectorXd normal = jacobian * psi_p;
     const Eigen::MatrixXd mass = legendre.mass(node.q, node.v, t, node.y);
     if (is_invertible(mass)) {

@@ -43,7 +43,7 @@ struct StageCostates {
 ///
 /// With F = L_q + f, interval k costs ℓ = h Σ b_i C + multipliers · rows, and x_{k+1} = x_k + h Σ b_j K_j is worth
 /// ψ_{k+1}·x_{k+1} from there on. Ψ^p_i and the stage rate w_i of ψ^p are read off:
-///   - Hamiltonian: α_i of the row P_i - L_v, β_i of the row Ṗ_i - F. Stationarity in Ṗ_j says
+///   - Hamiltonian: α_i of the row P_i - L_v, β_i of the row Ṗ_i - F. Stationarity in Ṗ_j reads
 ///     -β_j/(h b_j) = ψ^p_{k+1} + Σ_i (ã_ij/b_j) α_i. Hence Ψ^p_i = -β_i/(h b_i), w_i = -α_i/(h b_i).
 ///   - DMOC: rows are variations of h Σ b_i [L + f·δQ_i] in q_k, q_{k+1} and Q̇_j, so the multipliers λ_k, λ_{k+1} and
 ///     μ_j/(h b_j) are a variation themselves: w_i = δQ̇_i, Ψ^p_i = δQ_i = λ_k + h Σ_j a_ij w_j.

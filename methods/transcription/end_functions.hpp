@@ -26,7 +26,7 @@ struct ReleasedComponents {
 /// Hamiltonian collocation have the velocity as a further unknown, tied to the momentum by p = L_v(q, v); nothing else
 /// changes. Tangent-space collocation has that unknown at every node.
 ///
-/// Every interval states the holonomic constraints of its right node, so that those of the last one hold at T.
+/// Every interval states the holonomic constraints of its right node, so that the last interval's hold at T.
 struct EndRules {
   NodeState node_state = NodeState::configuration;  ///< the second part of the nodes' states
   double cost_scale = 1.0;                          ///< factor of the cost
@@ -40,11 +40,11 @@ struct EndRules {
 
   /// How many rows of holonomic constraints the first end has: g(q_0) and G v_0, unless its state is given.
   [[nodiscard]] Eigen::Index first_holonomic() const noexcept { return first_clamped ? 0 : 2 * holonomic; }
-  /// The same of the last end besides those of the last interval: DMOC's G v_N where that velocity is an unknown.
+  /// The same of the last end, without the rows of the last interval: DMOC's G v_N where that velocity is an unknown.
   [[nodiscard]] Eigen::Index last_holonomic() const noexcept {
     return carries_q_alone() && !last_clamped ? holonomic : 0;
   }
-  /// How many multipliers node N has besides those of the intervals: DMOC's λ_N.
+  /// How many multipliers node N has that belong to no interval: DMOC's λ_N.
   [[nodiscard]] Eigen::Index last_multipliers() const noexcept { return carries_q_alone() ? holonomic : 0; }
   /// True if the velocity of the first (last) end is an unknown in addition to its node's.
   [[nodiscard]] bool first_has_velocity() const noexcept { return !first_clamped && node_state != NodeState::velocity; }
@@ -63,11 +63,11 @@ struct EndRules {
 /// (tangent-space: q, v, y); then z_N in
 /// Mayer form; T where it is free; unknown parameters. Cost: Φ, in Mayer form z_N + Φ. Local constraints (rows): per
 /// end whose velocity is an unknown, ±L_v(q, v), added to the equation of the node (DMOC), or p - L_v(q, v) = 0
-/// (Hamiltonian); -Gᵀλ_N joins DMOC's equation of node N, where that
-/// multiplier is the last unknown of the end; then g(q_0), G v_0 and G v_N, where `EndRules` asks for them; then the
+/// (Hamiltonian); -Gᵀλ_N joins DMOC's equation of node N, where that multiplier is the last unknown of the end; then
+/// g(q_0), G v_0 and G v_N, where `EndRules` requires them; then the
 /// boundary conditions r = 0 (eq:gDLOCP6).
 struct EndFunctions : LocalFunctions {
-  Eigen::Index ties = 0;        ///< equations that tie velocities to momenta, and those of λ_N
+  Eigen::Index ties = 0;        ///< equations that tie velocities to momenta, and the equations of λ_N
   Eigen::Index conditions = 0;  ///< boundary conditions
 };
 

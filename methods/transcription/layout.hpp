@@ -31,10 +31,10 @@ struct LayoutShape {
   Eigen::Index conditions = 0;          ///< boundary conditions
   Eigen::Index first_order_size = 0;    ///< l: nodes carry y besides
   Eigen::Index integrals = 0;           ///< nodes carry each so far, and intervals have a row for it
-  Eigen::Index multipliers = 0;         ///< per interval: those of holonomic constraints
-  Eigen::Index last_multipliers = 0;    ///< of node N besides
+  Eigen::Index multipliers = 0;         ///< per interval, of holonomic constraints
+  Eigen::Index last_multipliers = 0;    ///< of node N alone
   Eigen::Index first_holonomic = 0;     ///< rows of holonomic constraints at the first end
-  Eigen::Index last_holonomic = 0;      ///< rows at the last end besides those of the last interval
+  Eigen::Index last_holonomic = 0;      ///< rows at the last end that no interval has
   Eigen::Index unknown_parameters = 0;  ///< each is an unknown of the whole horizon
 
   /// Sums that nodes carry: the cost in Mayer form, then the integrals.

@@ -76,7 +76,7 @@ def _require_known(given, names, what):
         if name not in names:
             close = difflib.get_close_matches(str(name), names, 1)
             hint = f"; did you mean {close[0]}?" if close else f"; there are {', '.join(names) or 'none'}"
-            raise Error(f"{what} has an entry {name}, which is no name{hint}")
+            raise Error(f"{what} has an entry {name}, which is not a name{hint}")
 
 
 def _numbers(value, names, what, default):
