@@ -52,14 +52,15 @@ class ShiftedKkt {
  private:
   /// h b_i for the controls of stage i, in the units of the scaled cost; 0 elsewhere.
   [[nodiscard]] static Eigen::VectorXd weights_of(const Transcription& program, const Eigen::VectorXd& x) {
-    if (program.tableau().shares_controls) throw Error("coercivity needs controls that no two stages share");
+    const Tableau& controls = program.functions().controls;
+    if (controls.shares_controls) throw Error("coercivity needs controls that no two stages share");
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(x.size());
     const Eigen::VectorXd steps = program.steps(x);
     const Layout& layout = program.layout();
-    for (Eigen::Index i = 0; i < layout.stages(); ++i) {
+    for (Eigen::Index i = 0; i < controls.stages(); ++i) {
       for (Eigen::Index j = 0; j < program.traced_problem().control_size(); ++j) {
         const auto first = static_cast<Eigen::Index>(layout.control_head(i, j));
-        weights.segment(first, steps.size()) = program.cost_scale() * program.tableau().b[i] * steps;
+        weights.segment(first, steps.size()) = program.cost_scale() * controls.b[i] * steps;
       }
     }
     return weights;

@@ -113,10 +113,20 @@ std::string in_words(std::string_view name) {
   return words;
 }
 
+/// "galerkin_2_1_shared": the label, degree 2, 1 shared control node.
+std::string galerkin_in_words(const Family& family, std::string_view method) {
+  std::string spaces(method.substr(family.name.size() + 1));
+  const std::size_t bar = spaces.find('_');
+  if (bar == std::string::npos) return in_words(method);
+  return fmt::format("{}, degree {}, control nodes {}", family.label, spaces.substr(0, bar),
+                     in_words(spaces.substr(bar + 1)));
+}
+
 std::string method_in_words(std::string_view method) {
   for (const Family& family : registered_families()) {
     if (method == family.name) return std::string(family.label);
-    if (!family.takes_integrator || !method.starts_with(std::string(family.name) + "_")) continue;
+    if (family.suffix == MethodSuffix::none || !method.starts_with(std::string(family.name) + "_")) continue;
+    if (family.suffix == MethodSuffix::spaces) return galerkin_in_words(family, method);
     const std::string_view integration = method.substr(family.name.size() + 1);
     const std::size_t steps = integration.rfind('_');
     if (steps == std::string_view::npos) break;

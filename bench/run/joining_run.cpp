@@ -25,11 +25,11 @@ constexpr std::string_view experiments = " " DMOCBENCH_EXPERIMENTS " ";
 
 /// Options of experiments whose values are numbers or known names.
 constexpr std::string_view harmless_options =
-    " --problem --method --integrator --substeps --tableau --controls --stages --solver --derivatives --intervals "
-    "--set --form --start-seconds --tolerance --tolerances --iterations --seconds --repeats --verbose --jobs --batch "
-    "--no-batch --reference --polish --no-polish --fit --routes --no-indirect --starts --library-starts --other-starts "
-    "--indirect-starts --other-library-starts --seed --amplitude --plane --objective-tolerance --hessian --crash "
-    "--factorisation --over --samples --fresh --quiet --json ";
+    " --problem --method --integrator --substeps --tableau --controls --stages --quadrature --points --control-nodes "
+    "--solver --derivatives --intervals --set --form --start-seconds --tolerance --tolerances --iterations --seconds "
+    "--repeats --verbose --jobs --batch --no-batch --reference --polish --no-polish --fit --routes --no-indirect "
+    "--starts --library-starts --other-starts --indirect-starts --other-library-starts --seed --amplitude --plane "
+    "--objective-tolerance --hessian --crash --factorisation --over --samples --fresh --quiet --json ";
 
 /// Options that `merge` sets itself.
 constexpr std::string_view set_by_merge = " --part --out --name ";

@@ -1,9 +1,11 @@
 #include "bench/run/options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <ranges>
 #include <set>
 
@@ -19,6 +21,7 @@
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "methods/transcription/elements/families.hpp"
+#include "methods/transcription/elements/galerkin_element.hpp"
 #include "methods/transcription/elements/shooting_element.hpp"
 #include "methods/transcription/elements/tableau.hpp"
 
@@ -97,27 +100,6 @@ std::vector<std::string> integrated_methods(std::string_view family, const Exper
   return names;
 }
 
-/// The methods of the chosen families, with integrators and substeps as chosen.
-std::vector<std::string> chosen_methods(const ExperimentOptions& options) {
-  const std::vector<std::string> chosen =
-      in_order("method", options.methods.empty() ? paper_families() : options.methods, all_families());
-  std::vector<std::string> methods;
-  bool integrates = false;
-  for (const Family& family : registered_families()) {
-    if (std::ranges::count(chosen, family.name) == 0) continue;
-    if (family.takes_integrator) {
-      std::ranges::move(integrated_methods(family.name, options), std::back_inserter(methods));
-      integrates = true;
-    } else {
-      methods.emplace_back(family.name);
-    }
-  }
-  if (!integrates && !(options.integrators.empty() && options.substeps.empty())) {
-    throw Error("--integrator and --substeps apply to shooting only; add --method multiple_shooting");
-  }
-  return methods;
-}
-
 /// The families of tableaus with controls as chosen.
 std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
   if (options.controls == "stage") return options.tableaus;
@@ -134,12 +116,19 @@ std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
   return tableaus;
 }
 
+/// A method by a tableau.
+struct ChosenScheme {
+  std::string method;
+  std::string tableau;
+  int stages = 0;
+};
+
 /// A family of tableaus and a number of stages.
 using FamilyAndStages = std::pair<std::string, int>;
 
-/// The chosen families, each with the chosen numbers of stages that it supports, ascending. Throws `Error` if no family
-/// supports one of the numbers.
-std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
+/// The chosen families of tableaus, each with the chosen numbers of stages that it supports, ascending. Throws `Error`
+/// if no family supports one of the numbers.
+std::vector<FamilyAndStages> chosen_stages(const ExperimentOptions& options) {
   const auto families = in_order("tableau", chosen_tableaus(options), tableau_names());
   std::vector<FamilyAndStages> schemes;
   for (const std::string& family : families) {
@@ -151,6 +140,87 @@ std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
     if (std::ranges::count(schemes, stages, &FamilyAndStages::second) > 0) continue;
     throw Error(fmt::format("--stages: {} supports {} stages, not {}", families.front(),
                             fmt::join(tableau_stages(families.front()), ", "), stages));
+  }
+  return schemes;
+}
+
+/// Every number of `chosen`, ascending; the usual one if there is none.
+std::set<int> chosen_numbers(const std::vector<int>& chosen, int usual) {
+  return chosen.empty() ? std::set{usual} : std::set(chosen.begin(), chosen.end());
+}
+
+/// Galerkin methods of all chosen degrees, quadratures and control nodes. Of several numbers those combinations are
+/// taken that exist; throws `Error` if a number is in none.
+std::vector<ChosenScheme> galerkin_schemes(const ExperimentOptions& options) {
+  using Number = std::pair<std::string, int>;  // an option's
+  if (options.controls != "stage" && options.controls != "shared") static_cast<void>(chosen_tableaus(options));
+  const bool is_continuous = options.controls == "shared";
+  const auto quadratures = in_order("quadrature", options.quadratures.empty() ? options.tableaus : options.quadratures,
+                                    {"gauss", "lobatto"});
+  std::vector<ChosenScheme> schemes;
+  std::set<Number> used;
+  std::map<Number, std::string> refused;
+  const auto add = [&](int degree, int nodes, const std::string& quadrature, int points) {
+    const std::array<Number, 3> numbers{{{"--stages", degree}, {"--control-nodes", nodes}, {"--points", points}}};
+    try {
+      const GalerkinElement element(degree, nodes, is_continuous);
+      const Tableau tableau = make_tableau(quadrature, points);
+      static_cast<void>(element.rates(tableau));
+      static_cast<void>(element.controls(tableau));
+      schemes.push_back({element.name(), quadrature, points});
+      used.insert(numbers.begin(), numbers.end());
+    } catch (const Error& error) {
+      for (const Number& number : numbers) refused.emplace(number, error.what());
+    }
+  };
+  for (const int degree : std::set(options.stages.begin(), options.stages.end())) {
+    for (const int nodes : chosen_numbers(options.control_nodes, std::max(degree, is_continuous ? 2 : 1))) {
+      for (const std::string& quadrature : quadratures) {
+        const int fewest = degree + (quadrature == "lobatto" ? 1 : 0);
+        for (const int points : chosen_numbers(options.points, fewest)) add(degree, nodes, quadrature, points);
+      }
+    }
+  }
+  for (const auto& [number, reason] : refused) {
+    if (!used.contains(number)) throw Error(reason);
+  }
+  return schemes;
+}
+
+/// The chosen families by the chosen tableaus.
+std::vector<ChosenScheme> chosen_schemes(const ExperimentOptions& options) {
+  const std::vector<std::string> chosen =
+      in_order("method", options.methods.empty() ? paper_families() : options.methods, all_families());
+  std::vector<ChosenScheme> schemes;
+  const auto add_with_tableaus = [&](const std::vector<std::string>& methods) {
+    const auto tableaus = chosen_stages(options);
+    for (const std::string& method : methods) {
+      for (const auto& [tableau, stages] : tableaus) schemes.push_back({method, tableau, stages});
+    }
+  };
+  bool integrates = false;
+  bool has_spaces = false;
+  for (const Family& family : registered_families()) {
+    if (std::ranges::count(chosen, family.name) == 0) continue;
+    switch (family.suffix) {
+      case MethodSuffix::none:
+        add_with_tableaus({std::string(family.name)});
+        break;
+      case MethodSuffix::integration:
+        add_with_tableaus(integrated_methods(family.name, options));
+        integrates = true;
+        break;
+      case MethodSuffix::spaces:
+        std::ranges::move(galerkin_schemes(options), std::back_inserter(schemes));
+        has_spaces = true;
+        break;
+    }
+  }
+  if (!integrates && !(options.integrators.empty() && options.substeps.empty())) {
+    throw Error("--integrator and --substeps are those of shooting; add --method multiple_shooting");
+  }
+  if (!has_spaces && !(options.quadratures.empty() && options.points.empty() && options.control_nodes.empty())) {
+    throw Error("--quadrature, --points and --control-nodes are those of galerkin; add --method galerkin");
   }
   return schemes;
 }
@@ -173,6 +243,14 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
       "--controls", options.controls,
       "stage: every stage has its control; shared: one at the node between two intervals, for --tableau lobatto, which "
       "the tables then call lobatto_shared");
+  line.list(
+      "--quadrature", options.quadratures,
+      "quadrature of galerkin, whose number of stages s is the degree of q: gauss, lobatto; default: the tableaus");
+  line.list("--points", options.points, "points of this quadrature, at least s; default: s, for lobatto s + 1");
+  line.list(
+      "--control-nodes", options.control_nodes,
+      "control points of galerkin per interval: Gauss points, 1 for a constant control, or with --controls shared "
+      "Lobatto points, for a continuous control; default: s");
   line.list("--integrator", options.integrators,
             "of shooting: rk4, midpoint, dmoc (its own map as a step); default: rk4");
   line.list("--substeps", options.substeps, "steps of the integrator per interval, of shooting; default: 1");
@@ -298,8 +376,7 @@ std::vector<std::shared_ptr<const Problem>> ProblemOptions::selected() const {
 }
 
 std::vector<Case> expand_cases(const ExperimentOptions& options) {
-  const std::vector<std::string> methods = chosen_methods(options);
-  const auto schemes = chosen_schemes(options);
+  const std::vector<ChosenScheme> schemes = chosen_schemes(options);
   const auto solvers = in_order("solver", options.solvers, solver_names());
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
   const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());
@@ -312,9 +389,9 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
     // All methods have the same degrees of freedom on a grid, and more stages have more: one program per family shows
     // whether the problem is well posed and the coarsest grid fine enough.
     std::set<std::string> checked;
-    for (const auto& [tableau, stages] : schemes) {
+    for (const auto& [method, tableau, stages] : schemes) {
       if (!checked.insert(tableau).second) continue;
-      const Case coarsest{problem, methods.front(), tableau, stages, "", "tape", grids.front(), {}, form};
+      const Case coarsest{problem, method, tableau, stages, "", "tape", grids.front(), {}, form};
       try {
         const StopScope scope(interrupt_requested, options.most_seconds);
         static_cast<void>(coarsest.transcribe());
@@ -323,13 +400,11 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
                                 problem->name(), options.most_seconds));
       }
     }
-    for (const std::string& method : methods) {
-      for (const auto& [tableau, stages] : schemes) {
-        for (const std::string& solver : solvers) {
-          for (const std::string& derivatives : back_ends) {
-            for (const Grid& grid : grids) {
-              cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, {}, form});
-            }
+    for (const auto& [method, tableau, stages] : schemes) {
+      for (const std::string& solver : solvers) {
+        for (const std::string& derivatives : back_ends) {
+          for (const Grid& grid : grids) {
+            cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, {}, form});
           }
         }
       }

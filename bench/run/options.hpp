@@ -20,7 +20,10 @@ struct ExperimentOptions {
   std::vector<int> substeps = {};                             ///< of shooting per interval; empty: 1
   std::vector<std::string> tableaus{"gauss"};                 ///< families of Butcher tableaus
   std::string controls = "stage";                ///< stage, or shared: one control where two intervals meet
-  std::vector<int> stages{1};                    ///< numbers of stages s
+  std::vector<int> stages{1};                    ///< numbers of stages s; of galerkin, degrees
+  std::vector<std::string> quadratures = {};     ///< of galerkin; empty: the tableaus
+  std::vector<int> points = {};                  ///< of its quadratures; empty: s, of Lobatto s + 1
+  std::vector<int> control_nodes = {};           ///< of galerkin; empty: s
   std::vector<std::string> solvers{"ipopt"};     ///< names of solvers
   std::vector<std::string> derivatives{"tape"};  ///< names of back ends
   std::string intervals = {};                    ///< numbers of intervals, as on the command line

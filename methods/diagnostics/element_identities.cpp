@@ -71,7 +71,7 @@ class ExactMotion {
     return point;
   }
 
-  /// Row i is the control at stage i of the interval.
+  /// Row i is the control at stage i of a tableau on the interval.
   [[nodiscard]] NumberMatrix controls(const Tableau& tableau, Number t, Number h) const {
     NumberMatrix rows(tableau.stages(), degrees);
     for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = at(t + Number(tableau.c[i]) * h).u;
@@ -97,7 +97,7 @@ struct TracedInterval {
   TracedInterval(const TracedProblem& problem, const Element& element, const Tableau& tableau) {
     InputCounter counter;
     unknowns = take_unknowns(counter, problem, element, tableau);
-    solved_for = static_cast<Eigen::Index>(counter.taken()) - degrees - tableau.stages() * degrees;
+    solved_for = static_cast<Eigen::Index>(counter.taken()) - degrees - element.controls(tableau).stages() * degrees;
     unknowns.h = counter.take();
     unknowns.t = counter.take();
     start_momentum = counter.take(degrees);
@@ -142,10 +142,11 @@ std::vector<std::string> broken_counts(const TracedInterval& interval, const Ele
   expect(trace.right_momentum.size(), degrees, "entries of right_momentum");
   expect(std::ssize(trace.stages), tableau.stages(), "stages");
   if (!broken.empty()) return broken;
+  const Tableau controls = element.controls(tableau);
   for (Eigen::Index i = 0; i < tableau.stages(); ++i) {
     const ControlledState& stage = trace.stages[static_cast<std::size_t>(i)];
     ExpressionVector misses(degrees + 1);
-    misses << stage.u - interval.unknowns.controls[static_cast<std::size_t>(i)],
+    misses << stage.u - polynomial_at(controls.c, interval.unknowns.controls, tableau.c[i]),
         stage.t - interval.unknowns.t - Expression(tableau.c[i]) * interval.unknowns.h;
     if (largest_value(misses, interval) > Number(1e-14)) {
       broken.push_back(fmt::format("counts: stage {} is not at t_k + c_i h or does not have the control U_i", i + 1));
@@ -297,14 +298,15 @@ std::vector<std::string> broken_identities(const Element& element, const Tableau
   if (!broken.empty()) return broken;
   const ExactMotion motion(problem);
   const IdentityMap map(problem, element, tableau);
+  const Tableau controls = element.controls(tableau);
   const Schedule cost(ExpressionVector::Constant(1, interval.trace.cost));
   const auto add = [&broken](const std::vector<std::string>& sentences) {
     broken.insert(broken.end(), sentences.begin(), sentences.end());
   };
   add(broken_momenta(interval, problem, element.node_state()));
-  const std::vector<std::string> inconsistent = broken_consistency(map, cost, motion, tableau, order);
+  const std::vector<std::string> inconsistent = broken_consistency(map, cost, motion, controls, order);
   add(inconsistent);
-  if (inconsistent.empty()) add(broken_costates(map, CostToGo(interval), motion, tableau));
+  if (inconsistent.empty()) add(broken_costates(map, CostToGo(interval), motion, controls));
   return broken;
 }
 

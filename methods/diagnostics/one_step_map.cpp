@@ -9,13 +9,14 @@ template <class Scalar>
 OneStepMap<Scalar>::OneStepMap(const TracedProblem& problem, const Element& element, const Tableau& tableau)
     : n_(problem.configuration_size()),
       node_state_(element.node_state()),
-      interior_(element.has_stage_unknowns() ? tableau.stages() - 1 : 0) {
+      interior_(element.has_stage_unknowns() ? element.rates(tableau).stages() - 1 : 0) {
   problem.require_no_constraints("the map of one step");
   // Inputs: q_0; the unknowns w = (y_0, q_1, y_1, interior rates), y = p or v where nodes carry it; the stage controls;
   // h; t; p_0.
   InputCounter counter;
   IntervalUnknowns local = take_unknowns(counter, problem, element, tableau);
-  unknowns_ = static_cast<Eigen::Index>(counter.taken()) - n_ - tableau.stages() * problem.control_size();
+  unknowns_ =
+      static_cast<Eigen::Index>(counter.taken()) - n_ - element.controls(tableau).stages() * problem.control_size();
   local.h = counter.take();
   local.t = counter.take();
   const ExpressionVector p_0 = counter.take(n_);

@@ -35,7 +35,8 @@ class OneStepMap {
   /// The map of one interval of `element` by `tableau`; traces it.
   OneStepMap(const TracedProblem& problem, const Element& element, const Tableau& tableau);
 
-  /// One step of length `h` from (q_0, p_0) at time `t`. Row i of `controls` is U_i (s × m). `velocity` is an estimate
+  /// One step of length `h` from (q_0, p_0) at time `t`. Row i of `controls` is U_i, at
+  /// stage i of `Element::controls` (s × m). `velocity` is an estimate
   /// of q̇, from which the iteration starts. Throws `Error` if it does not converge.
   [[nodiscard]] Step advance(const Vector& q_0, const Vector& p_0, const Vector& velocity, const Matrix& controls,
                              Scalar h, Scalar t) const;

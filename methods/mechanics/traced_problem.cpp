@@ -252,7 +252,8 @@ ExpressionVector TracedProblem::parameters() const {
 void TracedProblem::require_first_order(Eigen::Index given) const {
   if (given == l_) return;
   throw Error(
-      "this method does not support first-order states (Problem::first_order_names); dmoc, hamiltonian and tangent do");
+      "this method does not support first-order states (Problem::first_order_names); dmoc, hamiltonian, tangent and "
+      "galerkin do");
 }
 
 Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const {

@@ -61,7 +61,7 @@ class ConstraintWords {
         return "bounds().y: " + named('y', i, problem_->first_order_names()) + where(place);
       }
     }
-    for (Eigen::Index stage = 0; stage < shape.stages; ++stage) {
+    for (Eigen::Index stage = 0; stage < shape.control_stages; ++stage) {
       for (Eigen::Index i = 0; i < shape.control_size; ++i) {
         const std::size_t column = layout_->control_head(stage, i);
         if (unknown >= column && unknown - column < layout_->intervals()) {
@@ -154,7 +154,7 @@ class ConstraintWords {
     }
     switch (shape.node_state) {
       case NodeState::configuration:
-        if (elements != (shape.stages - 1) * n_) break;
+        if (elements != (shape.rate_stages - 1) * n_) break;
         return equation_of(column % n_);
       case NodeState::momentum:
         if (elements != 2 * shape.stages * n_) break;
@@ -202,11 +202,11 @@ bool is_held(double value, double bound) {
 std::string held_controls(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x) {
   const Layout& layout = transcription.layout();
   const auto intervals = static_cast<Eigen::Index>(layout.intervals());
-  const Eigen::Index stages = intervals * layout.stages();
+  const Eigen::Index stages = intervals * layout.shape().control_stages;
   std::string text;
   for (Eigen::Index i = 0; i < layout.shape().control_size; ++i) {
     Eigen::Index held = 0;
-    for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
+    for (Eigen::Index stage = 0; stage < layout.shape().control_stages; ++stage) {
       const auto head = static_cast<Eigen::Index>(layout.control_head(stage, i));
       for (Eigen::Index k = head; k < head + intervals; ++k) {
         if (is_held(x[k], transcription.variable_lower()[k]) || is_held(x[k], transcription.variable_upper()[k]))

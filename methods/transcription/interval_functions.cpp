@@ -27,7 +27,7 @@ Unknowns make_unknowns(const TracedProblem& problem, const Element& element, con
   unknowns.inputs.unknowns = counter.taken() - parameters;
   unknowns.h = horizon * Expression::input(unknowns.inputs.step());
   unknowns.t = horizon * Expression::input(unknowns.inputs.time());
-  if (problem.first_order_size() == 0) return unknowns;
+  if (problem.first_order_size() == 0 || !element.has_stage_unknowns()) return unknowns;
   unknowns.rates_y = stage_rates(unknowns.left_y, unknowns.right_y, unknowns.rates_y, tableau.b, unknowns.h);
   unknowns.stages_y = stage_values(unknowns.left_y, unknowns.rates_y, tableau.a, unknowns.h);
   return unknowns;
@@ -74,6 +74,7 @@ Schedule stage_table(const std::vector<ControlledState>& stages, const std::vect
     parts.push_back(stage.q);
     parts.push_back(stage.v);
     parts.emplace_back(ExpressionVector::Constant(1, stage.t));
+    parts.push_back(stage.u);
     parts.push_back(stage.y);
     if (stage.y.size() > 0) parts.push_back(rates_y[i]);
   }
@@ -99,6 +100,8 @@ IntervalFunctions trace_interval(const TracedProblem& traced, const Element& ele
   static_cast<LocalFunctions&>(functions) =
       differentiate(cost, rows, unknowns.inputs.unknowns, unknowns.inputs.parameters, of_nodes);
   functions.has_stage_unknowns = element.has_stage_unknowns();
+  functions.rates = element.rates(tableau);
+  functions.controls = element.controls(tableau);
   functions.node_rows = trace.left_rows.size();
   functions.stage_equations = trace.stage_equations.size();
   functions.path_rows = path.size();

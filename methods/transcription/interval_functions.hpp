@@ -28,6 +28,8 @@ struct IntervalRules {
 /// interval's contribution to each sum. `adjoint` is ∂ℓ/∂(left node), then ∂ℓ/∂(right node).
 struct IntervalFunctions : LocalFunctions {
   bool has_stage_unknowns = true;    ///< of the element
+  Tableau rates;                     ///< `Element::rates`
+  Tableau controls;                  ///< `Element::controls`
   Eigen::Index node_rows = 0;        ///< equations that belong to nodes
   Eigen::Index stage_equations = 0;  ///< stage equations of the element
   Eigen::Index path_rows = 0;        ///< path constraints, at all stages
@@ -39,7 +41,7 @@ struct IntervalFunctions : LocalFunctions {
   Eigen::Index multipliers = 0;  ///< of holonomic constraints
 
   Schedule momenta;  ///< left momentum, then right momentum
-  Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i, Y_i, Ẏ_i
+  Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i, U_i, Y_i, Ẏ_i
 };
 
 /// Traces the formulas of one interval of an element and differentiates them.

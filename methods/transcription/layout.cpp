@@ -26,9 +26,9 @@ void Layout::append_unknowns() {
   Places& unknowns = structure_.unknowns;
   structure_.intervals = shape_.intervals;
   append(unknowns, node, node_columns());
-  rates_ = append(unknowns, interval, interior_stages() * node_columns());
+  rates_ = append(unknowns, interval, interior_columns());
   controls_ = append(unknowns, node, shape_.shares_controls ? m : 0, true);
-  inner_controls_ = append(unknowns, interval, (shape_.shares_controls ? shape_.stages - 2 : shape_.stages) * m, true);
+  inner_controls_ = append(unknowns, interval, (shape_.control_stages - (shape_.shares_controls ? 2 : 0)) * m, true);
   multipliers_ = append(unknowns, interval, shape_.multipliers);
   sums_ = append(unknowns, node, shape_.sums());
   single_unknowns_ = unknowns.size();
@@ -59,10 +59,10 @@ void Layout::place_interval() {
     for (Eigen::Index i = 0; i < node_columns(); ++i) unknown_places_.emplace_back(configuration_head(i) + right);
     for (Eigen::Index i = 0; i < shape_.node_rows; ++i) row_places_.emplace_back(node_row_head(i) + right);
   }
-  for (Eigen::Index i = 0; i < interior_stages() * node_columns(); ++i) {
+  for (Eigen::Index i = 0; i < interior_columns(); ++i) {
     unknown_places_.emplace_back(rate_head(0, i));
   }
-  for (Eigen::Index stage = 0; stage < shape_.stages; ++stage) {
+  for (Eigen::Index stage = 0; stage < shape_.control_stages; ++stage) {
     for (Eigen::Index i = 0; i < m; ++i) unknown_places_.emplace_back(control_head(stage, i));
   }
   for (Eigen::Index i = 0; i < shape_.multipliers; ++i) unknown_places_.emplace_back(multiplier_head(i));
@@ -108,7 +108,7 @@ std::size_t Layout::control_head(Eigen::Index stage, Eigen::Index i) const noexc
   const Eigen::Index m = shape_.control_size;
   if (!shape_.shares_controls) return interval_head(inner_controls_, stage * m + i);
   if (stage == 0) return controls_ + static_cast<std::size_t>(i) * (shape_.intervals + 1);
-  if (stage == shape_.stages - 1) return control_head(0, i) + 1;
+  if (stage == shape_.control_stages - 1) return control_head(0, i) + 1;
   return interval_head(inner_controls_, (stage - 1) * m + i);
 }
 

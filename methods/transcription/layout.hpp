@@ -19,6 +19,8 @@ struct LayoutShape {
   Eigen::Index control_size = 0;                    ///< m
   NodeState node_state = NodeState::configuration;  ///< the second part of the nodes' states
   Eigen::Index stages = 1;                          ///< s
+  Eigen::Index rate_stages = 1;                     ///< of `Element::rates`
+  Eigen::Index control_stages = 1;                  ///< of `Element::controls`
   bool shares_controls = false;                     ///< neighbouring intervals share the control at their node
   bool has_stage_unknowns = true;                   ///< `Element::has_stage_unknowns`
   Eigen::Index node_rows = 0;                       ///< per node
@@ -85,8 +87,7 @@ class Layout {
   }
   /// Of component i of Ẏ_stage.
   [[nodiscard]] std::size_t first_order_rate_head(Eigen::Index stage, Eigen::Index i) const noexcept {
-    const Eigen::Index before = interior_stages() * (node_columns() - shape_.first_order_size);
-    return interval_head(rates_, before + stage * shape_.first_order_size + i);
+    return interval_head(rates_, interior_rates() + stage * shape_.first_order_size + i);
   }
   /// Of component i of the stage rate Q̇_stage.
   [[nodiscard]] std::size_t rate_head(Eigen::Index stage, Eigen::Index i) const noexcept {
@@ -98,7 +99,7 @@ class Layout {
   }
   /// Of multiplier i of an interval.
   [[nodiscard]] std::size_t multiplier_head(Eigen::Index i) const noexcept { return interval_head(multipliers_, i); }
-  /// Of component i of U_stage.
+  /// Of component i of U_stage, a stage of `Element::controls`.
   [[nodiscard]] std::size_t control_head(Eigen::Index stage, Eigen::Index i) const noexcept;
   [[nodiscard]] std::size_t cost_head() const noexcept { return sum_head(0); }  ///< of z, in Mayer form
   /// Of the i-th sum, the cost first.
@@ -144,8 +145,12 @@ class Layout {
   [[nodiscard]] const LayoutShape& shape() const noexcept { return shape_; }
   /// The second part of the nodes' states.
   [[nodiscard]] NodeState node_state() const noexcept { return shape_.node_state; }
-  /// Stages whose rates are unknowns.
+  /// Stages whose rates of q, and of p or v, are unknowns.
   [[nodiscard]] Eigen::Index interior_stages() const noexcept {
+    return shape_.has_stage_unknowns ? shape_.rate_stages - 1 : 0;
+  }
+  /// Those whose rates of y are unknowns.
+  [[nodiscard]] Eigen::Index interior_first_order_stages() const noexcept {
     return shape_.has_stage_unknowns ? shape_.stages - 1 : 0;
   }
   [[nodiscard]] Eigen::Index stages() const noexcept { return shape_.stages; }  ///< s.
@@ -156,6 +161,14 @@ class Layout {
   /// Of q, of p or v, and of y.
   [[nodiscard]] Eigen::Index node_columns() const noexcept {
     return (node_state() == NodeState::configuration ? 1 : 2) * shape_.configuration_size + shape_.first_order_size;
+  }
+  /// Interior rates of q, and of p or v.
+  [[nodiscard]] Eigen::Index interior_rates() const noexcept {
+    return interior_stages() * (node_columns() - shape_.first_order_size);
+  }
+  /// All interior rates.
+  [[nodiscard]] Eigen::Index interior_columns() const noexcept {
+    return interior_rates() + interior_first_order_stages() * shape_.first_order_size;
   }
   /// The head of series i of the intervals after `first`.
   [[nodiscard]] std::size_t interval_head(std::size_t first, Eigen::Index i) const noexcept {

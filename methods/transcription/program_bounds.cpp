@@ -19,7 +19,7 @@ void set(Bounds& bounds, std::size_t first, std::size_t count, double lower, dou
 }
 
 void bound_controls(Bounds& variables, const Bounds& u, const Layout& layout) {
-  for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
+  for (Eigen::Index stage = 0; stage < layout.shape().control_stages; ++stage) {
     for (Eigen::Index i = 0; i < u.lower.size(); ++i) {
       set(variables, layout.control_head(stage, i), layout.intervals(), u.lower[i], u.upper[i]);
     }

@@ -59,10 +59,11 @@ class SampledCostates {
         motion_(smooth_motion(trajectory)),
         costates_(costate_curve(at_point, trajectory)),
         stretch_(motion_.horizon / horizon),
-        has_same_stages_(trajectory.has_stage_costates() && trajectory.tableau.a == program.tableau().a &&
+        has_same_stages_(trajectory.has_stage_costates() &&
+                         program.functions().rates.has_times_of(trajectory.tableau) &&
                          trajectory.node_times == horizon * program.grid().relative_times()) {}
 
-  /// At stage `row` of the program's stage tables, at time t.
+  /// At row `row` of the program's stages whose rates are unknowns, at time t.
   [[nodiscard]] AdjointPoint stage(Eigen::Index row, double t) const {
     if (!has_same_stages_) return at(t);
     return {trajectory_.stage(row), trajectory_.stage_psi_q.row(row).transpose(),
@@ -184,15 +185,14 @@ Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& tra
   if (family == NodeState::configuration) {
     for (Eigen::Index k = 0; k < times.size(); ++k) writer.write_node(k, sampled.at(times[k]).psi_p);
   }
-  const Tableau& tableau = program.tableau();
-  const Eigen::Index s = tableau.stages();
+  const Tableau& rates = program.functions().rates;
+  const Eigen::Index s = rates.stages();
   const bool has_stages = program.functions().has_stage_unknowns;
   if (!has_stages) write_shooting(sampled, at_point, times, writer);
   for (Eigen::Index row = 0; has_stages && row < widths.size() * s; ++row) {
     const Eigen::Index k = row / s;
     const Eigen::Index i = row % s;
-    write_stage(sampled, at_point, family, row, times[k] + tableau.c[i] * widths[k], s, widths[k] * tableau.b[i],
-                writer);
+    write_stage(sampled, at_point, family, row, times[k] + rates.c[i] * widths[k], s, widths[k] * rates.b[i], writer);
   }
   if (layout.shape().mayer) writer.write_costs(-1.0 / program.cost_scale());  // z is the scaled cost
   if (family == NodeState::momentum) {

@@ -7,14 +7,15 @@
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/numerics/lagrange_basis.hpp"
 #include "methods/transcription/fitted_forces.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-/// The tables of a motion in the unknowns of a program; `second_rates` has Ṗ_i or V̇_i, a row per stage. Costs so far
-/// are 0.
+/// The tables of a motion in the unknowns of a program. `stage_v` has a row per stage of `Element::rates`, `stage_u` of
+/// `Element::controls`; `second_rates` has Ṗ_i or V̇_i, a row per stage. Costs so far are 0.
 Eigen::VectorXd unknowns_of(const Transcription& transcription, const Trajectory& motion,
                             const Eigen::MatrixXd& second_rates) {
   const Layout& layout = transcription.layout();
@@ -23,28 +24,32 @@ Eigen::VectorXd unknowns_of(const Transcription& transcription, const Trajectory
   const auto set = [&](std::size_t column, const auto& values) {
     x.segment(static_cast<Eigen::Index>(column), values.size()) = values;
   };
-  /// The rows of stage i in a stage table.
-  const auto rows_of = [&](Eigen::Index i) { return Eigen::seqN(i, nodes - 1, motion.stages()); };
+  /// The rows of stage i in a table with the stages of a tableau.
+  const auto rows_of = [&](const Tableau& tableau, Eigen::Index i) {
+    return Eigen::seqN(i, nodes - 1, tableau.stages());
+  };
+  const Tableau& rates = transcription.functions().rates;
+  const Tableau& controls = transcription.functions().controls;
   const bool has_second = layout.node_state() != NodeState::configuration;
   const Eigen::MatrixXd& second = layout.node_state() == NodeState::momentum ? motion.p : motion.v;
   for (Eigen::Index c = 0; c < motion.q.cols(); ++c) {
     set(layout.configuration_head(c), motion.q.col(c));
     if (has_second) set(layout.second_head(c), second.col(c));
     for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
-      set(layout.rate_head(i, c), motion.stage_v(rows_of(i), c));
-      if (has_second) set(layout.second_rate_head(i, c), second_rates(rows_of(i), c));
+      set(layout.rate_head(i, c), motion.stage_v(rows_of(rates, i), c));
+      if (has_second) set(layout.second_rate_head(i, c), second_rates(rows_of(rates, i), c));
     }
   }
   for (Eigen::Index c = 0; c < motion.y.cols(); ++c) {
     set(layout.first_order_head(c), motion.y.col(c));
-    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
-      set(layout.first_order_rate_head(i, c), motion.stage_y_rates(rows_of(i), c));
+    for (Eigen::Index i = 0; i < layout.interior_first_order_stages(); ++i) {
+      set(layout.first_order_rate_head(i, c), motion.stage_y_rates(rows_of(motion.tableau, i), c));
     }
   }
   for (Eigen::Index c = 0; c < motion.stage_u.cols(); ++c) {
     // Where neighbours share a control, the first stage's is taken.
-    for (Eigen::Index i = layout.stages() - 1; i >= 0; --i) {
-      set(layout.control_head(i, c), motion.stage_u(rows_of(i), c));
+    for (Eigen::Index i = controls.stages() - 1; i >= 0; --i) {
+      set(layout.control_head(i, c), motion.stage_u(rows_of(controls, i), c));
     }
   }
   if (layout.shape().first_has_velocity) set(layout.first_velocity(0), motion.v.row(0).transpose());
@@ -71,7 +76,7 @@ void move_to_end(const Transcription& transcription, Eigen::Index k, MotionPoint
   }
 }
 
-/// A motion at the nodes and stages of a program with horizon T.
+/// A motion in the tables that `unknowns_of` takes, of a program with horizon T.
 Trajectory tables_of(const Transcription& transcription, const Motion& motion, double horizon) {
   const double stretch = motion.horizon / horizon;
   const auto point_at = [&](double t) {
@@ -100,35 +105,44 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
     if (!legendre) continue;
     tables.p.row(k) = legendre->momentum(node.q, node.v, tables.node_times[k], node.y).transpose();
   }
-  const Eigen::Index s = tables.stages();
-  tables.stage_v.resize(widths.size() * s, n);
-  tables.stage_u.resize(widths.size() * s, problem.control_size());
-  tables.stage_y_rates.setZero(widths.size() * s, problem.first_order_size());
-  for (Eigen::Index row = 0; row < tables.stage_v.rows(); ++row) {
-    const Eigen::Index k = row / s;
-    const MotionPoint stage = point_at(tables.node_times[k] + tables.tableau.c[row % s] * widths[k]);
+  tables.stage_y_rates.setZero(widths.size() * tables.stages(), problem.first_order_size());
+  const Tableau& rates = transcription.functions().rates;
+  const Tableau& controls = transcription.functions().controls;
+  tables.stage_v.resize(widths.size() * rates.stages(), n);
+  tables.stage_u.resize(widths.size() * controls.stages(), problem.control_size());
+  const auto visit = [&](const Tableau& tableau, auto&& keep) {
+    const Eigen::Index s = tableau.stages();
+    for (Eigen::Index row = 0; row < widths.size() * s; ++row) {
+      keep(row, point_at(tables.node_times[row / s] + tableau.c[row % s] * widths[row / s]));
+    }
+  };
+  const bool is_together = controls.has_times_of(rates);
+  visit(rates, [&](Eigen::Index row, const MotionPoint& stage) {
     tables.stage_v.row(row) = stage.v.transpose();
-    tables.stage_u.row(row) = stage.u.transpose();
-  }
+    if (is_together) tables.stage_u.row(row) = stage.u.transpose();
+  });
+  if (is_together) return tables;
+  visit(controls, [&](Eigen::Index row, const MotionPoint& stage) { tables.stage_u.row(row) = stage.u.transpose(); });
   return tables;
 }
 
 /// Sets interior rates of p or v and of y to the mean rates of their intervals, of which there is one per entry of
 /// `widths`.
 void set_mean_rates(const Layout& layout, const Eigen::VectorXd& widths, Eigen::VectorXd& x) {
-  const auto set = [&](std::size_t nodes_head, const auto& rate_head) {
+  const auto set = [&](std::size_t nodes_head, Eigen::Index stages, const auto& rate_head) {
     const auto nodes = x.segment(static_cast<Eigen::Index>(nodes_head), widths.size() + 1);
     const Eigen::VectorXd rates = (nodes.tail(widths.size()) - nodes.head(widths.size())).cwiseQuotient(widths);
-    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
+    for (Eigen::Index i = 0; i < stages; ++i) {
       x.segment(static_cast<Eigen::Index>(rate_head(i)), widths.size()) = rates;
     }
   };
   const LayoutShape& shape = layout.shape();
   for (Eigen::Index c = 0; layout.node_state() != NodeState::configuration && c < shape.configuration_size; ++c) {
-    set(layout.second_head(c), [&](Eigen::Index i) { return layout.second_rate_head(i, c); });
+    set(layout.second_head(c), layout.interior_stages(), [&](Eigen::Index i) { return layout.second_rate_head(i, c); });
   }
   for (Eigen::Index c = 0; c < shape.first_order_size; ++c) {
-    set(layout.first_order_head(c), [&](Eigen::Index i) { return layout.first_order_rate_head(i, c); });
+    set(layout.first_order_head(c), layout.interior_first_order_stages(),
+        [&](Eigen::Index i) { return layout.first_order_rate_head(i, c); });
   }
 }
 
@@ -146,6 +160,21 @@ void add_up(Transcription& transcription, Eigen::VectorXd& x) {
     const auto row = static_cast<Eigen::Index>(layout.sum_row_head(i));
     for (Eigen::Index k = 0; k < intervals; ++k) sum_of(i)[k + 1] = sum_of(i)[k] - constraints[row + k];
   }
+}
+
+/// The values at the stages of a tableau of the polynomials through a stage table of a trajectory.
+Eigen::MatrixXd at_stages_of(const Tableau& tableau, const Trajectory& trajectory, const Eigen::MatrixXd& stages) {
+  if (tableau.has_times_of(trajectory.tableau)) return stages;
+  const Eigen::Index intervals = trajectory.intervals();
+  Eigen::MatrixXd table = Eigen::MatrixXd::Zero(intervals * tableau.stages(), stages.cols());
+  for (Eigen::Index i = 0; i < tableau.stages(); ++i) {
+    const Eigen::VectorXd weights = lagrange_basis(trajectory.tableau.c, tableau.c[i]);
+    for (Eigen::Index j = 0; j < weights.size(); ++j) {
+      table(Eigen::seqN(i, intervals, tableau.stages()), Eigen::all) +=
+          weights[j] * stages(Eigen::seqN(j, intervals, weights.size()), Eigen::all);
+    }
+  }
+  return table;
 }
 
 void require_same_grid(const Transcription& transcription, const Trajectory& trajectory) {
@@ -216,7 +245,10 @@ Motion guessed_motion(const Transcription& program) {
 Eigen::VectorXd embed(const Problem& problem, Transcription& transcription, const Trajectory& trajectory) {
   require_same_grid(transcription, trajectory);
   const NodeState node_state = transcription.layout().node_state();
-  Eigen::VectorXd x = unknowns_of(transcription, trajectory, second_rates(problem, node_state, trajectory));
+  Trajectory tables = trajectory;
+  tables.stage_v = at_stages_of(transcription.functions().rates, trajectory, trajectory.stage_v);
+  tables.stage_u = at_stages_of(transcription.functions().controls, trajectory, trajectory.stage_u);
+  Eigen::VectorXd x = unknowns_of(transcription, tables, second_rates(problem, node_state, trajectory));
   // The forces of constraint, and stage rates, which contain them.
   if (transcription.layout().shape().multipliers > 0) fit_forces(transcription, FittedForces::second_rates, x);
   return x;

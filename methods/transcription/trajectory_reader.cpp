@@ -20,30 +20,28 @@ Eigen::MatrixXd read_momenta(Transcription& transcription, const Eigen::VectorXd
 }
 
 void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Trajectory& trajectory) {
-  const Layout& layout = transcription.layout();
   const Eigen::Index n = transcription.traced_problem().configuration_size();
-  const Eigen::Index s = layout.stages();
+  const Eigen::Index m = transcription.traced_problem().control_size();
+  const Eigen::Index s = transcription.tableau().stages();
   const Eigen::MatrixXd table = transcription.tabulate(transcription.functions().stages, primal);
   const Eigen::Index intervals = table.rows();
   trajectory.stage_times.resize(intervals * s);
   trajectory.stage_q.resize(intervals * s, n);
   trajectory.stage_v.resize(intervals * s, n);
-  trajectory.stage_u.resize(intervals * s, transcription.traced_problem().control_size());
+  trajectory.stage_u.resize(intervals * s, m);
   const Eigen::Index l = transcription.traced_problem().first_order_size();
   trajectory.stage_y.resize(intervals * s, l);
   trajectory.stage_y_rates.resize(intervals * s, l);
-  const Eigen::Index width = 2 * n + 1 + 2 * l;
+  const Eigen::Index width = 2 * n + 1 + m + 2 * l;
   for (Eigen::Index i = 0; i < s; ++i) {
     const auto rows = Eigen::seqN(i, intervals, s);
     const auto stage = table.middleCols(i * width, width);
     trajectory.stage_q(rows, Eigen::all) = stage.leftCols(n);
     trajectory.stage_v(rows, Eigen::all) = stage.middleCols(n, n);
     trajectory.stage_times(rows) = stage.col(2 * n);
-    trajectory.stage_y(rows, Eigen::all) = stage.middleCols(2 * n + 1, l);
+    trajectory.stage_u(rows, Eigen::all) = stage.middleCols(2 * n + 1, m);
+    trajectory.stage_y(rows, Eigen::all) = stage.middleCols(2 * n + 1 + m, l);
     trajectory.stage_y_rates(rows, Eigen::all) = stage.rightCols(l);
-    for (Eigen::Index c = 0; c < trajectory.stage_u.cols(); ++c) {
-      trajectory.stage_u(rows, c) = primal.segment(static_cast<Eigen::Index>(layout.control_head(i, c)), intervals);
-    }
   }
 }
 
@@ -104,8 +102,11 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
     trajectory.psi_p = std::move(psi.psi_p);
     trajectory.psi_y = std::move(psi.psi_y);
     read_prices(transcription, multipliers, trajectory);
-    if (transcription.functions().path_rows == 0 && trajectory.integrals.size() == 0 && trajectory.y.cols() == 0 &&
-        transcription.functions().multipliers == 0 && transcription.functions().has_stage_unknowns) {
+    const IntervalFunctions& functions = transcription.functions();
+    const bool has_stages = functions.has_stage_unknowns && functions.rates.has_times_of(trajectory.tableau) &&
+                            functions.controls.has_times_of(trajectory.tableau);
+    if (has_stages && functions.path_rows == 0 && functions.multipliers == 0 && trajectory.integrals.size() == 0 &&
+        trajectory.y.cols() == 0) {
       StageCostates stages = stage_costates(transcription, multipliers, trajectory);
       trajectory.stage_psi_q = std::move(stages.psi_q);
       trajectory.stage_psi_p = std::move(stages.psi_p);

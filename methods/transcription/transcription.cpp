@@ -27,7 +27,9 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .control_size = traced.control_size(),
           .node_state = ends.node_state,
           .stages = tableau.stages(),
-          .shares_controls = tableau.shares_controls,
+          .rate_stages = functions.rates.stages(),
+          .control_stages = functions.controls.stages(),
+          .shares_controls = functions.controls.shares_controls,
           .has_stage_unknowns = functions.has_stage_unknowns,
           .node_rows = functions.node_rows,
           .stage_equations = functions.stage_equations,
@@ -46,17 +48,23 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .unknown_parameters = traced.unknown_count()};
 }
 
-/// Equalities along the motion take a control each. Intervals with stages at their nodes have one of a node both, which
-/// only controls of their own distinguish.
+/// Equalities along the motion take a control each, at every stage. Intervals with stages at their nodes have one of a
+/// node both, which only controls of their own distinguish.
 void require_equalities_fit(const Problem& problem, const TracedProblem& traced, const Tableau& tableau,
-                            const ProblemBounds& bounds) {
+                            const Tableau& controls, const ProblemBounds& bounds) {
   const Bounds path = bounds.of_path(traced.path_constraint_count());
   const bool has_stages_at_nodes = tableau.c.minCoeff() == 0.0 && tableau.c.maxCoeff() == 1.0;
   Eigen::Index equalities = 0;
   for (Eigen::Index i = 0; i < path.lower.size(); ++i) {
     if (!path.is_fixed(i)) continue;
     ++equalities;
-    const bool is_same = tableau.shares_controls || !traced.constraints_read_controls()[static_cast<std::size_t>(i)];
+    if (controls.stages() < tableau.stages()) {
+      throw Error(
+          fmt::format("{}: bounds().path makes path_constraints[{}] an equality at {} points of an interval, more than "
+                      "its {} control nodes; take as many --control-nodes",
+                      problem.name(), i, tableau.stages(), controls.stages()));
+    }
+    const bool is_same = controls.shares_controls || !traced.constraints_read_controls()[static_cast<std::size_t>(i)];
     if (!has_stages_at_nodes || !is_same) continue;
     throw Error(
         fmt::format("{}: bounds().path makes path_constraints[{}] an equality, which with stages at the nodes "
@@ -107,7 +115,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       jacobian_pattern_(assemble_pattern(
           jacobian_entries(functions_, layout_.row_places(), layout_.unknown_places(), grid.intervals()))),
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
-  require_equalities_fit(problem, traced_, tableau_, problem_bounds_);
+  require_equalities_fit(problem, traced_, tableau_, functions_.controls, problem_bounds_);
   require_enough_intervals(problem, element);
   check_constraint_windows(problem, traced_, tableau_, grid);
   // The ends extend the patterns, which must be complete before the arrays of the intervals are allocated.

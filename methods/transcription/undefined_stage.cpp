@@ -6,22 +6,19 @@ namespace dmocbench {
 
 std::string undefined_stage(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x,
                             FormulaCheck::Derivatives up_to) {
-  const Layout& layout = transcription.layout();
   const Eigen::Index n = problem.configuration_size();
+  const Eigen::Index m = problem.control_size();
   const Eigen::Index l = problem.first_order_size();
-  const Eigen::Index width = 2 * n + 1 + 2 * l;
+  const Eigen::Index width = 2 * n + 1 + m + 2 * l;
   const Eigen::MatrixXd stages = transcription.tabulate(transcription.functions().stages, x);
   FormulaCheck check(problem, up_to);
   for (Eigen::Index k = 0; k < stages.rows(); ++k) {
-    for (Eigen::Index i = 0; i < layout.stages(); ++i) {
+    for (Eigen::Index i = 0; i < transcription.layout().stages(); ++i) {
       const auto stage = stages.row(k).segment(i * width, width);
-      MotionPoint point{.q = stage.head(n),
-                        .v = stage.segment(n, n),
-                        .u = Eigen::VectorXd(problem.control_size()),
-                        .y = stage.segment(2 * n + 1, l)};
-      for (Eigen::Index c = 0; c < point.u.size(); ++c) {
-        point.u[c] = x[static_cast<Eigen::Index>(layout.control_head(i, c)) + k];
-      }
+      const MotionPoint point{.q = stage.head(n),
+                              .v = stage.segment(n, n),
+                              .u = stage.segment(2 * n + 1, m),
+                              .y = stage.segment(2 * n + 1 + m, l)};
       const std::string quantity = check.undefined_at(point, stage[2 * n]);
       if (!quantity.empty())
         return fmt::format("{} is not a number in interval {} (t = {:g})", quantity, k, stage[2 * n]);

@@ -9,6 +9,7 @@
 
 #include "methods/transcription/elements/explicit_integrator.hpp"
 #include "methods/transcription/elements/families.hpp"
+#include "methods/transcription/elements/galerkin_element.hpp"
 
 namespace dmocbench {
 namespace {
@@ -17,8 +18,12 @@ std::string in_words(const std::vector<std::string>& sentences) {
   return fmt::format("{}", fmt::join(sentences, "\n"));
 }
 
-/// The order of a method: that of the tableau, or of its explicit integrator if this is smaller.
+/// The order of a method: that of the tableau, or of its explicit integrator or its control space if this is smaller.
 int order_of(const std::string& method, const Tableau& tableau) {
+  if (family_of(method).suffix == MethodSuffix::spaces) {
+    const auto element = make_element(method);
+    return std::min({tableau.order, element->rates(tableau).order, element->controls(tableau).order});
+  }
   for (const std::string& integrator : explicit_integrator_names()) {
     if (method.find("_" + integrator + "_") == std::string::npos) continue;
     return std::min(tableau.order, explicit_integrator(integrator).order);
@@ -42,6 +47,24 @@ INSTANTIATE_TEST_SUITE_P(EveryMethod, IdentitiesOf,
                          [](const auto& instance) {
                            return std::get<0>(instance.param) + "_" + std::get<1>(instance.param);
                          });
+
+TEST(Identities, HoldOfGalerkinElementsWithEveryDegreeQuadratureAndControlSpace) {
+  for (const int degree : {1, 2, 3}) {
+    for (const char* family : {"gauss", "lobatto"}) {
+      for (const int points : tableau_stages(family)) {
+        for (int nodes = 1; nodes <= points && degree <= points; ++nodes) {
+          for (const bool is_continuous : {false, true}) {
+            if (nodes == 1 && is_continuous) continue;
+            const std::string method = galerkin_name(degree, nodes, is_continuous);
+            const Tableau tableau = make_tableau(family, points);
+            EXPECT_EQ(in_words(broken_identities(*make_element(method), tableau, order_of(method, tableau))), "")
+                << method << " " << family << " " << points;
+          }
+        }
+      }
+    }
+  }
+}
 
 TEST(Identities, DoNotHoldOfAnElementWhoseOrderIsOverstated) {
   const std::string words = in_words(broken_identities(*make_element("dmoc"), gauss_tableau(2), 5));
@@ -123,7 +146,7 @@ TEST_P(SpoiltElement, IsToldOfDerivativesThatAreNotThoseOfItsValues) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryKindOfNode, SpoiltElement,
-                         testing::Values("dmoc", "hamiltonian", "tangent", "multiple_shooting_rk4_1"),
+                         testing::Values("dmoc", "hamiltonian", "tangent", "multiple_shooting_rk4_1", "galerkin_2_2"),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace

@@ -92,6 +92,19 @@ TEST(MomentumConsistency, CountsTheChangeOfAGeneratorThatDependsOnTheConfigurati
   }
 }
 
+TEST(MomentumConsistency, OfGalerkinIsRoundingWithEveryQuadratureAndControlSpace) {
+  const Spiral problem;
+  const auto two_link = make_problem("two_link_manipulator");
+  for (const Scheme& scheme :
+       {Scheme{"galerkin_1_1", 3}, {"galerkin_2_1", 2}, {"galerkin_2_2", 3, "lobatto"}, {"galerkin_3_2_shared", 4}}) {
+    SCOPED_TRACE(scheme.label());
+    const Trajectory spiral =
+        tests::solve(problem, scheme, tests::graded_grid(16), guessed_motion(problem), 1e-11).trajectory;
+    EXPECT_LT(momentum_consistency(problem, spiral).largest, 1e-10);
+    EXPECT_LT(consistency(*two_link, scheme, Grid::uniform(32)).largest, 1e-10);
+  }
+}
+
 TEST(MomentumConsistency, IsNoIdentityButTheRowOfTheNodeAlongTheSymmetry) {
   // At a point that solves nothing the defect of interval k is minus the row of node k + 1: only solving makes it
   // vanish.

@@ -278,12 +278,14 @@ INSTANTIATE_TEST_SUITE_P(All, EqualFirstOrderStates,
 
 TEST(FirstOrderStatesRefused, ByShooting) {
   const TwoLinkWithMotors problem;
-  EXPECT_EQ(
-      tests::sentence_of_error([&] {
-        static_cast<void>(tests::transcribe(problem, {"multiple_shooting_rk4_1", 1}, Grid::uniform(8)));
-      }),
-      "this method does not support first-order states (Problem::first_order_names); dmoc, hamiltonian and tangent "
-      "do");
+  for (const int stages : {1, 2, 3}) {
+    EXPECT_EQ(
+        tests::sentence_of_error([&] {
+          static_cast<void>(tests::transcribe(problem, {"multiple_shooting_rk4_1", stages}, Grid::uniform(8)));
+        }),
+        "this method does not support first-order states (Problem::first_order_names); dmoc, hamiltonian, tangent "
+        "and galerkin do");
+  }
 }
 
 TEST(FirstOrderStatesRefused, WithRatesOfAnotherSize) {

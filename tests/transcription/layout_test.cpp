@@ -82,6 +82,8 @@ TEST(Layout, ColumnsAreDisjointAndCoverEveryUnknownOnce) {
                          .control_size = m,
                          .node_state = state,
                          .stages = s,
+                         .rate_stages = s,
+                         .control_stages = s,
                          .node_rows = second ? 0 : n,
                          .stage_equations = second ? 2 * n * s : n * (s - 1)});
     std::multiset<std::size_t> covered;
@@ -124,6 +126,8 @@ TEST(Layout, SharedControlsOfNeighboursAreTheSameUnknown) {
                        .control_size = 2,
                        .node_state = NodeState::velocity,
                        .stages = 3,
+                       .rate_stages = 3,
+                       .control_stages = 3,
                        .shares_controls = true,
                        .stage_equations = 12});
   std::set<std::size_t> covered;

@@ -14,7 +14,7 @@ class AmplNames {
  public:
   explicit AmplNames(const Transcription& program)
       : shape_(program.layout().shape()),
-        interior_stages_(program.layout().interior_stages()),
+        layout_(program.layout()),
         q_(without_spaces(program.problem().configuration_names())),
         u_(without_spaces(program.problem().control_names())) {}
 
@@ -80,11 +80,11 @@ class AmplNames {
     }
     for (Eigen::Index i = 1; i <= shape_.first_order_size; ++i) at_nodes(fmt::format("y_{}", i));
     for (const std::string& half : halves) {
-      for (Eigen::Index stage = 1; stage <= interior_stages_; ++stage) {
+      for (Eigen::Index stage = 1; stage <= layout_.interior_stages(); ++stage) {
         for (const std::string& q : q_) in_intervals(fmt::format("rate_{}_{}{}", stage, half, q));
       }
     }
-    for (Eigen::Index stage = 1; stage <= interior_stages_; ++stage) {
+    for (Eigen::Index stage = 1; stage <= layout_.interior_first_order_stages(); ++stage) {
       for (Eigen::Index i = 1; i <= shape_.first_order_size; ++i) in_intervals(fmt::format("rate_{}_y_{}", stage, i));
     }
   }
@@ -95,14 +95,14 @@ class AmplNames {
       for (const std::string& u : u_) at_nodes(u);
     }
     const Eigen::Index first = shape_.shares_controls ? 2 : 1;
-    const Eigen::Index last = shape_.shares_controls ? shape_.stages - 1 : shape_.stages;
+    const Eigen::Index last = shape_.control_stages - (shape_.shares_controls ? 1 : 0);
     for (Eigen::Index stage = first; stage <= last; ++stage) {
-      for (const std::string& u : u_) in_intervals(shape_.stages > 1 ? fmt::format("{}_{}", u, stage) : u);
+      for (const std::string& u : u_) in_intervals(shape_.control_stages > 1 ? fmt::format("{}_{}", u, stage) : u);
     }
   }
 
   const LayoutShape& shape_;
-  Eigen::Index interior_stages_;
+  const Layout& layout_;
   std::vector<std::string> q_;
   std::vector<std::string> u_;
   std::vector<std::string> names_;

@@ -31,9 +31,12 @@ void require_feedback(const Transcription& program, const Eigen::VectorXd& prima
       static_cast<std::size_t>(multipliers.size()) != program.constraint_count()) {
     throw Error("feedback gains need the variables and multipliers of a solution of the same program");
   }
+  const IntervalFunctions& functions = program.functions();
+  const bool has_own_times = !functions.controls.has_times_of(program.tableau());
   const char* reason = shape.free_horizon             ? "a free horizon"
                        : shape.conditions > 0         ? "boundary conditions"
                        : shape.shares_controls        ? "controls that two intervals share"
+                       : has_own_times                ? "controls at times of their own"
                        : shape.mayer                  ? "the Mayer form"
                        : shape.integrals > 0          ? "integral constraints"
                        : shape.first_order_size > 0   ? "first-order states"

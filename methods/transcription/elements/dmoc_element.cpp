@@ -16,9 +16,16 @@ Eigen::Index DmocElement::multipliers(const Tableau& tableau) const {
 
 IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& tableau,
                                  const IntervalUnknowns& unknowns) const {
+  const auto rates = stage_rates(unknowns.left_q, unknowns.right_q, unknowns.rates_q, tableau.b, unknowns.h);
+  const auto configurations = stage_values(unknowns.left_q, rates, tableau.a, unknowns.h);
+  return lagrange_d_alembert(problem, tableau, unknowns, {configurations, rates, unknowns.controls}, tableau.b);
+}
+
+IntervalTrace lagrange_d_alembert(const TracedProblem& problem, const Tableau& tableau,
+                                  const IntervalUnknowns& unknowns, const StagePath& path,
+                                  const Eigen::VectorXd& rate_weights) {
   const Expression& h = unknowns.h;
-  const auto rates = stage_rates(unknowns.left_q, unknowns.right_q, unknowns.rates_q, tableau.b, h);
-  const auto configurations = stage_values(unknowns.left_q, rates, tableau.a, h);
+  const auto& [configurations, rates, controls] = path;
 
   IntervalTrace trace;
   std::vector<TracedProblem::Values> values;
@@ -26,7 +33,7 @@ IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& ta
   std::vector<std::vector<ConjugatePair>> pairs;  // L_q + f works along Q_i, L_v along Q̇_i
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const Expression time = unknowns.t + Expression(tableau.c[static_cast<Eigen::Index>(i)]) * h;
-    trace.stages.push_back({configurations[i], rates[i], unknowns.controls[i], time, unknowns.stage_y(i)});
+    trace.stages.push_back({configurations[i], rates[i], controls[i], time, unknowns.stage_y(i)});
     values.push_back(problem.at(trace.stages.back()));
     pairs.push_back({{configurations[i], values[i].generalised_force}, {rates[i], values[i].momentum}});
     if (i == 0 || i >= unknowns.multipliers.size()) continue;
@@ -40,7 +47,7 @@ IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& ta
   trace.stage_equations.resize(n * static_cast<Eigen::Index>(unknowns.rates_q.size()));
   for (std::size_t j = 0; j < unknowns.rates_q.size(); ++j) {
     const auto row = static_cast<Eigen::Index>(j);
-    trace.stage_equations.segment(row * n, n) = vary(unknowns.rates_q[j]) / (h * Expression(tableau.b[row]));
+    trace.stage_equations.segment(row * n, n) = vary(unknowns.rates_q[j]) / (h * Expression(rate_weights[row]));
   }
   if (!unknowns.multipliers.empty()) {
     const Expression weight = h * Expression(rates.size() == 1 ? 0.5 : tableau.b[0]);

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "methods/transcription/elements/element.hpp"
 
@@ -32,5 +35,18 @@ class DmocElement final : public Element {
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const override;
 };
+
+/// The motion of an interval at its stages, as functions of the interval's unknowns: an entry per stage each.
+struct StagePath {
+  std::vector<ExpressionVector> configurations;  ///< Q_i
+  std::vector<ExpressionVector> rates;           ///< Q̇_i
+  std::vector<ExpressionVector> controls;        ///< U_i
+};
+
+/// The formulas above for any path, with the tableau as the quadrature of A and W. `rate_weights` are the b_j by which
+/// the equations of the unknown rates are divided, one per rate.
+[[nodiscard]] IntervalTrace lagrange_d_alembert(const TracedProblem& problem, const Tableau& tableau,
+                                                const IntervalUnknowns& unknowns, const StagePath& path,
+                                                const Eigen::VectorXd& rate_weights);
 
 }  // namespace dmocbench

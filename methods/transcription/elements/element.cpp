@@ -2,6 +2,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
+#include "methods/numerics/lagrange_basis.hpp"
 
 namespace dmocbench {
 
@@ -11,10 +12,12 @@ Eigen::Index Element::multipliers(const Tableau& /*tableau*/) const {
 
 IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem, const Element& element,
                                const Tableau& tableau) {
-  const Eigen::Index stages = tableau.stages();
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index second = element.node_state() == NodeState::configuration ? 0 : n;
-  const Eigen::Index interior = element.has_stage_unknowns() ? stages - 1 : 0;
+  const bool has_stages = element.has_stage_unknowns();
+  const Eigen::Index interior = has_stages ? element.rates(tableau).stages() - 1 : 0;
+  const Eigen::Index interior_y = has_stages ? tableau.stages() - 1 : 0;
+  const Eigen::Index controls = element.controls(tableau).stages();
   IntervalUnknowns unknowns;
   unknowns.left_q = counter.take(n);
   unknowns.left_second = counter.take(second);
@@ -24,8 +27,8 @@ IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& probl
   unknowns.right_y = counter.take(problem.first_order_size());
   for (Eigen::Index j = 0; j < interior; ++j) unknowns.rates_q.push_back(counter.take(n));
   for (Eigen::Index j = 0; j < interior && second > 0; ++j) unknowns.rates_second.push_back(counter.take(n));
-  for (Eigen::Index j = 0; j < interior; ++j) unknowns.rates_y.push_back(counter.take(problem.first_order_size()));
-  for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(counter.take(problem.control_size()));
+  for (Eigen::Index j = 0; j < interior_y; ++j) unknowns.rates_y.push_back(counter.take(problem.first_order_size()));
+  for (Eigen::Index i = 0; i < controls; ++i) unknowns.controls.push_back(counter.take(problem.control_size()));
   const Eigen::Index c = problem.holonomic_count();
   const Eigen::Index multipliers = c > 0 ? element.multipliers(tableau) : 0;
   for (Eigen::Index i = 0; i < multipliers; ++i) unknowns.multipliers.push_back(counter.take(c));
@@ -61,6 +64,15 @@ std::vector<ExpressionVector> stage_values(const ExpressionVector& left, const s
     stages.push_back(stage);
   }
   return stages;
+}
+
+ExpressionVector polynomial_at(const Eigen::VectorXd& c, const std::vector<ExpressionVector>& values, double tau) {
+  const Eigen::VectorXd weights = lagrange_basis(c, tau);
+  ExpressionVector sum(values.front().size());
+  for (Eigen::Index j = 0; j < weights.size(); ++j) {
+    sum += Expression(weights[j]) * values[static_cast<std::size_t>(j)];
+  }
+  return sum;
 }
 
 ExpressionVector variation(const ExpressionVector& x, const std::vector<std::vector<ConjugatePair>>& stages,

@@ -22,13 +22,14 @@ enum class NodeState : std::uint8_t {
 
 /// The unknowns of one interval [t_k, t_{k+1}], as traced numbers.
 struct IntervalUnknowns {
-  ExpressionVector left_q;                ///< q_k, n entries
-  ExpressionVector left_second;           ///< p_k or v_k, n entries; empty where nodes carry q alone
-  ExpressionVector right_q;               ///< q_{k+1}
-  ExpressionVector right_second;          ///< p_{k+1} or v_{k+1}
-  std::vector<ExpressionVector> rates_q;  ///< Q̇_1 .. Q̇_{s-1}, the last stage rate is eliminated; none of shooting
+  ExpressionVector left_q;        ///< q_k, n entries
+  ExpressionVector left_second;   ///< p_k or v_k, n entries; empty where nodes carry q alone
+  ExpressionVector right_q;       ///< q_{k+1}
+  ExpressionVector right_second;  ///< p_{k+1} or v_{k+1}
+  /// Q̇_1 .. Q̇_{s-1} at the stages of `Element::rates`, the last stage rate is eliminated; none of shooting.
+  std::vector<ExpressionVector> rates_q;
   std::vector<ExpressionVector> rates_second;  ///< Ṗ_j or V̇_j, j = 1 .. s-1; none of shooting
-  std::vector<ExpressionVector> controls;      ///< U_1 .. U_s, m entries each
+  std::vector<ExpressionVector> controls;      ///< U_1 .. U_s at the stages of `Element::controls`, m entries each
   ExpressionVector left_y;                     ///< y_k, l entries
   ExpressionVector right_y;                    ///< y_{k+1}
   std::vector<ExpressionVector> rates_y;       ///< Ẏ_1 .. Ẏ_s of which the last is eliminated; none without y
@@ -75,11 +76,12 @@ struct IntervalTrace {
 /// otherwise, every element satisfies four identities, which `broken_identities` (methods/diagnostics) checks.
 ///
 /// 1. Counts. An interval has as many equations as unknowns besides its controls (rem:savings): e and l together have d
-///    entries for its node and d for each interior stage rate,
+///    entries for its node and d for each interior stage rate; with rates and controls at its s stages that is
 ///      DMOC                  n of l,  (s - 1) n of e          for sn + sm unknowns,
 ///      collocation           none,    2sn of e                for 2sn + sm unknowns,
 ///      no stage unknowns     none,    2n of e                 for 2n + sm unknowns.
-///    r has as many entries as l. Stage i is at the time t_k + c_i h and has the control U_i.
+///    r has as many entries as l. Stage i is at the time t_k + c_i h and has the control U_i; where controls have nodes
+///    of their own, the value of the polynomial through them.
 ///
 /// 2. Consistency. p_k⁻ = p and e = 0 determine all unknowns of an interval but q_k and the controls. Started on an
 ///    exact motion, with the exact controls at the stage times, this map (q_k, p_k) ↦ (q_{k+1}, p_{k+1}⁺) and the cost
@@ -113,6 +115,12 @@ class Element {
   /// How many multipliers each holonomic constraint has per interval: as many as its conditions among the stage
   /// equations. Throws `Error` if constraints are not offered with the tableau; default: with none.
   [[nodiscard]] virtual Eigen::Index multipliers(const Tableau& tableau) const;
+  /// The tableau at whose stages rates of q are unknowns, all but the last. Throws `Error` if the element cannot be
+  /// used with this tableau.
+  [[nodiscard]] virtual Tableau rates(const Tableau& tableau) const { return tableau; }
+  /// The tableau at whose stages the controls are unknowns, and whether neighbouring intervals share one. Throws
+  /// likewise.
+  [[nodiscard]] virtual Tableau controls(const Tableau& tableau) const { return tableau; }
   /// The formulas of one interval; all vectors have the sizes that `IntervalTrace` names.
   [[nodiscard]] virtual IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                             const IntervalUnknowns& unknowns) const = 0;
@@ -149,6 +157,10 @@ class Element {
 [[nodiscard]] std::vector<ExpressionVector> stage_values(const ExpressionVector& left,
                                                          const std::vector<ExpressionVector>& rates,
                                                          const Eigen::MatrixXd& a, const Expression& h);
+
+/// The value at τ of the polynomial through values at the times c: Σ_j ℓ_j(τ) x_j.
+[[nodiscard]] ExpressionVector polynomial_at(const Eigen::VectorXd& c, const std::vector<ExpressionVector>& values,
+                                             double tau);
 
 /// A quantity that varies and the force that does work on its variation.
 struct ConjugatePair {

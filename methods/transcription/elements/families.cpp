@@ -7,6 +7,7 @@
 #include "methods/choose.hpp"
 #include "methods/transcription/elements/collocation_elements.hpp"
 #include "methods/transcription/elements/dmoc_element.hpp"
+#include "methods/transcription/elements/galerkin_element.hpp"
 #include "methods/transcription/elements/shooting_element.hpp"
 
 namespace dmocbench {
@@ -39,20 +40,25 @@ constexpr std::array families{
            .label = "Multiple shooting",
            .style = 4,
            .make = shoot<Shooting::multiple>,
-           .takes_integrator = true},
+           .suffix = MethodSuffix::integration},
     Family{.name = shooting_family(Shooting::single),
            .label = "Single shooting",
            .style = 5,
            .make = shoot<Shooting::single>,
-           .takes_integrator = true,
+           .suffix = MethodSuffix::integration,
            .is_condensed = true},
+    Family{.name = galerkin_family,
+           .label = "Galerkin variational integrator",
+           .style = 6,
+           .make = make_galerkin_element,
+           .suffix = MethodSuffix::spaces},
 };
 
-/// Whether the method is the family, or begins with its name and "_" if it takes an integrator.
+/// Whether the method is the family, or begins with its name and "_" if it has a suffix.
 bool has_method(const Family& family, std::string_view method) {
   if (!method.starts_with(family.name)) return false;
   const std::string_view rest = method.substr(family.name.size());
-  return family.takes_integrator ? rest.starts_with('_') : rest.empty();
+  return family.suffix == MethodSuffix::none ? rest.empty() : rest.starts_with('_');
 }
 
 }  // namespace
@@ -84,9 +90,18 @@ std::vector<std::string> all_families() { return names_of(families, &Family::nam
 std::vector<std::string> all_methods() {
   std::vector<std::string> names;
   for (const Family& family : families) {
-    if (!family.takes_integrator) names.emplace_back(family.name);
-    for (const std::string& integrator : shooting_integrator_names()) {
-      if (family.takes_integrator) names.push_back(shooting_name(family.name, integrator, 1));
+    switch (family.suffix) {
+      case MethodSuffix::none:
+        names.emplace_back(family.name);
+        break;
+      case MethodSuffix::integration:
+        for (const std::string& integrator : shooting_integrator_names()) {
+          names.push_back(shooting_name(family.name, integrator, 1));
+        }
+        break;
+      case MethodSuffix::spaces:
+        names.push_back(galerkin_name(1, 1, false));
+        break;
     }
   }
   return names;

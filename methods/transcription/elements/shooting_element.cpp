@@ -13,7 +13,6 @@
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/expression/linear_solve.hpp"
-#include "methods/numerics/lagrange_basis.hpp"
 #include "methods/runtime/parsed.hpp"
 #include "methods/transcription/elements/dmoc_shooting_element.hpp"
 
@@ -36,12 +35,7 @@ class ControlledFlow {
 
   /// At the time `tau` relative to the interval.
   [[nodiscard]] ExpressionVector control(double tau) const {
-    const Eigen::VectorXd weights = lagrange_basis(tableau_->c, tau);
-    ExpressionVector u(problem_->control_size());
-    for (Eigen::Index i = 0; i < weights.size(); ++i) {
-      u += Expression(weights[i]) * unknowns_->controls[static_cast<std::size_t>(i)];
-    }
-    return u;
+    return polynomial_at(tableau_->c, unknowns_->controls, tau);
   }
 
   [[nodiscard]] Flow rate(const Flow& at, double tau) const {

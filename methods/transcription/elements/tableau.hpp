@@ -22,6 +22,8 @@ struct Tableau {
   bool shares_controls = false;
 
   [[nodiscard]] Eigen::Index stages() const noexcept { return b.size(); }  ///< s.
+  /// True if the stages of both are at the same times.
+  [[nodiscard]] bool has_times_of(const Tableau& other) const { return c.size() == other.c.size() && c == other.c; }
 };
 
 /// The coefficients that form a symplectic pair with the given ones: ã_ij = b_j - b_j a_ji / b_i (eq:DMOC_RK_symp), s ×

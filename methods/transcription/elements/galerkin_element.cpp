@@ -1,0 +1,99 @@
+#include "methods/transcription/elements/galerkin_element.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "methods/error.hpp"
+#include "methods/numerics/lagrange_basis.hpp"
+#include "methods/runtime/parsed.hpp"
+#include "methods/transcription/elements/dmoc_element.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Row i: ∫₀^{c_i} ℓ_j of the stages of a tableau whose quadrature is exact for them.
+Eigen::MatrixXd integrals_to(const Eigen::VectorXd& c, const Tableau& stages) {
+  Eigen::MatrixXd integrals = Eigen::MatrixXd::Zero(c.size(), stages.stages());
+  for (Eigen::Index i = 0; i < c.size(); ++i) {
+    for (Eigen::Index j = 0; j < stages.stages(); ++j) {
+      integrals.row(i) += c[i] * stages.b[j] * lagrange_basis(stages.c, c[i] * stages.c[j]).transpose();
+    }
+  }
+  return integrals;
+}
+
+Tableau tableau_of_space(std::string_view family, int stages, std::string_view what) {
+  const std::vector<int> offered = tableau_stages(family);
+  if (std::ranges::count(offered, stages) > 0) return make_tableau(family, stages);
+  throw Error(fmt::format("galerkin: {} is one of {}, not {}", what, fmt::join(offered, ", "), stages));
+}
+
+/// `space` if the quadrature has enough points for it; `what` names its size, such as "degree 3".
+const Tableau& fit_for(const Tableau& quadrature, const Tableau& space, const std::string& what) {
+  if (space.stages() <= quadrature.stages()) return space;
+  throw Error(fmt::format("galerkin with {} needs {} quadrature points or more, got {}", what, space.stages(),
+                          quadrature.stages()));
+}
+
+}  // namespace
+
+GalerkinElement::GalerkinElement(int degree, int control_nodes, bool has_continuous_controls)
+    : rates_(tableau_of_space("gauss", degree, "the degree of configurations")),
+      controls_(has_continuous_controls
+                    ? tableau_of_space("lobatto_shared", control_nodes, "the number of shared control nodes")
+                    : tableau_of_space("gauss", control_nodes, "the number of control nodes")) {}
+
+std::string GalerkinElement::name() const {
+  return galerkin_name(static_cast<int>(rates_.stages()), static_cast<int>(controls_.stages()),
+                       controls_.shares_controls);
+}
+
+std::string GalerkinElement::description() const {
+  return fmt::format("Galerkin variational integrator: q of degree {}, {} controls of degree {}, any quadrature",
+                     rates_.stages(), controls_.shares_controls ? "continuous" : "discontinuous",
+                     controls_.stages() - 1);
+}
+
+Tableau GalerkinElement::rates(const Tableau& quadrature) const {
+  return fit_for(quadrature, rates_, fmt::format("degree {}", rates_.stages()));
+}
+
+Tableau GalerkinElement::controls(const Tableau& quadrature) const {
+  return fit_for(quadrature, controls_, fmt::format("{} control nodes", controls_.stages()));
+}
+
+IntervalTrace GalerkinElement::trace(const TracedProblem& problem, const Tableau& quadrature,
+                                     const IntervalUnknowns& unknowns) const {
+  const auto rates = stage_rates(unknowns.left_q, unknowns.right_q, unknowns.rates_q, rates_.b, unknowns.h);
+  StagePath path;
+  path.configurations = stage_values(unknowns.left_q, rates, integrals_to(quadrature.c, rates_), unknowns.h);
+  for (const double tau : quadrature.c) {
+    path.rates.push_back(polynomial_at(rates_.c, rates, tau));
+    path.controls.push_back(polynomial_at(controls_.c, unknowns.controls, tau));
+  }
+  return lagrange_d_alembert(problem, quadrature, unknowns, path, rates_.b);
+}
+
+std::string galerkin_name(int degree, int control_nodes, bool has_continuous_controls) {
+  return fmt::format("{}_{}_{}{}", galerkin_family, degree, control_nodes, has_continuous_controls ? "_shared" : "");
+}
+
+std::unique_ptr<Element> make_galerkin_element(std::string_view spaces) {
+  constexpr std::string_view shared = "_shared";
+  const bool is_continuous = spaces.ends_with(shared);
+  const std::string_view numbers = spaces.substr(0, spaces.size() - (is_continuous ? shared.size() : 0));
+  const std::size_t bar = numbers.find('_');
+  const auto degree = parsed<int>(numbers.substr(0, bar));
+  const auto nodes = bar == std::string_view::npos ? std::nullopt : parsed<int>(numbers.substr(bar + 1));
+  if (!degree || !nodes) {
+    throw Error(fmt::format(R"("{}_{}" names no degree and number of control nodes; "{}" does)", galerkin_family,
+                            spaces, galerkin_name(2, 1, is_continuous)));
+  }
+  return std::make_unique<GalerkinElement>(*degree, *nodes, is_continuous);
+}
+
+}  // namespace dmocbench
