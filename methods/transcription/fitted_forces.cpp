@@ -40,7 +40,7 @@ Numbered fitted_unknowns(const Transcription& program, FittedForces with) {
   Numbered unknowns(program.variable_count());
   const bool has_second = shape.node_state != NodeState::configuration;
   if (with == FittedForces::controls) {
-    for (Eigen::Index stage = 0; stage < shape.stages; ++stage) {
+    for (Eigen::Index stage = 0; stage < shape.control_stages; ++stage) {
       for (Eigen::Index i = 0; i < shape.control_size; ++i)
         unknowns.add(layout.control_head(stage, i), shape.intervals);
     }
