@@ -10,58 +10,41 @@
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/replay_error.hpp"
-#include "methods/judgement/polish.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
-#include "methods/solvers/solver.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
-#include "methods/transcription/trajectory_reader.hpp"
 #include "problems/control_rate.hpp"
 #include "problems/orbital_transfer_with_mass.hpp"
 #include "problems/two_link_with_motors.hpp"
+#include "tests/solvers/confirmed_answer.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench {
 namespace {
 
+using tests::Answer;
 using tests::Scheme;
 
-/// A program with its answer.
-struct Answer {
-  std::unique_ptr<Transcription> program;
-  Solution solution;
-  Trajectory motion;
-};
-
-Answer solved(const Problem& problem, const Scheme& scheme, Eigen::Index intervals, const Motion& start,
-              const std::string& solver = "interior_point") {
-  Answer answer{tests::transcribe(problem, scheme, Grid::uniform(intervals)), {}, {}};
-  SolverOptions options;
-  options.tolerance = 1e-10;
-  answer.solution = make_solver(solver, options)->solve(*answer.program, sample(*answer.program, start));
-  settle(*answer.program, options.tolerance, answer.solution);
-  polish(*answer.program, answer.solution);
-  EXPECT_TRUE(is_solved(answer.solution.status))
-      << problem.name() << ", " << scheme.label() << ", N = " << intervals << ": " << answer.solution.message;
-  answer.motion = read_trajectory(*answer.program, answer.solution.primal, answer.solution.multipliers);
-  return answer;
+Answer solved_tightly(const Problem& problem, const Scheme& scheme, Eigen::Index intervals, const Motion& start,
+                      const std::string& solver = "interior_point") {
+  return tests::confirmed(problem, scheme, intervals, start, 1e-10, solver);
 }
 
 /// Gauss with four stages, of order 8, on 512 intervals.
-struct Reference {
-  explicit Reference(std::unique_ptr<Problem> of)
+struct ReferenceMotion {
+  explicit ReferenceMotion(std::unique_ptr<Problem> of)
       : problem(std::move(of)),
-        near(smooth_motion(solved(*problem, {"dmoc", 2}, 64, guessed_motion(*problem)).motion)),
-        motion(solved(*problem, {"hamiltonian", 4}, 512, near).motion) {}
+        near(smooth_motion(solved_tightly(*problem, {"dmoc", 2}, 64, guessed_motion(*problem)).motion)),
+        motion(solved_tightly(*problem, {"hamiltonian", 4}, 512, near).motion) {}
   std::unique_ptr<Problem> problem;
   Motion near;
   Trajectory motion;
 };
 
-const Reference& reference_of(const std::string& name) {
-  static const Reference orbit(std::make_unique<OrbitalTransferWithMass>());
-  static const Reference arm(std::make_unique<TwoLinkWithMotors>());
+const ReferenceMotion& reference_of(const std::string& name) {
+  static const ReferenceMotion orbit(std::make_unique<OrbitalTransferWithMass>());
+  static const ReferenceMotion arm(std::make_unique<TwoLinkWithMotors>());
   return name == "orbit" ? orbit : arm;
 }
 
@@ -69,12 +52,12 @@ class OrdersOfFirstOrderStates : public testing::TestWithParam<std::tuple<std::s
 
 TEST_P(OrdersOfFirstOrderStates, AreThoseOfTheTableauAtTheNodes) {
   const auto& [name, scheme] = GetParam();
-  const Reference& reference = reference_of(name);
+  const ReferenceMotion& reference = reference_of(name);
   const int order = scheme.tableau().order;
   // Where the errors are far above rounding, and the terms of higher order are small.
   const Eigen::Index finest = order == 2 ? 512 : order == 4 || name == "arm" ? 256 : 128;
   const auto errors = [&](Eigen::Index intervals) {
-    const Trajectory motion = solved(*reference.problem, scheme, intervals, reference.near).motion;
+    const Trajectory motion = solved_tightly(*reference.problem, scheme, intervals, reference.near).motion;
     std::vector<double> all;
     for (const auto part :
          {&Trajectory::q, &Trajectory::p, &Trajectory::y, &Trajectory::psi_q, &Trajectory::psi_p, &Trajectory::psi_y}) {
@@ -118,8 +101,8 @@ TEST_P(FirstOrderStates, CostOneUnknownMoreForEachPerStageOfAnInterval) {
 }
 
 TEST_P(FirstOrderStates, CostatesAreTheGradientOfTheLeastCost) {
-  const Reference& reference = reference_of("orbit");
-  const Answer answer = solved(*reference.problem, GetParam(), 16, reference.near);
+  const ReferenceMotion& reference = reference_of("orbit");
+  const Answer answer = solved_tightly(*reference.problem, GetParam(), 16, reference.near);
   LegendreTransform legendre(answer.program->traced_problem());
   const MotionPoint first = answer.motion.node(0);
   const Eigen::VectorXd p = answer.motion.p.row(0).transpose();
@@ -148,14 +131,14 @@ TEST_P(FirstOrderStates, CostatesAreTheGradientOfTheLeastCost) {
 }
 
 TEST_P(FirstOrderStates, FreeOnesHaveNoCostateAtTheEnd) {
-  const Reference& reference = reference_of("arm");
-  const Trajectory motion = solved(*reference.problem, GetParam(), 16, reference.near).motion;
+  const ReferenceMotion& reference = reference_of("arm");
+  const Trajectory motion = solved_tightly(*reference.problem, GetParam(), 16, reference.near).motion;
   EXPECT_LT(motion.psi_y.bottomRows(1).norm(), 1e-7 * motion.psi_y.norm());
 }
 
 TEST_P(FirstOrderStates, MomentaOfAChangingMassAreTheWorkOfTheForces) {
-  const Reference& reference = reference_of("orbit");
-  const Trajectory motion = solved(*reference.problem, GetParam(), 32, reference.near).motion;
+  const ReferenceMotion& reference = reference_of("orbit");
+  const Trajectory motion = solved_tightly(*reference.problem, GetParam(), 32, reference.near).motion;
   EXPECT_LT(motion.y(32, 0), 0.9);
   const MomentumConsistency consistency = momentum_consistency(*reference.problem, motion);
   if (GetParam().method != "tangent") {
@@ -166,9 +149,9 @@ TEST_P(FirstOrderStates, MomentaOfAChangingMassAreTheWorkOfTheForces) {
 }
 
 TEST_P(FirstOrderStates, ReplayOfTheControlsLeadsToTheEnd) {
-  const Reference& reference = reference_of("arm");
+  const ReferenceMotion& reference = reference_of("arm");
   const auto missed = [&](Eigen::Index intervals) {
-    const Trajectory motion = solved(*reference.problem, GetParam(), intervals, reference.near).motion;
+    const Trajectory motion = solved_tightly(*reference.problem, GetParam(), intervals, reference.near).motion;
     EXPECT_NEAR(replay_error(*reference.problem, motion).cost, motion.cost, 0.1 * motion.cost);
     return replay_error(*reference.problem, motion).norm();
   };
@@ -177,8 +160,8 @@ TEST_P(FirstOrderStates, ReplayOfTheControlsLeadsToTheEnd) {
 }
 
 TEST_P(FirstOrderStates, EveryIntervalLeadsToTheNextNode) {
-  const Reference& reference = reference_of("orbit");
-  const Trajectory motion = solved(*reference.problem, GetParam(), 32, reference.near).motion;
+  const ReferenceMotion& reference = reference_of("orbit");
+  const Trajectory motion = solved_tightly(*reference.problem, GetParam(), 32, reference.near).motion;
   EXPECT_LT(accuracy(*reference.problem, motion).relative_jump, 0.02);
   Trajectory heavier = motion;
   heavier.y(16, 0) += 0.05;
@@ -190,8 +173,8 @@ TEST_P(FirstOrderStates, MassThatStaysMakesTheProblemOfThePaper) {
   with.set_parameter("inverse_power", 0.0);
   const OrbitalTransfer without;
   const Motion start = guessed_motion(without);
-  const Trajectory a = solved(with, GetParam(), 32, guessed_motion(with)).motion;
-  const Trajectory b = solved(without, GetParam(), 32, start).motion;
+  const Trajectory a = solved_tightly(with, GetParam(), 32, guessed_motion(with)).motion;
+  const Trajectory b = solved_tightly(without, GetParam(), 32, start).motion;
   EXPECT_NEAR(a.cost, b.cost, 1e-9 * b.cost);
   EXPECT_LT((a.q - b.q).lpNorm<Eigen::Infinity>(), 1e-9);
   EXPECT_LT((a.psi_p - b.psi_p).lpNorm<Eigen::Infinity>(), 1e-6 * b.psi_p.lpNorm<Eigen::Infinity>());
@@ -203,7 +186,7 @@ TEST_P(FirstOrderStates, BoundedRateOfAForceHasItsClosedForm) {
   }
   const ControlRate problem;
   for (const std::string solver : {"ipopt", "interior_point"}) {
-    const Trajectory motion = solved(problem, GetParam(), 64, guessed_motion(problem), solver).motion;
+    const Trajectory motion = solved_tightly(problem, GetParam(), 64, guessed_motion(problem), solver).motion;
     EXPECT_NEAR(motion.cost, 24.0 / 13.0, 3e-3);
     EXPECT_LT(motion.stage_u.lpNorm<Eigen::Infinity>(), 4.0 + 1e-8);
     // At t = 1, where no bound acts.
@@ -237,18 +220,18 @@ TEST_P(FirstOrderStates, BoundsOnThemHoldAtEveryNode) {
   };
   const Limited problem;
   for (const std::string solver : {"ipopt", "interior_point"}) {
-    const Trajectory motion = solved(problem, GetParam(), 32, guessed_motion(problem), solver).motion;
+    const Trajectory motion = solved_tightly(problem, GetParam(), 32, guessed_motion(problem), solver).motion;
     EXPECT_NEAR(motion.y.maxCoeff(), 5.0, 1e-6);
     EXPECT_NEAR(motion.y.minCoeff(), -5.0, 1e-6);
   }
 }
 
 TEST_P(FirstOrderStates, BothInteriorPointMethodsAgreeOnCoarseAndFineGrids) {
-  const Reference& reference = reference_of("arm");
+  const ReferenceMotion& reference = reference_of("arm");
   for (const Eigen::Index intervals : {64, 1024}) {
     if (intervals > 64 && GetParam().stages > 2) continue;
-    const Answer by_intervals = solved(*reference.problem, GetParam(), intervals, reference.near);
-    const Answer by_ipopt = solved(*reference.problem, GetParam(), intervals, reference.near, "ipopt");
+    const Answer by_intervals = solved_tightly(*reference.problem, GetParam(), intervals, reference.near);
+    const Answer by_ipopt = solved_tightly(*reference.problem, GetParam(), intervals, reference.near, "ipopt");
     EXPECT_NEAR(by_intervals.motion.cost, by_ipopt.motion.cost, 1e-8 * by_ipopt.motion.cost);
   }
 }
@@ -262,8 +245,8 @@ class EqualFirstOrderStates : public testing::TestWithParam<std::tuple<std::stri
 TEST_P(EqualFirstOrderStates, SolutionOfDmocSolvesTheProgramOfHamiltonianCollocation) {
   const auto& [family, stages] = GetParam();
   for (const std::string name : {"orbit", "arm"}) {
-    const Reference& reference = reference_of(name);
-    const Trajectory motion = solved(*reference.problem, {"dmoc", stages, family}, 32, reference.near).motion;
+    const ReferenceMotion& reference = reference_of(name);
+    const Trajectory motion = solved_tightly(*reference.problem, {"dmoc", stages, family}, 32, reference.near).motion;
     const auto other = tests::transcribe(*reference.problem, {"hamiltonian", stages, family}, Grid::uniform(32));
     EXPECT_LT(tests::row_residual(*other, embed(*reference.problem, *other, motion)), 1e-9) << name;
   }

@@ -21,32 +21,19 @@
 #include "methods/transcription/trajectory_reader.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
+#include "tests/solvers/confirmed_answer.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench {
 namespace {
 
+using tests::Answer;
 using tests::Scheme;
-
-struct Answer {
-  std::unique_ptr<Transcription> program;
-  Solution solution;
-  Trajectory motion;
-};
 
 Answer solved(const Problem& problem, const Scheme& scheme, Eigen::Index intervals, const Motion& start,
               const std::string& solver = "interior_point") {
-  Answer answer{tests::transcribe(problem, scheme, Grid::uniform(intervals)), {}, {}};
-  SolverOptions options;
-  options.tolerance = 1e-9;
-  answer.solution = make_solver(solver, options)->solve(*answer.program, sample(*answer.program, start));
-  settle(*answer.program, options.tolerance, answer.solution);
-  polish(*answer.program, answer.solution);
-  EXPECT_TRUE(is_solved(answer.solution.status))
-      << problem.name() << ", " << scheme.label() << ", N = " << intervals << ": " << answer.solution.message;
-  answer.motion = read_trajectory(*answer.program, answer.solution.primal, answer.solution.multipliers);
-  return answer;
+  return tests::confirmed(problem, scheme, intervals, start, 1e-9, solver);
 }
 
 /// The minimal statement solved with order 8, and its motion in redundant coordinates at the nodes.
