@@ -20,7 +20,7 @@ auto count(std::size_t (*of_program)(const NonlinearProgram&)) {
   };
 }
 
-/// A number of seconds; no case that could not start has any, nor one of a batch.
+/// A number of seconds; empty for cases that could not start and for cases of a batch.
 auto seconds(double Solution::*member) {
   return [=](const SolvedCase& solved) {
     return solved.program && solved.is_timed ? std::optional(solved.solution.*member) : std::nullopt;
@@ -89,11 +89,11 @@ const Columns<SolvedCase>& core_columns() {
       {"major_iterations", "", "iterations of the solver", from(&SolvedCase::solution, &Solution::major_iterations)},
       {"minor_iterations", "", "iterations of its quadratic programs",
        from(&SolvedCase::solution, &Solution::minor_iterations)},
-      {"setup_seconds", "s", "transcription: tracing, differentiation, structure; empty of one of a batch",
+      {"setup_seconds", "s", "transcription: tracing, differentiation, structure; empty in a batch",
        from(&SolvedCase::setup_seconds)},
-      {"evaluation_seconds", "s", "part of the solve spent in evaluations; empty of one of a batch",
+      {"evaluation_seconds", "s", "part of the solve spent in evaluations; empty in a batch",
        seconds(&Solution::evaluation_seconds)},
-      {"seconds", "s", "wall clock of the solve; empty of one of a batch, which shares its time with others",
+      {"seconds", "s", "wall clock of the solve; empty in a batch, whose cases share their time",
        seconds(&Solution::seconds)},
       {"largest_jump", "", "largest |(q, v)| by which an interval, replayed from its first node, misses the next one",
        from(&SolvedCase::accuracy, &Accuracy::jump)},
@@ -101,7 +101,7 @@ const Columns<SolvedCase>& core_columns() {
        from(&SolvedCase::accuracy, &Accuracy::relative_jump)},
       {"jump_interval", "", "the interval where that is", from(&SolvedCase::accuracy, &Accuracy::interval)},
       {"answered_by", "",
-       "whose answer it is: the solver itself, the one that auto ended with, or batch: interior_point in lanes",
+       "solver of the answer: the solver itself, the one that auto ended with, or batch: interior_point in lanes",
        from(&SolvedCase::solution, &Solution::solver)},
       {"message", "", "outcome of the solve, in words", from(&SolvedCase::solution, &Solution::message)},
   };

@@ -42,7 +42,7 @@ struct PlannedMotion {
   const RoadmapSystem* system = nullptr;
   TimedRoadmap roadmap;
   std::optional<RatioInterval> milliseconds = {};  ///< of the search
-  std::optional<RoadmapPath> path = {};            ///< none if the goal is not reached
+  std::optional<RoadmapPath> path = {};            ///< empty if the goal is not reached
   std::optional<Trajectory> before = {};           ///< the concatenation
   std::string status = {};                         ///< of the full solve from there
   std::optional<Trajectory> after = {};            ///< its answer, if it is a motion

@@ -14,10 +14,10 @@ namespace dmocbench {
 struct PicturePoint {
   std::string problem;
   std::string part;  ///< "node" of the roadmap, "joint" of the path, or the motion "before" or "after" the full solve
-  std::optional<double> t;  ///< in the problem's unit of time; none of nodes
+  std::optional<double> t;  ///< in the problem's unit of time; empty for nodes
   double x = 0.0;
   double y = 0.0;
-  std::optional<double> u;  ///< the first control; none of nodes
+  std::optional<double> u;  ///< the first control; empty for nodes
 };
 
 [[nodiscard]] Columns<PicturePoint> picture_columns();
