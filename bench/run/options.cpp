@@ -217,10 +217,10 @@ std::vector<ChosenScheme> chosen_schemes(const ExperimentOptions& options) {
     }
   }
   if (!integrates && !(options.integrators.empty() && options.substeps.empty())) {
-    throw Error("--integrator and --substeps are those of shooting; add --method multiple_shooting");
+    throw Error("--integrator and --substeps apply to shooting only; add --method multiple_shooting");
   }
   if (!has_spaces && !(options.quadratures.empty() && options.points.empty() && options.control_nodes.empty())) {
-    throw Error("--quadrature, --points and --control-nodes are those of galerkin; add --method galerkin");
+    throw Error("--quadrature, --points and --control-nodes apply to galerkin only; add --method galerkin");
   }
   return schemes;
 }

@@ -115,6 +115,8 @@ TEST(VaryingParameters, GiveTheProgramThatIsTracedAnew) {
     if (open.empty()) continue;
     for (const tests::Scheme& scheme : schemes()) {
       const auto program = transcribe(*problem, scheme, open);
+      // Which components of the ends holonomic constraints determine is chosen when a program is set up.
+      if (program->traced_problem().holonomic_count() > 0) continue;
       const auto other = make_problem(name);
       RandomPoints random;
       for (const std::string& parameter : open) {

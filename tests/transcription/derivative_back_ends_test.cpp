@@ -52,7 +52,9 @@ FilledDerivatives derivatives_by(const std::string& back_end, const Problem& pro
                                  const Grid& grid, double distance = 0.2) {
   Transcription program(problem, *make_element(scheme.method), gauss_tableau(scheme.stages), grid, back_end);
   RandomPoints random;
-  Eigen::VectorXd x = sample(program, guessed_motion(problem));
+  // By the tape for all, because a start of a mechanism is fitted by derivatives.
+  Transcription by_tape(problem, *make_element(scheme.method), gauss_tableau(scheme.stages), grid);
+  Eigen::VectorXd x = sample(by_tape, guessed_motion(problem));
   x += random.vector(x.size(), -distance, distance);
   const Eigen::VectorXd multipliers = random.vector(static_cast<Eigen::Index>(program.constraint_count()));
   const auto array = [](std::size_t size) {

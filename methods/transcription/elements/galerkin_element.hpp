@@ -17,7 +17,7 @@ namespace dmocbench {
 /// solutions. With ℓ_j the Lagrange polynomials of d_j and ℓ̂_l of the control nodes, the path at the quadrature points
 /// is
 ///   Q_i = q_k + h Σ_j (∫₀^{c_i} ℓ_j) Q̇_j,   V_i = Σ_j ℓ_j(c_i) Q̇_j,   u_i = Σ_l ℓ̂_l(c_i) U_l.
-/// With A = h Σ b_i L(Q_i, V_i) and W[δ] = h Σ b_i f(Q_i, V_i, u_i)·δQ_i the equations are those of `DmocElement`; the
+/// With A = h Σ b_i L(Q_i, V_i) and W[δ] = h Σ b_i f(Q_i, V_i, u_i)·δQ_i the equations are `DmocElement`'s; the
 /// interval's own are (∂A/∂Q̇_j + W[∂/∂Q̇_j]) / (h w_j) = 0, j = 1 .. s-1.
 ///
 /// Control nodes are m Gauss points, each interval with controls of its own; m = 1 is a control that is constant on
@@ -53,7 +53,7 @@ inline constexpr std::string_view galerkin_family = "galerkin";
 /// As `GalerkinElement::name`.
 [[nodiscard]] std::string galerkin_name(int degree, int control_nodes, bool has_continuous_controls);
 
-/// The element of spaces S_M or S_M_shared, such as "2_1". Throws `Error` that says what they lack.
+/// The element of spaces S_M or S_M_shared, such as "2_1". Throws `Error` that names the missing part.
 [[nodiscard]] std::unique_ptr<Element> make_galerkin_element(std::string_view spaces);
 
 }  // namespace dmocbench
