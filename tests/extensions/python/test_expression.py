@@ -109,6 +109,11 @@ class Expressions(unittest.TestCase):
                 x.q.phi
             with self.assertRaisesRegex(IndexError, "out of bounds"):
                 x.q[1]
+            self.assertEqual(repr(x.q["theta"]), repr(x.q[0]))
+            with self.assertRaisesRegex(AttributeError, "x has no theta; write x.q.theta, and x.v.theta for its rate"):
+                x.theta
+            with self.assertRaisesRegex(AttributeError, "x has no qdot; it has q, v"):
+                x.qdot
             with self.assertRaisesRegex(AttributeError, "the Lagrangian"):
                 x.u
 

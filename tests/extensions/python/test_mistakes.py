@@ -59,6 +59,7 @@ class Mistakes(unittest.TestCase):
     def test_numbers_that_are_none(self):
         self.refused("start: q is nan, not a finite number", variant(start=db.at_rest(theta=math.nan)))
         self.refused("the horizon must be positive", variant(horizon=-1.0))
+        self.refused("write between\\(lower, upper, guess\\)", variant(horizon=db.free(2.0)))
         self.refused("at its guess in interval 1 .* running_cost is not a number",
                      variant(running_cost=lambda self, x: x.u[0] ** 2 + db.log(x.q.theta - 10.0)))
 
@@ -68,6 +69,37 @@ class Mistakes(unittest.TestCase):
         self.refused("bounds has an entry 'w'", variant(bounds=lambda self: {"w": (0.0, 1.0)}))
         self.refused("end and bounds of q leave no value for q\\[0\\]",
                      variant(q=db.coordinates("theta", upper=1.0)))
+
+    def test_first_order_states_that_do_not_fit(self):
+        y = db.first_order_states("current")
+        rates = {"y": y, "first_order_rates": lambda self, x: [x.u.tau - x.y.current]}
+        start, end = db.state([0.0], y=[0.0]), db.state([math.pi], y=db.free())
+        self.assertTrue(db.solve(variant(**rates, start=start, end=end), intervals=16).is_solved)
+        self.refused("start: y is not given; it has current", variant(**rates, end=end))
+        self.refused("end: y has 2 entries, expected 1", variant(**rates, start=start, end=db.state([math.pi], y=[0.0, 1.0])))
+        self.refused("lacks first_order_rates", variant(y=y, start=start, end=end))
+        self.refused("first_order_rates has 2 entries, expected 1",
+                     variant(y=y, start=start, end=end, first_order_rates=lambda self, x: [x.u.tau, 1.0]))
+        self.refused("start: y has 1 entries, expected 0", variant(start=start))
+        self.refused("y has no entry voltage; it has current", variant(**{**rates, "force": lambda self, x: [x.y.voltage]},
+                                                                       start=start, end=end), AttributeError)
+
+    def test_unknowns_that_nothing_reads(self):
+        self.refused("nothing reads|no formula reads", variant(stiffness=db.unknown(1.0, lower=0.0, upper=2.0)))
+        with self.assertRaisesRegex(db.Error, "stiffness must be a number in \\[0, 2\\]"):
+            db.solve(variant(stiffness=db.unknown(3.0, lower=0.0, upper=2.0)))
+
+    def test_bounds_of_formulas_that_do_not_fit(self):
+        def integrands(self, x):
+            return [x.u.tau**2]
+
+        self.refused("bounds\\['integrals'\\] has nothing to bound", variant(bounds={"integrals": (0.0, 1.0)}))
+        self.refused("bounds of integrals has 2 entries, and integrands has 1",
+                     variant(integrands=integrands, bounds={"integrals": ([0.0, 1.0], [2.0, 2.0])}))
+        self.refused("integrals", variant(integrands=integrands))
+        self.refused("1 lower and 3 upper|2 lower and 3 upper",
+                     variant(integrands=integrands, bounds={"integrals": ([0.0, 1.0], [2.0, 2.0, 2.0])}))
+        self.refused("lower bound 2 above the upper bound 1", variant(integrands=integrands, bounds={"integrals": (2.0, 1.0)}))
 
     def test_parameters_out_of_range(self):
         with self.assertRaisesRegex(db.Error, "parameter length must be a number in \\[0.1, 10\\] *.*got 20"):
@@ -88,6 +120,16 @@ class Mistakes(unittest.TestCase):
     def test_functions_of_math_on_formulas(self):
         self.refused("dmocbench.cos or numpy.cos", variant(lagrangian=lambda self, x: math.cos(x.q.theta)), TypeError)
         self.refused("smooth_if_else", variant(lagrangian=lambda self, x: 1.0 if x.q.theta > 0 else 2.0), TypeError)
+
+    def test_what_solutions_do_not_have(self):
+        solution = db.solve(PendulumSwingUp(), intervals=8)
+        for ask, sentence in ((lambda: solution.u, "solution.stages.u"), (lambda: solution.tau, "column\\(\"tau\"\\)"),
+                              (lambda: solution.success, "has no success; it has .*is_solved"),
+                              (lambda: solution.stages.w, "stages have no w; they have t, q, v, u")):
+            with self.assertRaisesRegex(AttributeError, sentence):
+                ask()
+        with self.assertRaisesRegex(db.Error, "there is no phi; there are theta, tau"):
+            solution.column("phi")
 
     def test_controls_that_nothing_reads(self):
         self.refused("no formula reads the control tau",

@@ -15,6 +15,9 @@ class Named(np.ndarray):
     def __array_wrap__(self, array, context=None):
         return array[()] if array.ndim == 0 else super().__array_wrap__(array, context)  # x.v @ x.v is one number
 
+    def __getitem__(self, key):
+        return getattr(self, key) if isinstance(key, str) else super().__getitem__(key)
+
     def __getattr__(self, name):
         names = self.__dict__.get("_names", ())
         if name in names:
@@ -41,17 +44,21 @@ class Point:
     first-order states; t: time.
     """
 
-    __slots__ = ("q", "v", "t", "_u", "y")
+    __slots__ = ("q", "v", "u", "t", "y")
 
     def __init__(self, q, v, u, t, y):
         self.q = q
         self.v = v
-        self._u = u
+        if u is not None:
+            self.u = u
         self.t = t
         self.y = y
 
-    @property
-    def u(self):
-        if self._u is None:
+    def __getattr__(self, name):
+        if name == "u":
             raise AttributeError("x.u is not there: the Lagrangian and formulas of the ends depend on q, v, y and t only")
-        return self._u
+        for part in ("q", "u", "y"):
+            if name in getattr(getattr(self, part, None), "_names", ()):
+                raise AttributeError(f"x has no {name}; write x.{part}.{name}" +
+                                     (f", and x.v.{name} for its rate" if part == "q" else ""))
+        raise AttributeError(f"x has no {name}; it has q, v (the rates of q), u, y and t")

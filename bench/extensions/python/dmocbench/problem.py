@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import difflib
 import inspect
@@ -32,6 +33,15 @@ def in_words_of_python(sentence: str) -> str:
     for word, ours in _words.items():
         sentence = sentence.replace(word, ours)
     return sentence
+
+
+@contextlib.contextmanager
+def sentences_of_python():
+    """Errors of C++ in the words of Python."""
+    try:
+        yield
+    except Error as error:
+        raise Error(in_words_of_python(str(error))) from None
 
 
 class _Vector:
@@ -310,7 +320,8 @@ class Problem:
     (cost, digits, certificate), path_constraint_names, boundary_condition_names: words for tables and figures.
 
     start, end, horizon, bounds and cost_scale may be methods too, where they depend on parameters. The docstring of the
-    class is the description. Formulas are traced once: they may loop and call functions, but not branch on x.
+    class is the description. Formulas are traced once: they may loop and call functions, but not branch on x. They may
+    contain functions of dmocbench (sin, sqrt, smooth_abs, Spline, ...), the same ones of numpy, and arrays of formulas.
     """
 
     q: Any
@@ -335,10 +346,8 @@ class Problem:
 
     def handle(self) -> _core.ProblemHandle:
         """The problem as C++ sees it, checked. Throws Error with a sentence if something is missing or does not fit."""
-        try:
+        with sentences_of_python():
             return _core.ProblemHandle(self)
-        except Error as error:
-            raise Error(in_words_of_python(str(error))) from None
 
     def parameters(self) -> dict[str, float]:
         """The values of all parameters by name."""
@@ -413,6 +422,8 @@ class Problem:
 
     def _horizon(self):
         horizon = self._value_of("horizon")
+        if isinstance(horizon, free):
+            raise Error("horizon is free(...), but needs bounds; write between(lower, upper, guess), where lower > 0")
         if isinstance(horizon, between):
             return horizon.guess, horizon.lower, horizon.upper
         number = _number(horizon, "horizon")

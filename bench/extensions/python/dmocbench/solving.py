@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from ._core import Error
-from .problem import Problem, in_words_of_python
+from .problem import Problem, in_words_of_python, sentences_of_python
 
 
 class NamedProblem:
@@ -80,10 +80,10 @@ class Stages:
     def __init__(self, answer: _core.Answer):
         self._answer = answer
 
-    def __getattr__(self, name):
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return getattr(self._answer, "stage_" + name)
+    def __getattr__(self, name: str) -> Any:
+        if name in type(self).__annotations__:
+            return getattr(self._answer, "stage_" + name)
+        raise AttributeError(f"stages have no {name}; they have {', '.join(type(self).__annotations__)}")
 
 
 class Solution:
@@ -133,9 +133,15 @@ class Solution:
         self._answer = answer
 
     def __getattr__(self, name: str) -> Any:
+        if name in type(self).__annotations__:
+            return getattr(self._answer, name)
         if name.startswith("_"):
             raise AttributeError(name)
-        return getattr(self._answer, name)
+        if name == "u":
+            raise AttributeError("a Solution has no u; controls act at stages: write solution.stages.u, at solution.stages.t")
+        if name in self.coordinates + self.first_order_states + self.controls:
+            raise AttributeError(f"a Solution has no {name}; write solution.column(\"{name}\")")
+        raise AttributeError(f"a Solution has no {name}; it has {', '.join(type(self).__annotations__)}, stages, psi, message")
 
     @property
     def message(self) -> str:
@@ -148,7 +154,7 @@ class Solution:
         return self._answer.estimated_error()
 
     def __dir__(self):
-        return sorted({*super().__dir__(), *(name for name in dir(self._answer) if not name.startswith("_"))})
+        return sorted({*super().__dir__(), *type(self).__annotations__})
 
     @property
     def stages(self) -> Stages:
@@ -218,7 +224,8 @@ def solve(problem: AnyProblem, method: str = "dmoc", *, intervals: int = 128, ta
         if value is not None:
             given[name] = value
     asked = _fill(_core.Asked(), given)
-    return Solution(_core.solve(handle_of(problem), asked, start._answer if start is not None else None))
+    with sentences_of_python():
+        return Solution(_core.solve(handle_of(problem), asked, start._answer if start is not None else None))
 
 
 class Batch:
@@ -276,4 +283,5 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
     given.update({name: value for name, value in (("tolerance", tolerance), ("most_iterations", most_iterations))
                   if value is not None})
     asked = _fill(_core.BatchAsked(), given)
-    return Batch(_core.solve_batch(handle, asked, count, list(columns), values, *tables), n, m)
+    with sentences_of_python():
+        return Batch(_core.solve_batch(handle, asked, count, list(columns), values, *tables), n, m)
