@@ -141,11 +141,12 @@ void print_problem(const Problem& problem) {
   print_field("bounds", fmt::format("on q: {}; on v: {}; on u: {}", bounds_in_words(problem.bounds().q, q_names),
                                     bounds_in_words(problem.bounds().v, velocity_names(problem)),
                                     bounds_in_words(problem.bounds().u, problem.control_names())));
-  print_field("rows", fmt::format("{} path constraints, {} boundary conditions{}", traced.path_constraint_count(),
-                                  traced.boundary_condition_count(),
-                                  traced.integral_count() > 0
-                                      ? fmt::format(", {} integral constraints", traced.integral_count())
-                                      : ""));
+  print_field(
+      "rows",
+      fmt::format(
+          "{}, {}{}", counted(static_cast<std::size_t>(traced.path_constraint_count()), "path constraint"),
+          counted(static_cast<std::size_t>(traced.boundary_condition_count()), "boundary condition"),
+          traced.integral_count() > 0 ? fmt::format(", {} integral constraints", traced.integral_count()) : ""));
   print_reference(problem);
   print_field("guess", guess_in_words(problem));
   print_field("scale", fmt::format("the cost is multiplied by {:g} for the solver", problem.cost_scale()));

@@ -1,6 +1,8 @@
 // Everything about one problem: motion, orders, invariants, minima, figures, and a report.
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 
 #include "bench/run/command_line.hpp"
 #include "bench/run/joining_run.hpp"
+#include "bench/run/options.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/process_pool.hpp"
 #include "methods/error.hpp"
@@ -21,6 +24,8 @@ namespace dmocbench::study_program {
 struct Study {
   std::string problem;
   std::vector<std::string> settings;
+  std::string tableau = "gauss";
+  long long stages = 1;
   std::vector<std::string> libraries;
   std::string intervals = "16:256";
   long long starts = 20;
@@ -54,15 +59,25 @@ int run_and_wait(const std::vector<std::string>& words) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : base_of_signals + WTERMSIG(status);
 }
 
-std::vector<std::vector<std::string>> commands_of(const Study& study) {
+/// The grid for local minima: fine enough for a motion, cheap enough for many starts.
+long long second_finest(const Study& study) {
+  std::vector<long long> grids = parse_intervals("--intervals", study.intervals);
+  std::ranges::sort(grids);
+  return grids[grids.size() < 2 ? 0 : grids.size() - 2];
+}
+
+/// The steps by name, each a command.
+std::vector<std::pair<std::string, std::vector<std::string>>> commands_of(const Study& study) {
   const std::string out = study.out.string();
   const auto experiment = [&](const std::string& name, const std::vector<std::string>& options) {
     std::vector<std::string> words = start_of_program(name);
     words.insert(words.end(), {"--problem", study.problem, "--out", out});
     for (const std::string& library : study.libraries) words.insert(words.end(), {"--library", library});
     for (const std::string& setting : study.settings) words.insert(words.end(), {"--set", setting});
+    if (name != "structure")  // which compares tableaus
+      words.insert(words.end(), {"--tableau", study.tableau, "--stages", std::to_string(study.stages)});
     words.insert(words.end(), options.begin(), options.end());
-    return words;
+    return std::pair(name, words);
   };
   std::vector<std::string> report = start_of_program("report");
   report.insert(report.end(), {"--from", out});
@@ -70,9 +85,10 @@ std::vector<std::vector<std::string>> commands_of(const Study& study) {
   return {experiment("solve", {"--method", "dmoc", "--start", "common", "--name", "motion_" + study.problem}),
           experiment("convergence", {"--intervals", study.intervals, "--solver", "auto"}),
           experiment("structure", {}),
-          experiment("local_minima", {"--starts", std::to_string(study.starts)}),
-          {drawer(), out},
-          report};
+          experiment("local_minima",
+                     {"--starts", std::to_string(study.starts), "--intervals", std::to_string(second_finest(study))}),
+          {"figures", {drawer(), out}},
+          {"report", report}};
 }
 
 int run_all(CommandLine& line) {
@@ -82,7 +98,9 @@ int run_all(CommandLine& line) {
   line.option("--set", study.settings, "parameter=value of the problem; may be repeated");
   add_library_option(line, study.libraries);
   line.group("Experiments");
-  line.option("--intervals", study.intervals, "grids of convergence");
+  line.option("--tableau", study.tableau, "the family of Butcher tableaus of all experiments");
+  line.number("--stages", study.stages, 1, 4, "its number of stages");
+  line.option("--intervals", study.intervals, "grids of convergence; local_minima uses the second finest");
   line.number("--starts", study.starts, 1, 100000, "starts of local_minima per method");
   line.group(group_of_output);
   line.option("--out", study.out, "folder for the results; default: study_PROBLEM");
@@ -92,14 +110,15 @@ int run_all(CommandLine& line) {
   if (study.problem.empty()) throw Error("name a problem: study --problem cart_pole; list shows all problems");
   if (study.out.empty()) study.out = "study_" + study.problem;
   listen_for_interrupt();
-  int failures = 0;
-  for (const std::vector<std::string>& command : commands_of(study)) {
-    if (run_and_wait(command) != 0) ++failures;
+  std::vector<std::string> failed;
+  for (const auto& [step, command] : commands_of(study)) {
+    if (run_and_wait(command) != 0) failed.push_back(step);
     throw_if_interrupted();
   }
   fmt::print("study: {}: {}/report.html\n",
-             failures == 0 ? "all steps done" : fmt::format("{} of 6 steps failed", failures), study.out.string());
-  return failures == 0 ? 0 : 1;
+             failed.empty() ? "all steps done" : fmt::format("failed: {}", fmt::join(failed, ", ")),
+             study.out.string());
+  return failed.empty() ? 0 : 1;
 }
 
 int run(int argc, char** argv) {

@@ -93,7 +93,7 @@ without != "" && without in position && $position[without] != "" { next }
     if (!(side[1] in position) || $position[side[1]] != side[2]) next
   }
   if (chosen > 0) {
-    for (i = 1; i <= chosen; ++i) printf "%s%s", $position[field[i]], i < chosen ? " " : "\n"
+    for (i = 1; i <= chosen; ++i) printf "%s%s", (field[i] in position ? $position[field[i]] : ""), i < chosen ? " " : "\n"
     exit
   }
   if (distinct == "") {

@@ -25,7 +25,7 @@ do for [where in problems_of(name, ratio)] {
     eval begin_figure(kind, problem."_structure_advantage", 660)
     figure_title = title_text(problem_label(problem)\
         .": time of Hamiltonian collocation in multiples of DMOC",\
-        "Paper: section 3.4, rem:savings. ".timed_conditions("structure_advantage").". Above the line DMOC takes less.",\
+        "Paper: section 3.4, the remark on savings (rem:savings). ".timed_conditions("structure_advantage").". Above the line DMOC takes less.",\
         "Bars: 99 % intervals over the rounds. Ipopt reports no time of its linear systems: instead, the time of an"\
         ." iteration without evaluations.")
     eval panels(1, 2, 80, 15, 165, 95, 0)

@@ -13,7 +13,7 @@ do for [where in problems_of("convergence", "state_error")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_work_precision", 600)
     figure_title = title_text(problem_label(problem).": state error over time and over free variables",\
-        "Paper: sizes in section 3.4, rem:savings. ".timed_conditions("convergence").".",\
+        "Paper: sizes in section 3.4, the remark on savings (rem:savings). ".timed_conditions("convergence").".",\
         "Bars: quartiles of these solves, one after the other. Times from a warm start cover few iterations.")
     eval panels(1, 2, 95, 24, 115, 60, 0)
     set ylabel axis_label("state error ".error_of("q"), problem, "state_unit") offset inwards

@@ -34,6 +34,8 @@ class Acrobot : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "swing-up of a double pendulum by a motor at its elbow in fixed time, least control effort",
             .source = "PROPT guide, example Acrobot, after Tedrake: Underactuated Robotics, chapter 3",
+            .configuration_units = {"rad", "rad"},
+            .control_units = {"N m"},
             .reference = reference_optimum(),
             .picture = [](const ControlledState& x) -> Picture {
               const Expression elbow_x = length_1 * sin(x.q[0]);

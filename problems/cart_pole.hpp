@@ -33,6 +33,8 @@ class CartPole : public Problem {
     return {.description = "swing-up of a pendulum on a cart in fixed time, least control effort",
             .source = "Kelly: An Introduction to Trajectory Optimization, SIAM Review 59 (2017), section 6",
             .guess = "x = d t/T, theta = pi t/T - 2 sin(pi t/T), v their slopes, u = 0",
+            .configuration_units = {"m", "rad"},
+            .control_units = {"N"},
             // The bounds need not hold: they are not active at the optimum.
             .reference = with_default_parameters(
                 *this,

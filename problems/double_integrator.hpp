@@ -29,6 +29,8 @@ class DoubleIntegrator : public Problem, public ClosedForm {
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "a unit mass from rest to rest in fixed time, least control effort",
             .source = "folklore; mineng_di of the PSOPT examples",
+            .configuration_units = {"m"},
+            .control_units = {"N"},
             .reference = reference_optimum(),
             .picture = [](const ControlledState& x) -> Picture {
               return {{"position", "m", x.q[0]}, {"velocity", "m/s", x.v[0]}, {"force", "N", x.u[0]}};

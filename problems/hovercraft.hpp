@@ -30,6 +30,8 @@ class Hovercraft : public Problem {
         .source =
             "the hovercraft of Junge, Marsden, Ober-Bloebaum: Discrete mechanics and optimal control, IFAC 2005, with "
             "data of this suite",
+        .configuration_units = {"m", "m", "rad"},
+        .control_units = {"N", "N"},
         .reference = with_default_parameters(
             *this,
             {.objective = 0.8719293256585,

@@ -24,6 +24,8 @@ class PlanarQuadrotor : public Problem {
         .description = "a quadrotor in a vertical plane flown from rest to rest in fixed time, least control effort",
         .source = "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor); the flight is this suite's",
         .guess = "q on the straight line from q(0) to q(T), v its slope, u_1 = u_2 = m g / 2, which hovers",
+        .configuration_units = {"m", "m", "rad"},
+        .control_units = {"N", "N"},
         .reference =
             with_default_parameters(*this,
                                     {.objective = 19.81198431842,

@@ -33,6 +33,8 @@ class SphericalPendulum : public Problem {
     return {
         .description = "spherical pendulum from one steady cone to a wider one, least control effort",
         .source = "posed for this suite: a mass matrix that depends on the configuration, a symmetry, both ends steady",
+        .configuration_units = {"rad", "rad"},
+        .control_units = {"N m", "N m"},
         .reference = with_default_parameters(
             *this, {.objective = 0.91134694658953, .digits = 13, .certificate = by_indirect_method(13)}),
         .picture = [this](const ControlledState& x) -> Picture {

@@ -192,10 +192,10 @@ std::optional<std::string> note_on_missing_orders(std::span<const FittedCurve> f
   const Row& head = fits.front().head;
   const Fit& fit = fits.front().fit;
   const bool has_few = fit.verdict == "few grids";
-  return fmt::format("{} {} {} {}: no order is fitted ({}: {} above rounding){}", head.text("problem"),
-                     head.text("method"), head.text("tableau"), head.text("stages"), fit.verdict,
-                     counted(fit.grids.size(), "grid"),
-                     has_few ? "; solve on more grids, four besides the reference at least" : "");
+  return fmt::format(
+      "{} {} {} {}: no order is fitted ({}: {} above rounding){}", head.text("problem"), head.text("method"),
+      head.text("tableau"), head.text("stages"), fit.verdict, counted(fit.grids.size(), "grid"),
+      has_few ? "; solve on more grids, at least four in addition to the reference, whose answers are motions" : "");
 }
 
 /// The orders of a curve's largest jump and of its state error on the same grids.

@@ -346,7 +346,9 @@ std::string ViolationBetweenStages::words(const Trajectory& trajectory, double t
   const bool are_stages_inside = c.minCoeff() > 0.0 || c.maxCoeff() < 1.0;
   const bool helps_one_stage = trajectory.stages() > 1 && (keeps_state() || state.constraint.starts_with("bounds()"));
   return fmt::format("{} Take more intervals{}{}.", text, helps_one_stage ? ", --stages 1" : "",
-                     are_stages_inside ? ", or --tableau lobatto" : "");
+                     !are_stages_inside         ? ""
+                     : trajectory.stages() == 1 ? ", or --tableau lobatto --stages 2"
+                                                : ", or --tableau lobatto");
 }
 
 ViolationBetweenStages violation_between_stages(const Problem& problem, const TracedProblem& traced,

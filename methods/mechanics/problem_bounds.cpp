@@ -76,7 +76,11 @@ void narrow(Bounds& end, const Bounds& everywhere, const std::string& subject, c
   for (Eigen::Index i = 0; i < end.lower.size(); ++i) {
     const double lower = std::max(end.lower[i], everywhere.lower[i]);
     const double upper = std::min(end.upper[i], everywhere.upper[i]);
-    if (lower > upper) throw Error(fmt::format("{} and bounds().{} leave no value for {}[{}]", subject, part, part, i));
+    if (lower > upper) {
+      throw Error(
+          fmt::format("{} and bounds().{} leave no value for {}[{}]: {:g} to {:g} there, {:g} to {:g} at the end",
+                      subject, part, part, i, everywhere.lower[i], everywhere.upper[i], end.lower[i], end.upper[i]));
+    }
     end.lower[i] = lower;
     end.upper[i] = upper;
   }

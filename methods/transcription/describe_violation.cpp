@@ -363,7 +363,7 @@ std::string contradiction(const Transcription& transcription) {
   if (transcription.layout().shape().conditions > 0) parts.emplace_back("boundary_conditions");
   if (transcription.traced_problem().path_constraint_count() > 0) parts.emplace_back("path_constraints");
   if (parts.empty()) return "";
-  std::string text = " No motion near this one meets " + parts.front();
+  std::string text = " The solver found no motion near this one that meets " + parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
   return text + " within the bounds and the horizon.";
 }

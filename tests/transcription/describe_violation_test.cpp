@@ -76,7 +76,8 @@ TEST_P(ViolationInWords, UnreachableFinalStateIsNamedWithTheBoundsThatHold) {
   EXPECT_PRED2(says, words, " of q[0] (q1) ");
   EXPECT_PRED2(says, words, "(t = ");
   EXPECT_PRED2(says, words, "bounds().u holds u[0] (u1) at ");
-  EXPECT_PRED2(says, words, "No motion near this one meets final_state within the bounds and the horizon.");
+  EXPECT_PRED2(says, words,
+               "The solver found no motion near this one that meets final_state within the bounds and the horizon.");
   const std::size_t by = words.find(", by ");
   ASSERT_NE(by, std::string::npos);
   const double amount = std::stod(words.substr(by + 5));
