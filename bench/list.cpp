@@ -144,8 +144,9 @@ void print_problem(const Problem& problem) {
   print_field(
       "rows",
       fmt::format(
-          "{}, {}{}", counted(static_cast<std::size_t>(traced.path_constraint_count()), "path constraint"),
+          "{}, {}{}{}", counted(static_cast<std::size_t>(traced.path_constraint_count()), "path constraint"),
           counted(static_cast<std::size_t>(traced.boundary_condition_count()), "boundary condition"),
+          traced.holonomic_count() > 0 ? fmt::format(", {} constraints g(q) = 0", traced.holonomic_count()) : "",
           traced.integral_count() > 0 ? fmt::format(", {} integral constraints", traced.integral_count()) : ""));
   print_reference(problem);
   print_field("guess", guess_in_words(problem));

@@ -90,6 +90,10 @@ void trace_along(const Problem& problem, const ProblemBounds& bounds, StatedProb
   const std::vector<std::string> names = problem.configuration_names();
   for (Eigen::Index i = 0; i < force.size(); ++i)
     result.along.push_back({indexed("f", mathml_of_name(names.at(static_cast<std::size_t>(i)))), force[i], ""});
+  const ExpressionVector holonomic = problem.constraints(x.q);
+  for (Eigen::Index i = 0; i < holonomic.size(); ++i) {
+    result.along.push_back({indexed("g", fmt::format("<mn>{}</mn>", i + 1)), holonomic[i], "<mo>=</mo><mn>0</mn>"});
+  }
   const ExpressionVector constraints = problem.path_constraints(x);
   const Bounds path = bounds.of_path(constraints.size());
   for (Eigen::Index i = 0; i < constraints.size(); ++i) {

@@ -385,12 +385,20 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const std::vector<Grid> grids = make_grids(options);
   const CostForm form = cost_form_named(options.form);
   std::vector<Case> cases;
+  const bool all = options.problems == std::vector<std::string>{"all"};
   for (const auto& problem : selected_problems(options.problems, options.settings)) {
+    // Of all problems those with holonomic constraints are left out where a method lacks them; alone they are refused.
+    const TracedProblem traced(*problem);
+    const auto is_offered = [&](const ChosenScheme& scheme) {
+      return !all ||
+             takes_constraints(*make_element(scheme.method), traced, make_tableau(scheme.tableau, scheme.stages));
+    };
     // All methods have the same degrees of freedom on a grid, and more stages have more: one program per family shows
     // whether the problem is well posed and the coarsest grid fine enough.
     std::set<std::string> checked;
-    for (const auto& [method, tableau, stages] : schemes) {
-      if (!checked.insert(tableau).second) continue;
+    for (const ChosenScheme& scheme : schemes) {
+      const auto& [method, tableau, stages] = scheme;
+      if (!is_offered(scheme) || !checked.insert(tableau).second) continue;
       const Case coarsest{problem, method, tableau, stages, "", "tape", grids.front(), {}, form};
       try {
         const StopScope scope(interrupt_requested, options.most_seconds);
@@ -400,7 +408,9 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
                                 problem->name(), options.most_seconds));
       }
     }
-    for (const auto& [method, tableau, stages] : schemes) {
+    for (const ChosenScheme& scheme : schemes) {
+      if (!is_offered(scheme)) continue;
+      const auto& [method, tableau, stages] = scheme;
       for (const std::string& solver : solvers) {
         for (const std::string& derivatives : back_ends) {
           for (const Grid& grid : grids) {

@@ -45,7 +45,11 @@ class ConstraintWords {
     if (place.kind == Place::Kind::border) {
       return entry_of("boundary_conditions", row - rows.runs().back().first, problem_->card().boundary_condition_names);
     }
-    return "lagrangian: the momentum p = L_v of " + coordinate((own - shape.interval_rows()) % n_) + where(place);
+    const Eigen::Index single = own - shape.interval_rows();
+    const int tied_ends = (shape.first_has_velocity ? 1 : 0) + (shape.last_has_velocity ? 1 : 0);
+    const Eigen::Index ties = shape.node_state == NodeState::momentum ? tied_ends * n_ : 0;
+    if (single >= ties) return holonomic(single - ties) + where(place);
+    return "lagrangian: the momentum p = L_v of " + coordinate(single % n_) + where(place);
   }
 
   [[nodiscard]] std::string unknown(std::size_t unknown) const {
@@ -118,6 +122,12 @@ class ConstraintWords {
     return "lagrangian and force: the Euler-Lagrange equation of " + coordinate(i);
   }
 
+  /// A condition of a holonomic constraint, one of several blocks of c.
+  [[nodiscard]] std::string holonomic(Eigen::Index condition) const {
+    return fmt::format("constraints[{}]: g(q) = 0 or its rate",
+                       condition % transcription_->traced_problem().holonomic_count());
+  }
+
   [[nodiscard]] std::string interval_row(Eigen::Index column, std::size_t k) const {
     const LayoutShape& shape = layout_->shape();
     if (column < shape.stage_equations) return stage_equation(column) + in_interval(k);
@@ -142,10 +152,12 @@ class ConstraintWords {
   [[nodiscard]] std::string stage_equation(Eigen::Index column) const {
     const LayoutShape& shape = layout_->shape();
     const Eigen::Index l = shape.first_order_size;
-    const Eigen::Index elements = shape.stage_equations - l * shape.stages;
-    if (column >= elements) {
-      return "first_order_rates: the rate of " + named('y', (column - elements) % l, problem_->first_order_names());
+    const Eigen::Index conditions = shape.stage_equations - l * shape.stages;  // those of holonomic constraints last
+    const Eigen::Index elements = conditions - shape.multipliers;
+    if (column >= conditions) {
+      return "first_order_rates: the rate of " + named('y', (column - conditions) % l, problem_->first_order_names());
     }
+    if (column >= elements) return holonomic(column - elements);
     const bool is_second = (column / n_) % 2 == 1;
     if (!shape.has_stage_unknowns) {
       const bool has_momenta = shape.node_state == NodeState::momentum;

@@ -211,6 +211,36 @@ inline Rows inequality_rows() {
   return rows;
 }
 
+/// Answers of Hamiltonian collocation with constraints g(q) = 0, by Gauss or by Lobatto.
+inline Rows constrained_rows(const std::string& tableau) {
+  Rows rows;
+  for (Row& row : equivalence_rows()) {
+    if (row.text("method") != "hamiltonian" || row.text("tableau") != tableau) continue;
+    row.set("problem", "cart_pole_cartesian");
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Costs of order 4 in both statements of four problems.
+inline Rows constrained_cost_rows() {
+  Rows rows;
+  for (const char* problem :
+       {"spherical_pendulum", "cart_pole", "two_link_manipulator", "link_chain", "spherical_pendulum_cartesian",
+        "cart_pole_cartesian", "two_link_maximal", "link_chain_maximal"}) {
+    for (const long long intervals : {256LL, 2048LL}) {
+      Row row = solved_row("dmoc", intervals);
+      const bool is_redundant = rows.size() >= 8;
+      row.set("problem", problem);
+      row.set("tableau", "lobatto");
+      row.set("stages", 3LL);
+      row.set("objective", 1.0 + (is_redundant ? 100.0 : 0.0) / std::pow(static_cast<double>(intervals), 4));
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
 inline Rows symmetric_rows() {
   return rows_on_grids([](Row& row, bool /*tangent*/, double /*h*/) { row.set("costate_momentum_spread", 1e-13); });
 }
@@ -376,6 +406,10 @@ inline std::map<std::string, Rows> all_rows() {
   rows["step_control_slopes"] = step_control_rows({"operations"}, {{"variational", {"240"}}, {"imposed", {"104"}}});
   rows["equivalence_inequalities"] = inequality_rows();
   rows["equivalence_symmetric"] = symmetric_rows();
+  rows["equivalence_constrained"] = constrained_rows("gauss");
+  rows["equivalence_constrained_lobatto"] = constrained_rows("lobatto");
+  rows["consistency_constrained"] = rows["consistency"];
+  rows["objective_constrained"] = constrained_cost_rows();
   rows["convergence_indirect_jumps"] = jump_rows();
   rows["iterations_common_ratios"] = currency_rows();
   rows["coercivity"] = coercivity_rows();

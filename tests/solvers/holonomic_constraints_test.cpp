@@ -257,6 +257,60 @@ INSTANTIATE_TEST_SUITE_P(All, EqualWithConstraints,
                          testing::Values(Scheme{"dmoc", 1}, Scheme{"dmoc", 2, "lobatto"}, Scheme{"dmoc", 3, "lobatto"}),
                          [](const auto& instance) { return label_of(instance.param); });
 
+/// A bead on the parabola z = x², whose height has no inertia: L_vv is singular.
+class Bead final : public Problem {
+ public:
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "z"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override {
+    return ExpressionVector{{q[1] - q[0] * q[0]}};
+  }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] - x.q[1]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return ExpressionVector{{x.u[0], 0.0}};
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+  [[nodiscard]] BoundaryState initial_state() const override { return at(-1.0); }
+  [[nodiscard]] BoundaryState final_state() const override { return at(1.5); }
+  [[nodiscard]] double horizon() const override { return 1.0; }
+
+ private:
+  static BoundaryState at(double x) { return BoundaryState::at_rest(Eigen::Vector2d(x, x * x)); }
+};
+
+/// The same in its one coordinate: a linear-quadratic problem.
+class BeadInOneCoordinate final : public Problem {
+ public:
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] - x.q[0] * x.q[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+  [[nodiscard]] BoundaryState initial_state() const override { return at(-1.0); }
+  [[nodiscard]] BoundaryState final_state() const override { return at(1.5); }
+  [[nodiscard]] double horizon() const override { return 1.0; }
+
+ private:
+  static BoundaryState at(double x) { return BoundaryState::at_rest(Eigen::VectorXd::Constant(1, x)); }
+};
+
+TEST(HolonomicConstraintsWithoutInertia, HaveOrderTwoByDmocWithOneGaussStage) {
+  const Bead bead;
+  const BeadInOneCoordinate minimal;
+  const double exact = solved(minimal, {"dmoc", 4}, 64, guessed_motion(minimal)).motion.cost;
+  const auto error = [&](Eigen::Index intervals) {
+    return std::abs(solved(bead, {"dmoc", 1}, intervals, guessed_motion(bead)).motion.cost - exact);
+  };
+  EXPECT_NEAR(std::log2(error(32) / error(64)), 2.0, 0.1);
+}
+
+TEST(HolonomicConstraintsWithoutInertia, AreRefusedByOtherMethods) {
+  for (const Scheme& scheme : {Scheme{"dmoc", 2, "lobatto"}, Scheme{"tangent", 1}}) {
+    tests::expect_error_naming({"L_vv is singular", "take dmoc with --tableau gauss --stages 1"},
+                               [&] { static_cast<void>(tests::transcribe(Bead(), scheme, Grid::uniform(8))); });
+  }
+}
+
 /// A particle on a line, stated with constraints that may be wrong.
 class Misstated final : public Problem {
  public:

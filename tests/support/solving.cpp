@@ -24,6 +24,10 @@ std::vector<Scheme> schemes_with_shared_controls(int most_stages) {
   return schemes_of({"lobatto_shared"}, most_stages);
 }
 
+bool takes_constraints(const Problem& problem, const Scheme& scheme) {
+  return dmocbench::takes_constraints(*make_element(scheme.method), TracedProblem(problem), scheme.tableau());
+}
+
 std::unique_ptr<Transcription> transcribe(const Problem& problem, const Scheme& scheme, const Grid& grid) {
   return std::make_unique<Transcription>(problem, *make_element(scheme.method), scheme.tableau(), grid);
 }

@@ -33,6 +33,9 @@ std::vector<Scheme> all_schemes(int most_stages = 3);
 /// Lobatto with one control at each node that two intervals share.
 std::vector<Scheme> schemes_with_shared_controls(int most_stages = 3);
 
+/// Whether a method has the holonomic constraints of a problem with its tableau; true of problems without.
+bool takes_constraints(const Problem& problem, const Scheme& scheme);
+
 std::unique_ptr<Transcription> transcribe(const Problem& problem, const Scheme& scheme, const Grid& grid);
 
 /// A transcription with its solution; the transcription lives on because rows and costates are asked of it.

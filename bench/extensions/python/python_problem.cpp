@@ -207,6 +207,10 @@ ExpressionVector PythonProblem::path_constraints(const ControlledState& x) const
   return optional_formula("path_constraints", [&] { return py::make_tuple(point(x)); });
 }
 
+ExpressionVector PythonProblem::constraints(const ExpressionVector& q) const {
+  return optional_formula("constraints", [&] { return py::make_tuple(object_.attr("_coordinates_at")(list_of(q))); });
+}
+
 ExpressionVector PythonProblem::boundary_conditions(const State& first, const State& last) const {
   return optional_formula("boundary_conditions", [&] { return py::make_tuple(point(first), point(last)); });
 }

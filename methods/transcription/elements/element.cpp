@@ -37,6 +37,15 @@ IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& probl
 
 bool has_stages_at_nodes(const Tableau& tableau) { return tableau.c.minCoeff() == 0.0 && tableau.c.maxCoeff() == 1.0; }
 
+bool takes_constraints(const Element& element, const TracedProblem& problem, const Tableau& tableau) {
+  if (problem.holonomic_count() == 0) return true;
+  try {
+    return element.multipliers(tableau) > 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 ExpressionVector constraint_force(const TracedProblem& problem, const ExpressionVector& q,
                                   const ExpressionVector& multiplier) {
   return -(problem.holonomic_at(q, ExpressionVector(q.size())).jacobian.transpose() * multiplier);

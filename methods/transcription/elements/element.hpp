@@ -142,6 +142,9 @@ class Element {
 /// Whether a tableau has stages at both ends of an interval, as Lobatto's has.
 [[nodiscard]] bool has_stages_at_nodes(const Tableau& tableau);
 
+/// Whether a method has the holonomic constraints of a problem with a tableau; true of problems without.
+[[nodiscard]] bool takes_constraints(const Element& element, const TracedProblem& problem, const Tableau& tableau);
+
 // Formulas that the families share.
 
 /// -Gᵀλ at a configuration: the force of the holonomic constraints, n entries.

@@ -59,7 +59,7 @@ std::string nan_in(const Eigen::VectorXd& values, const TracedProblem& traced) {
 
 }  // namespace
 
-GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid) {
+GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid, bool needs_mass) {
   constexpr int count = 64;
   const Eigen::Index n = traced.configuration_size();
   const double horizon = problem.horizon();
@@ -94,11 +94,17 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
     if (!undefined.empty()) throw Error(place_of(times[i], problem, grid) + undefined + " is not a number");
     if (constraints) {
       constraints->evaluate(q);
-      if (is_invertible(saddle_matrix(mass, constraints->jacobian()))) continue;
-      throw Error(place_of(times[i], problem, grid) +
-                  "(L_vv, G'; G, 0) is singular: constraints, G = dg/dq, are dependent there, or L is not regular");
+      if (!is_invertible(saddle_matrix(mass, constraints->jacobian()))) {
+        throw Error(place_of(times[i], problem, grid) +
+                    "(L_vv, G'; G, 0) is singular: constraints, G = dg/dq, are dependent there, or L is not regular");
+      }
+      if (!needs_mass) continue;
     }
     if (!is_invertible(mass)) {
+      if (constraints) {
+        throw Error(place_of(times[i], problem, grid) +
+                    "L_vv is singular; with constraints g(q) = 0 take dmoc with --tableau gauss --stages 1");
+      }
       throw Error(place_of(times[i], problem, grid) + "L_vv is singular, so the Lagrangian is not regular");
     }
   }

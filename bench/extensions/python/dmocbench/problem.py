@@ -289,8 +289,8 @@ def _table(values, t, name):
 
 _declared = {"q", "u", "y", "start", "end", "horizon", "bounds", "guess", "cost_scale", "name", "source", "time_unit",
              "reference", "path_constraint_names", "boundary_condition_names"}
-_formulas = {"lagrangian", "force", "running_cost", "first_order_rates", "integrands", "path_constraints", "boundary_conditions", "final_cost", "symmetry",
-             "picture"}
+_formulas = {"lagrangian", "force", "running_cost", "first_order_rates", "integrands", "path_constraints", "constraints",
+             "boundary_conditions", "final_cost", "symmetry", "picture"}
 _members = _declared | _formulas
 
 
@@ -308,6 +308,7 @@ class Problem:
     Optional:
 
     final_cost(self, last): a cost of the end, where last.t is the horizon; boundary_conditions(self, first, last) = 0;
+    constraints(self, q) = 0 of a mechanism in redundant coordinates;
     path_constraints(self, x) >= 0, or between bounds = {"path": (lower, upper)}; equal bounds make an equality;
     integrands(self, x): their integrals over the horizon are between bounds = {"integrals": (lower, upper)};
     y = first_order_states("mass", ...) with first_order_rates(self, x), read as x.y.mass: what has a rate, but no

@@ -1,0 +1,124 @@
+// Mechanisms in redundant coordinates: what DMOC and collocation keep there, and the costs of the minimal statements.
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/ranges.h>
+
+#include "bench/claims/claim.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// In the place of a problem.
+const Problems constrained{"constrained"};
+
+/// Statements with constraints g(q) = 0 and the same in minimal coordinates.
+constexpr std::array statements{
+    std::pair{"spherical_pendulum_cartesian", "spherical_pendulum"}, std::pair{"cart_pole_cartesian", "cart_pole"},
+    std::pair{"two_link_maximal", "two_link_manipulator"}, std::pair{"link_chain_maximal", "link_chain"}};
+
+Finding equal_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double rounding = 1e-9;
+  Selection all = tables.rows("equivalence_constrained").where("method", "hamiltonian");
+  all.append(tables.rows("equivalence_constrained_lobatto").where("method", "hamiltonian"));
+  const Selection rows = all.usable();
+  require(
+      rows.group_by({"tableau", "stages"}).size() > 1,
+      "equivalence_constrained.csv and equivalence_constrained_lobatto.csv have solved rows of {} tableaus; two are "
+      "needed",
+      rows.group_by({"tableau", "stages"}).size());
+  double largest = 0.0;
+  for (const char* column :
+       {"configuration_difference", "momentum_difference", "control_difference", "objective_difference"}) {
+    largest = std::max(largest, rows.max(column));
+  }
+  return found(largest < rounding,
+               "{} grids of {} with {} tableaus, largest relative difference of q, projected p, u and J: {:.0e}; of "
+               "costates {:.0e}{}",
+               rows.size(), fmt::join(rows.distinct("problem"), ", "), rows.group_by({"tableau", "stages"}).size(),
+               largest, rows.max("costate_difference"), left_out(all, rows));
+}
+
+Finding momentum_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double rounding = 1e-10;
+  const Selection rows = tables.rows("consistency_constrained").usable();
+  const auto of = [&](const char* method) { return rows.where("method", method); };
+  require(!of("dmoc").empty() && !of("hamiltonian").empty() && !of("tangent").empty(),
+          "consistency_constrained.csv needs solved rows of three methods");
+  const auto largest = [&](const char* method) { return of(method).max("momentum_defect_max"); };
+  return found(largest("dmoc") < rounding && largest("hamiltonian") < rounding && largest("tangent") > rounding,
+               "largest defect of an interval on {} grids of {}: dmoc {:.0e}, hamiltonian {:.0e}, tangent {:.0e}",
+               of("dmoc").size(), fmt::join(rows.distinct("problem"), ", "), largest("dmoc"), largest("hamiltonian"),
+               largest("tangent"));
+}
+
+/// The relative difference of the costs of both statements on a grid.
+double cost_difference(const Selection& redundant, const Selection& minimal, const std::string& intervals) {
+  const double of_minimal = minimal.where("intervals", intervals).max("objective");
+  return std::abs(redundant.where("intervals", intervals).max("objective") / of_minimal - 1.0);
+}
+
+Finding costs_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double ten_digits = 1e-10;
+  constexpr double least_order = 3.5;
+  const Selection rows = tables.rows("objective_constrained").usable();
+  bool agree = true;
+  std::vector<std::string> words;
+  for (const auto& [redundant_name, minimal_name] : statements) {
+    const Selection redundant = rows.where("problem", redundant_name).sorted_by("intervals");
+    const Selection minimal = rows.where("problem", minimal_name);
+    require(redundant.size() > 1, "objective_constrained.csv has {} solved grids of {}; two are needed",
+            redundant.size(), redundant_name);
+    const Row& coarse = redundant.front();
+    const Row& fine = redundant.back();
+    for (const Row* row : {&coarse, &fine}) {
+      require(!minimal.where("intervals", row->text("intervals")).empty(),
+              "objective_constrained.csv has no solved row of {} with N = {}", minimal_name, row->text("intervals"));
+    }
+    const double at_coarse = cost_difference(redundant, minimal, coarse.text("intervals"));
+    const double at_fine = cost_difference(redundant, minimal, fine.text("intervals"));
+    const double order =
+        std::log(at_coarse / at_fine) / std::log(fine.needed("intervals") / coarse.needed("intervals"));
+    // What is equal to rounding on the finest grid has no order left.
+    agree = agree && at_fine < ten_digits && (order > least_order || at_fine < 0.01 * ten_digits);
+    words.push_back(
+        fmt::format("{} {:.0e} at N = {} (order {:.1f})", redundant_name, at_fine, fine.text("intervals"), order));
+  }
+  return found(agree, "relative difference of the optimal costs by three Lobatto stages: {}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+/// Holonomic constraints g(q) = 0 (DMOCC).
+Claims constraint_claims() {
+  return {{.id = "equal_solutions",
+           .problems = constrained,
+           .where = "section 1, DMOCC; th:equi",
+           .whose = Whose::extension,
+           .states = "with constraints g(q) = 0 DMOC and Hamiltonian collocation have equal solutions, too",
+           .judge = equal_with_constraints,
+           .condition = "momenta are the projected ones; Gauss with one stage, or Lobatto",
+           .evidence = {"equivalence_constrained.csv", "equivalence_constrained_lobatto.csv"}},
+          {.id = "momentum",
+           .problems = constrained,
+           .where = "section 1, DMOCC; eq:noether_force_d",
+           .whose = Whose::extension,
+           .states = "with constraints g(q) = 0 the change in momentum equals the work of the forces for DMOC and "
+                     "Hamiltonian collocation, not for tangent-space collocation",
+           .judge = momentum_with_constraints,
+           .condition = "the force along the symmetry is the intended one off the manifold, too",
+           .evidence = {"consistency_constrained.csv"}},
+          {.id = "costs",
+           .problems = constrained,
+           .where = "section 1, DMOCC",
+           .whose = Whose::extension,
+           .states = "the optimal costs in redundant and in minimal coordinates agree to ten digits",
+           .judge = costs_with_constraints,
+           .evidence = {"objective_constrained.csv"}}};
+}
+
+}  // namespace dmocbench
