@@ -10,6 +10,7 @@ import unittest
 import numpy as np
 
 import dmocbench as db
+import restated
 from pendulum import PendulumSwingUp
 
 
@@ -84,6 +85,15 @@ class Mistakes(unittest.TestCase):
         self.refused("y has no entry voltage; it has current", variant(**{**rates, "force": lambda self, x: [x.y.voltage]},
                                                                        start=start, end=end), AttributeError)
 
+    def test_what_methods_do_not_know(self):
+        self.refused("does not know first-order states \\(y\\)", restated.TwoLinkWithMotors(), method="multiple_shooting_rk4_1")
+        solution = db.solve(restated.TwoLinkWithMotors(), intervals=64, stages=2)
+        with self.assertRaisesRegex(db.Error, "first-order states"):
+            solution.estimated_error()
+        with self.assertRaisesRegex(db.Error, "a batch cannot take"):
+            db.solve_batch(restated.TwoLinkWithMotors(), start=np.zeros((3, 4)))
+        self.refused("solution to start from is of a problem with other numbers", PendulumSwingUp(), start=solution)
+
     def test_unknowns_that_nothing_reads(self):
         self.refused("nothing reads|no formula reads", variant(stiffness=db.unknown(1.0, lower=0.0, upper=2.0)))
         with self.assertRaisesRegex(db.Error, "stiffness must be a number in \\[0, 2\\]"):
@@ -120,6 +130,11 @@ class Mistakes(unittest.TestCase):
     def test_functions_of_math_on_formulas(self):
         self.refused("dmocbench.cos or numpy.cos", variant(lagrangian=lambda self, x: math.cos(x.q.theta)), TypeError)
         self.refused("smooth_if_else", variant(lagrangian=lambda self, x: 1.0 if x.q.theta > 0 else 2.0), TypeError)
+        for function in (lambda a: np.where(a > 0.0, a, 0.0), lambda a: np.maximum(a, 0.0), np.sign, lambda a: np.clip(a, 0.0, 1.0)):
+            self.refused("smooth_if_else", variant(running_cost=lambda self, x: function(x.u.tau)), TypeError)
+        self.refused("smooth_abs", variant(running_cost=lambda self, x: np.abs(x.u.tau)), TypeError)
+        self.refused("inv", variant(running_cost=lambda self, x: np.linalg.inv(np.array([[x.u.tau]]))[0]), TypeError)
+        self.refused("log10", variant(running_cost=lambda self, x: np.log10(x.u.tau)), TypeError)
 
     def test_what_solutions_do_not_have(self):
         solution = db.solve(PendulumSwingUp(), intervals=8)

@@ -22,7 +22,7 @@ Numbers = Union[float, Sequence[float], Mapping[str, float], None]
 """A number for every entry, a list of them, or a dict by the names of entries."""
 
 # Names in messages of C++ and their Python names.
-_words = {"initial_state": "start", "final_state": "end", "bounds().first": "start", "bounds().last": "end",
+_words = {"Problem::": "", "initial_state": "start", "final_state": "end", "bounds().first": "start", "bounds().last": "end",
           "bounds().horizon": "horizon", "bounds().": "bounds of ", "configuration_names": "q", "control_names": "u", "first_order_names": "y",
           "varying()": "a formula",
           "parameter()": "its number"}

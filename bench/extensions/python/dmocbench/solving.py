@@ -150,8 +150,9 @@ class Solution:
 
     def estimated_error(self) -> float:
         """The estimated relative error of q, p and cost, from this answer alone. Throws Error if the solve failed, the
-        horizon is free, or bounds or path constraints are active."""
-        return self._answer.estimated_error()
+        horizon is free, bounds or path constraints are active, or there are first-order states, unknowns or integrals."""
+        with sentences_of_python():
+            return self._answer.estimated_error()
 
     def __dir__(self):
         return sorted({*super().__dir__(), *type(self).__annotations__})
