@@ -15,11 +15,17 @@ namespace dmocbench {
 template <class Minimal>
 class RedundantStatement : public Problem {
  public:
+  /// The minimal statement's.
   [[nodiscard]] std::vector<std::string> control_names() const override { return Minimal().control_names(); }
+  /// The minimal statement's, lifted.
   [[nodiscard]] BoundaryState initial_state() const override { return lifted(minimal().initial_state()); }
+  /// The minimal statement's, lifted.
   [[nodiscard]] BoundaryState final_state() const override { return lifted(minimal().final_state()); }
+  /// The minimal statement's.
   [[nodiscard]] double horizon() const override { return parameter("horizon"); }
+  /// The minimal statement's.
   [[nodiscard]] double cost_scale() const override { return minimal().cost_scale(); }
+  /// The minimal statement's, lifted.
   [[nodiscard]] MotionPoint guess(double t) const override {
     const MotionPoint point = minimal().guess(t);
     const BoundaryState state = lifted({.q = point.q, .v = point.v});
