@@ -136,6 +136,11 @@ void print_problem(const Problem& problem) {
   if (problem.first_order_size() > 0)
     print_field("y", fmt::format("({}), first-order states", fmt::join(problem.first_order_names(), ", ")));
   print_field("start", end_in_words(problem, problem.initial_state(), problem.bounds().first));
+  for (const InteriorBounds& at : problem.bounds().interior) {
+    print_field("between", fmt::format("at t/T = {:.6g}, q: {}; v: {}; y: {}", at.relative_time,
+                                       bounds_in_words(at.q, q_names), bounds_in_words(at.v, velocity_names(problem)),
+                                       bounds_in_words(at.y, problem.first_order_names())));
+  }
   print_field("end", end_in_words(problem, problem.final_state(), problem.bounds().last));
   print_field("horizon", horizon_in_words(problem));
   print_field("bounds", fmt::format("on q: {}; on v: {}; on u: {}", bounds_in_words(problem.bounds().q, q_names),

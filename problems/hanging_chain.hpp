@@ -9,6 +9,10 @@ namespace dmocbench {
 /// q is the height over the horizontal coordinate, which takes the place of time: L = ½q̇², f = u, so that q̈ = u is
 /// free; C = q √(1 + q̇²), the potential energy, with the length ∫ √(1 + q̇²) dt = 4. From (0, 1) to (1, 3), the slopes
 /// at both ends free. The shape is a catenary.
+///
+/// Neither cost nor length reads the force, so that one number of every discrete motion is left open: with the stages
+/// kept, the velocities of the nodes may change by (±1)^k δ, and the forces with them. A solve whose last Newton step
+/// still moves along it is `not confirmed`; cost and price are right all the same.
 class HangingChain final : public Problem {
  public:
   HangingChain() : Problem({{"length", 4.0, "", "of the chain, more than the distance of its ends", 2.25, 100.0}}) {}

@@ -18,6 +18,7 @@
 #include "problems/double_oscillator.hpp"
 #include "problems/eccentric_transfer.hpp"
 #include "problems/forced_oscillator.hpp"
+#include "problems/formation.hpp"
 #include "problems/goddard_rocket.hpp"
 #include "problems/hang_glider.hpp"
 #include "problems/hanging_chain.hpp"
@@ -41,6 +42,7 @@
 #include "problems/two_link_manipulator.hpp"
 #include "problems/two_link_maximal.hpp"
 #include "problems/two_link_with_motors.hpp"
+#include "problems/waypoints.hpp"
 
 namespace dmocbench {
 
@@ -100,6 +102,8 @@ Registry problems_of_the_suite() {
   registry.add<TwoLinkMaximal>();
   registry.add<LinkChainMaximal>();
   registry.add<SatelliteDirectors>();
+  registry.add<Waypoints>();
+  registry.add<Formation>();
   return registry;
 }
 

@@ -1,5 +1,7 @@
 // Convergence of states, costates and controls (main_theorem) and the adjoint scheme that it rests on (th:orderapp),
 // for every tableau against the indirect solution.
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -191,10 +193,54 @@ Finding order_eight(const ResultTables& tables, const std::string& problem) {
                not_in(all, tables, problem));
 }
 
+/// Every fitted order of some quantities is the one of `expected`, and each quantity has one by every tableau that the
+/// table has; otherwise the claim is not judged.
+Finding first_order_orders(const ResultTables& tables, const std::string& problem,
+                           const std::vector<std::string>& quantities, double (*expected)(const Row&)) {
+  const Selection all = tables.rows("convergence_first_order_slopes", problem).where([&](const Row& row) {
+    return std::ranges::find(quantities, row.text("quantity")) != quantities.end();
+  });
+  const Selection fitted = all.where([](const Row& row) { return row.text("verdict") == "slope"; });
+  std::string words;
+  for (const Selection& scheme : all.group_by({"tableau", "stages"})) {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    for (const std::string& quantity : quantities) {
+      const Selection of_quantity = fitted.matching(scheme.front(), {"tableau", "stages"}).where("quantity", quantity);
+      require(!of_quantity.empty(), "convergence_first_order_slopes.csv has no fitted order of {} for {}, {} {}",
+              quantity, problem, scheme.front().text("tableau"), scheme.front().text("stages"));
+      lowest = std::min(lowest, of_quantity.min("slope"));
+      highest = std::max(highest, of_quantity.max("slope"));
+    }
+    words +=
+        fmt::format("{}{} {}: {:.2f} to {:.2f} (order {:g})", words.empty() ? "" : "; ", scheme.front().text("tableau"),
+                    scheme.front().text("stages"), lowest, highest, expected(scheme.front()));
+  }
+  require(!words.empty(), "convergence_first_order_slopes.csv has no order for {}", problem);
+  const auto verdict_of = [&](const Row& row) { return verdict_on_order(row, expected(row)); };
+  return found(verdict_on_all(fitted, verdict_of), "lowest and highest slope of all methods: {}{}", words,
+               left_out(all, fitted, "without a fit, in favour of the claim:"));
+}
+
+Finding orders_with_first_order_states(const ResultTables& tables, const std::string& problem) {
+  return first_order_orders(
+      tables, problem, {"state", "momentum", "costate", "first_order", "first_order_costate", "control_from_costate"},
+      expected_order);
+}
+
+Finding stage_controls_with_first_order_states(const ResultTables& tables, const std::string& problem) {
+  return first_order_orders(tables, problem, {"control"}, [](const Row& row) {
+    return row.needed("stages") + (row.text("tableau") == "gauss" ? 1.0 : -1.0);
+  });
+}
+
 }  // namespace
 
 /// Orders of state and costate for every tableau.
 Claims order_claims() {
+  const Problems with_first_order_states{"two_link_with_motors", "orbital_transfer_with_mass"};
+  const std::vector<std::string> first_order_evidence{"convergence_first_order_slopes.csv",
+                                                      "convergence_first_order.csv", "figures/{}_first_order.svg"};
   return {
       {.id = "order_of_convergence",
        .where = "section 3.6, main_theorem",
@@ -224,7 +270,24 @@ Claims order_claims() {
        .judge = stability_constant,
        .condition = "it bounds the constant of (abstract_result) from below, in this direction of errors alone; the "
                     "midpoint rule",
-       .evidence = {"convergence_indirect_jumps.csv"}}};
+       .evidence = {"convergence_indirect_jumps.csv"}},
+      {.id = "order_with_first_order_states",
+       .problems = with_first_order_states,
+       .where = "section 3.6, main_theorem",
+       .states =
+           "with first-order states, collocated by half A of the tableau, all three methods have order 2s (Gauss) "
+           "and 2s - 2 (Lobatto) at the nodes, in q, p, y, u(x, psi) and all costates",
+       .judge = orders_with_first_order_states,
+       .evidence = first_order_evidence,
+       .needs = "convergence_first_order_slopes"},
+      {.id = "stage_controls_with_first_order_states",
+       .problems = {with_first_order_states.front()},
+       .where = "section 3.6, remark behind main_theorem",
+       .states = "stage controls that drive first-order states have order s + 1 (Gauss) and s - 1 (Lobatto)",
+       .judge = stage_controls_with_first_order_states,
+       .condition = "H_u contains the costate of y, which the other half of the tableau carries",
+       .evidence = first_order_evidence,
+       .needs = "convergence_first_order_slopes"}};
 }
 
 /// And of the controls of the stages.

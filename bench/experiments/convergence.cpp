@@ -42,7 +42,10 @@ struct Measured {
 /// A row per curve: for each error the fitted order and the grids that it is fitted over, or why it is missing; and
 /// whether bounds are active, which lower orders.
 Table orders_by_curve(const Table& orders) {
-  const std::vector<std::string> quantities{"state", "momentum", "control", "costate", "objective"};
+  std::vector<std::string> quantities{"state", "momentum", "control", "costate", "objective"};
+  if (!Selection(orders).where("quantity", "first_order").empty()) {
+    quantities.insert(quantities.end(), {"first_order", "first_order_costate"});
+  }
   std::vector<std::string> columns{"problem", "method", "tableau", "s"};
   columns.insert(columns.end(), quantities.begin(), quantities.end());
   const bool has_bounds =
@@ -88,6 +91,10 @@ class Convergence final : public ExperimentOf<Measured> {
         {"momentum_error", "", "largest error of p over the nodes", from(error, &TrajectoryError::momentum)},
         {"costate_error", "", "largest error of psi over the nodes", from(error, &TrajectoryError::costate)},
         {"objective_error", "cost", "error of the cost", from(error, &TrajectoryError::objective)},
+        {"first_order_error", "", "largest error of first-order states over the nodes",
+         from(error, &TrajectoryError::first_order)},
+        {"first_order_costate_error", "", "largest error of their costate over the nodes",
+         from(error, &TrajectoryError::first_order_costate)},
         replay_error_column(&Measured::replay),
         {"control_from_costate_error", "",
          "largest error of the control recomputed from state and costate at the nodes",

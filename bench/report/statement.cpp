@@ -156,6 +156,14 @@ std::string statement_html(const Problem& problem) {
   begin.add(part(stated_problem.end_inputs, letters + n, n), bounds.first.v);
   begin.add(part(stated_problem.end_inputs, letters + 2 * n, l), bounds.first.y);
   add("Begin", begin);
+  for (const InteriorBounds& at : bounds.interior) {
+    Conditions between;
+    between.add(part(stated_problem.inputs, letters, n), at.q);
+    between.add(part(stated_problem.inputs, letters + n, n), at.v);
+    between.add(part(stated_problem.inputs, letters + 2 * n + m, l), at.y);
+    add(fmt::format("At {}", math("<mi>t</mi><mo>/</mo><mi>T</mi><mo>=</mo>" + number_html(at.relative_time))),
+        between);
+  }
   Conditions end;
   const std::size_t of_last = letters + 2 * n + l;
   end.add(part(stated_problem.end_inputs, of_last, n), bounds.last.q);

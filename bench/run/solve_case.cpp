@@ -399,7 +399,8 @@ IndependentChecks check_independently(SolvedCase& solved) {
     solved.between_stages = violation_between_stages(problem, solved.program->traced_problem(), trajectory);
   }
   checks.violation_between_nodes = solved.between_stages->largest;
-  if (problem.bounds().horizon.is_free() && trajectory.has_costates()) {
+  // Times between the ends that move with T, where costates jump, would add terms.
+  if (problem.bounds().horizon.is_free() && problem.bounds().interior.empty() && trajectory.has_costates()) {
     checks.free_horizon_residual = free_horizon_residual(problem, trajectory);
   }
   return checks;

@@ -33,7 +33,9 @@ constexpr std::array fitted_quantities{"state",
                                        "stage_configuration",
                                        "stage_momentum",
                                        "stage_costate_q",
-                                       "stage_costate_p"};
+                                       "stage_costate_p",
+                                       "first_order",
+                                       "first_order_costate"};
 
 const ColumnNames scheme_names{"problem", "method", "tableau", "stages"};
 /// Rows that agree in these differ in their grid only.

@@ -278,6 +278,9 @@ ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::Vect
   if (shape.integrals > 0 || shape.unknown_parameters > 0 || shape.first_order_size > 0) {
     throw Error("the error cannot be estimated with integral constraints, unknown parameters or first-order states");
   }
+  if (!program.bounds().interior.empty()) {
+    throw Error("the error cannot be estimated with bounds between the ends, where costates jump");
+  }
   const LinearisedConditions at(program, primal, multipliers);
   require_smooth_optimum(program, at);
   ErrorEstimate estimate{.q = {}, .p = {}, .psi_q = {}, .psi_p = {}, .defects = {}};

@@ -36,6 +36,10 @@ TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory&
   TrajectoryError error;
   const bool compare_costates = trajectory.has_costates() && reference.has_costates();
   if (compare_costates) error.costate = 0.0;
+  const bool has_first_order = trajectory.y.cols() > 0 && reference.y.cols() == trajectory.y.cols();
+  const auto raise = [](std::optional<double>& largest, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    largest = std::max(largest.value_or(0.0), (a - b).norm());
+  };
   const auto horizon = [](const Trajectory& motion) { return motion.node_times[motion.intervals()]; };
   const double stretch = horizon(reference) / horizon(trajectory);
   for (Eigen::Index k = 0; k < trajectory.node_times.size(); ++k) {
@@ -45,6 +49,10 @@ TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory&
         node ? Eigen::VectorXd(reference.q.row(*node).transpose()) : configuration_at(reference, t);
     error.state = std::max(error.state, (trajectory.q.row(k).transpose() - q).norm());
     if (!node) continue;
+    if (has_first_order) raise(error.first_order, trajectory.y.row(k), reference.y.row(*node));
+    if (has_first_order && compare_costates) {
+      raise(error.first_order_costate, trajectory.psi_y.row(k), reference.psi_y.row(*node));
+    }
     error.momentum = std::max(error.momentum, (trajectory.p.row(k) - reference.p.row(*node)).norm());
     if (compare_costates) {
       const double difference = std::hypot((trajectory.psi_q.row(k) - reference.psi_q.row(*node)).norm(),

@@ -20,7 +20,9 @@ struct TrajectoryError {
   double momentum = 0.0;  ///< max over the nodes of |p(t_k) - p_ref(t_k)|; nodes that the reference lacks are left out
   double control = 0.0;   ///< max over the stages of |u - u_ref| at the stage times
   std::optional<double> costate;  ///< max over the nodes of |ψ - ψ_ref|, ψ = (ψ_q, ψ_p); none without multipliers
-  double objective = 0.0;         ///< |J - J_ref|
+  std::optional<double> first_order;          ///< the same of y; none without first-order states
+  std::optional<double> first_order_costate;  ///< the same of ψ_y; none without them or without multipliers
+  double objective = 0.0;                     ///< |J - J_ref|
   /// Present only if the reference is given at the same stage times: stage values have an order of their own, which
   /// interpolation between other stages would hide.
   std::optional<StageError> stages;

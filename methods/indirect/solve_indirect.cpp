@@ -64,6 +64,7 @@ void require_smooth_class(const Problem& problem) {
   if (bounds.horizon.is_free()) refuse("a free horizon");
   if (bounds.u.any()) refuse("bounds on the controls");
   if (bounds.q.any() || bounds.v.any()) refuse("bounds on the state");
+  if (!bounds.interior.empty()) refuse("bounds between the ends");
   if (traced.path_constraint_count() > 0) refuse("path constraints");
   if (traced.integral_count() > 0) refuse("integral constraints");
   if (traced.first_order_size() > 0) refuse("first-order states");

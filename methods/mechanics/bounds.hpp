@@ -52,6 +52,15 @@ struct EndBounds {
   [[nodiscard]] bool all_fixed() const { return q.all_fixed() && v.all_fixed(); }
 };
 
+/// Bounds on the state at a time between the ends, such as a waypoint: every grid gets a node there. Equal bounds make
+/// an equation. A part without entries is not bounded.
+struct InteriorBounds {
+  double relative_time = 0.0;  ///< t / T, between 0 and 1; where T is given, the time t is t / horizon()
+  Bounds q = {};               ///< n entries or none
+  Bounds v = {};               ///< n entries or none
+  Bounds y = {};               ///< first-order states, l entries or none
+};
+
 /// lower <= T <= upper; a fixed horizon has equal bounds.
 struct HorizonBounds {
   double lower = 0.0;  ///< least T
@@ -71,6 +80,7 @@ struct ProblemBounds {
   Bounds y;               ///< on first-order states at every node, l entries or none
   Bounds path;            ///< on the path constraints h at every stage, one entry each; h >= 0 where there are none
   Bounds integrals;       ///< on the integrals of `Problem::integrands` over [0, T], one entry each
+  std::vector<InteriorBounds> interior;  ///< at times between the ends
 
   /// On h, with `count` entries: `path`, or h >= 0 where that is empty.
   [[nodiscard]] Bounds of_path(Eigen::Index count) const;

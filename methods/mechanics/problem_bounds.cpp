@@ -97,15 +97,39 @@ EndBounds checked_end(const EndBounds& end, const ProblemBounds& everywhere, con
 }
 
 /// By continuity the velocity of an end lies within the bounds that hold at the stages next to it.
-void require_velocity_left(const EndBounds& end, const Bounds& everywhere, const std::string& subject) {
-  for (Eigen::Index i = 0; i < end.v.lower.size(); ++i) {
-    const double lower = std::max(end.v.lower[i], everywhere.lower[i]);
-    const double upper = std::min(end.v.upper[i], everywhere.upper[i]);
+void require_velocity_left(const Bounds& v, const Bounds& everywhere, const std::string& subject) {
+  for (Eigen::Index i = 0; i < v.lower.size(); ++i) {
+    const double lower = std::max(v.lower[i], everywhere.lower[i]);
+    const double upper = std::min(v.upper[i], everywhere.upper[i]);
     const double slack = 1e-12 * std::max(1.0, std::abs(upper));
     if (lower <= upper + slack) continue;
     throw Error(
         fmt::format("{} and bounds().v leave no value for v[{}]: {:g} lies above {:g}", subject, i, lower, upper));
   }
+}
+
+/// The bounds between the ends, complete, in the order of their times.
+std::vector<InteriorBounds> checked_interior(std::vector<InteriorBounds> interior, const ProblemBounds& everywhere,
+                                             const std::string& name) {
+  for (std::size_t j = 0; j < interior.size(); ++j) {
+    InteriorBounds& at = interior[j];
+    const std::string subject = fmt::format("{}.interior[{}]", name, j);
+    if (!(at.relative_time > 0.0 && at.relative_time < 1.0)) {
+      throw Error(fmt::format("{}.relative_time is {:g}; it must lie between 0 and 1, as a share of the horizon",
+                              subject, at.relative_time));
+    }
+    at.q = checked_bounds(at.q, everywhere.q.lower.size(), subject + ".q");
+    at.v = checked_bounds(at.v, everywhere.v.lower.size(), subject + ".v");
+    at.y = checked_bounds(at.y, everywhere.y.lower.size(), subject + ".y");
+    narrow(at.q, everywhere.q, subject, 'q');
+    narrow(at.y, everywhere.y, subject, 'y');
+    require_velocity_left(at.v, everywhere.v, subject);
+  }
+  std::ranges::sort(interior, {}, &InteriorBounds::relative_time);
+  const auto same = std::ranges::adjacent_find(interior, {}, &InteriorBounds::relative_time);
+  if (same == interior.end()) return interior;
+  throw Error(fmt::format("{}.interior has two entries at the relative time {:g}; state their bounds in one", name,
+                          same->relative_time));
 }
 
 void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
@@ -148,8 +172,9 @@ ProblemBounds complete_bounds(const Problem& problem, ProblemBounds bounds) {
   bounds.y = checked_bounds(bounds.y, problem.first_order_size(), name + ".y");
   bounds.first = checked_end(bounds.first, bounds, name + ".first");
   bounds.last = checked_end(bounds.last, bounds, name + ".last");
-  require_velocity_left(bounds.first, bounds.v, name + ".first");
-  require_velocity_left(bounds.last, bounds.v, name + ".last");
+  require_velocity_left(bounds.first.v, bounds.v, name + ".first");
+  require_velocity_left(bounds.last.v, bounds.v, name + ".last");
+  bounds.interior = checked_interior(std::move(bounds.interior), bounds, name);
   return bounds;
 }
 

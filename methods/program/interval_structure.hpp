@@ -23,7 +23,8 @@ struct PlaceRun {
   std::size_t index = 0;                   ///< of the first one's node or interval
   std::size_t count = 0;                   ///< how many there are
   std::size_t first = 0;                   ///< the first one's number
-  bool is_control = false;                 ///< whether they are values of a control
+  /// Whether they are values of a control, or rates of first-order states, which follow from it at their stage.
+  bool is_control = false;
 };
 
 /// The places of all unknowns, or of all rows, as runs. A quantity of all nodes is one run of N + 1, a quantity of all
@@ -74,6 +75,9 @@ struct IntervalStructure {
   std::size_t intervals = 0;  ///< N
   Places unknowns;            ///< one for every unknown
   Places rows;                ///< one for every row
+  /// A node between the ends has fixed unknowns or equations that the others lack: its linear systems are not the same
+  /// in all intervals.
+  bool has_interior_equations = false;
 };
 
 }  // namespace dmocbench

@@ -34,9 +34,10 @@ Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& name
   return values;
 }
 
-/// Reads ψ^q and ψ^p; a table without columns or fields of them is a motion all the same.
-void read_costates(const Table& nodes, const std::vector<std::string>& names, const std::filesystem::path& file,
+/// Reads ψ^q, ψ^p and ψ^y; a table without columns or fields of them is a motion all the same.
+void read_costates(const Problem& problem, const Table& nodes, const std::filesystem::path& file,
                    Trajectory& trajectory) {
+  const std::vector<std::string> names = problem.configuration_names();
   const auto has_field = [&](const Row& row) {
     return std::ranges::any_of(names, [&](const std::string& name) {
       return !row.text("psi_q_" + name).empty() || !row.text("psi_p_" + name).empty();
@@ -45,6 +46,7 @@ void read_costates(const Table& nodes, const std::vector<std::string>& names, co
   if (std::ranges::none_of(nodes.rows(), has_field)) return;
   trajectory.psi_q = columns(nodes, names, "psi_q_", file);
   trajectory.psi_p = columns(nodes, names, "psi_p_", file);
+  trajectory.psi_y = columns(nodes, problem.first_order_names(), "psi_", file);
 }
 
 /// The column t. Throws `Error` unless it ascends.
@@ -150,6 +152,20 @@ void read_unknowns(const Problem& problem, const Table& nodes, const std::filesy
   trajectory.unknowns = columns(nodes, names, "", file).row(0).transpose();
 }
 
+std::vector<std::string> constraint_names(const Problem& problem, Eigen::Index count) {
+  std::vector<std::string> names = problem.card().path_constraint_names;
+  while (std::ssize(names) < count) names.push_back(fmt::format("h_{}", names.size() + 1));
+  names.resize(static_cast<std::size_t>(count));
+  return names;
+}
+
+/// Prices of the bounds of these quantities; no columns where they have none.
+Series priced(const std::string& prefix, const std::vector<std::string>& names, const Eigen::MatrixXd& prices,
+              const std::string& of) {
+  return {prefix, prices.size() > 0 ? names : std::vector<std::string>(), prices,
+          "growth of the least cost per unit of the bound of " + of};
+}
+
 }  // namespace
 
 Table node_table(const Problem& problem, const Trajectory& trajectory) {
@@ -163,11 +179,21 @@ Table node_table(const Problem& problem, const Trajectory& trajectory) {
                        {"psi_p_", names, trajectory.psi_p, "costate of p"},
                        {"", problem.first_order_names(), trajectory.y, "first-order state"},
                        {"psi_", problem.first_order_names(), trajectory.psi_y, "costate of a first-order state"},
-                       {"", unknown_names(problem), unknowns, "unknown parameter"}});
+                       {"", unknown_names(problem), unknowns, "unknown parameter"},
+                       priced("price_", names, trajectory.prices.q, "q"),
+                       priced("price_v_", names, trajectory.prices.v, "its velocity"),
+                       priced("price_", problem.first_order_names(), trajectory.prices.y, "a first-order state")});
 }
 
 Table stage_table(const Problem& problem, const Trajectory& trajectory) {
-  return series_table("t", trajectory.stage_times, {{"", problem.control_names(), trajectory.stage_u, "control u"}});
+  const BoundPrices& prices = trajectory.prices;
+  const std::string rate = " per unit of time";
+  return series_table(
+      "t", trajectory.stage_times,
+      {{"", problem.control_names(), trajectory.stage_u, "control u"},
+       priced("price_", problem.control_names(), prices.stage_u, "u," + rate),
+       priced("price_v_", problem.configuration_names(), prices.stage_v, "a velocity," + rate),
+       priced("price_", constraint_names(problem, prices.path.cols()), prices.path, "a path constraint," + rate)});
 }
 
 Table picture_table(const Problem& problem, const Trajectory& trajectory) {
@@ -198,17 +224,6 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
   return series_table(name_with_unit("t", time.name), trajectory.node_times * time.factor,
                       {{"", names, values, "a quantity of the picture", units}}, time.name);
 }
-
-namespace {
-
-std::vector<std::string> constraint_names(const Problem& problem, Eigen::Index count) {
-  std::vector<std::string> names = problem.card().path_constraint_names;
-  while (std::ssize(names) < count) names.push_back(fmt::format("h_{}", names.size() + 1));
-  names.resize(static_cast<std::size_t>(count));
-  return names;
-}
-
-}  // namespace
 
 Table constraint_table(const Problem& problem, const Trajectory& trajectory) {
   PointFunction constraints(problem.configuration_size(), problem.control_size(),
@@ -331,7 +346,7 @@ Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, con
     trajectory.stage_u = columns(stages, problem.control_names(), "", stages_file);
   }
   trajectory.y = columns(nodes, problem.first_order_names(), "", file);
-  read_costates(nodes, problem.configuration_names(), file, trajectory);
+  read_costates(problem, nodes, file, trajectory);
   read_unknowns(problem, nodes, file, trajectory);
   return trajectory;
 }

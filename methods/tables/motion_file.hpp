@@ -13,10 +13,12 @@
 namespace dmocbench {
 
 /// The nodes of a trajectory: `t`, then per configuration NAME, `v_NAME`, `p_NAME`, and `psi_q_NAME`, `psi_p_NAME`
-/// where there are costates (empty fields otherwise). Units of the problem as solved.
+/// where there are costates (empty fields otherwise), and `price_NAME`, `price_v_NAME` where there are bounds
+/// (`BoundPrices`). Units of the problem as solved.
 [[nodiscard]] Table node_table(const Problem& problem, const Trajectory& trajectory);
 
-/// The stages: `t` and the controls by their names.
+/// The stages: `t` and the controls by their names; `price_NAME` of their bounds and of path constraints,
+/// `price_v_NAME` of velocities, where there are any.
 [[nodiscard]] Table stage_table(const Problem& problem, const Trajectory& trajectory);
 
 /// The data of a picture, at the nodes: `t` in the problem's unit of time, then the quantities of

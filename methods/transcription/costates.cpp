@@ -144,15 +144,21 @@ StageCostates stage_costates(const Transcription& transcription, const Eigen::Ve
   const Eigen::Index s = tableau.stages();
   const NodeState family = transcription.layout().node_state();
   const double horizon = trajectory.node_times[trajectory.intervals()];
-  PointDerivatives at_stage(transcription.traced_problem());
-  StageCostates result{Eigen::MatrixXd(trajectory.stage_q.rows(), n), Eigen::MatrixXd(trajectory.stage_q.rows(), n)};
+  const Eigen::Index l = trajectory.stage_y.cols();
+  PointDerivatives at_stage(transcription.traced_problem(), trajectory.integral_prices);
+  StageCostates result{Eigen::MatrixXd(trajectory.stage_q.rows(), n), Eigen::MatrixXd(trajectory.stage_q.rows(), n),
+                       Eigen::MatrixXd(trajectory.stage_q.rows(), l)};
+  const Eigen::Index first_order_rows = transcription.layout().shape().stage_equations - s * l;
   for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
     const double h = horizon * transcription.grid().relative_widths()[k];
     const Eigen::VectorXd local = local_multipliers(transcription, multipliers, k);
     const StageMultipliers stages =
         family == NodeState::configuration ? as_variation(local, tableau, n, h) : as_pairs(local, tableau, n, h);
+    const Eigen::VectorXd of_first_order =
+        local.segment(2 * transcription.functions().node_rows + first_order_rows, s * l) / -h;
     for (Eigen::Index i = 0; i < s; ++i) {
       const Eigen::Index row = k * s + i;
+      const Eigen::VectorXd psi_y = of_first_order.segment(i * l, l) / tableau.b[i];
       at_stage.evaluate(trajectory.stage(row), trajectory.stage_times[row]);
       const Eigen::VectorXd psi_p = stages.psi_p.col(i);
       const Eigen::VectorXd other = stages.other.col(i);
@@ -160,9 +166,10 @@ StageCostates stage_costates(const Transcription& transcription, const Eigen::Ve
       if (family == NodeState::velocity) {
         psi_q = other - at_stage.momentum_by_configuration().transpose() * psi_p;
       } else {
-        psi_q =
-            -(at_stage.cost_by_velocity() + at_stage.force_by_velocity().transpose() * psi_p + at_stage.mass() * other);
+        psi_q = -(at_stage.cost_by_velocity() + at_stage.force_by_velocity().transpose() * psi_p +
+                  at_stage.mass() * other + at_stage.rates_by_velocity().transpose() * psi_y);
       }
+      result.psi_y.row(row) = psi_y.transpose();
       result.psi_p.row(row) = psi_p.transpose();
       result.psi_q.row(row) = psi_q.transpose();
     }

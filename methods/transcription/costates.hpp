@@ -36,6 +36,7 @@ void move_to_projected_momenta(const TracedProblem& problem, const Eigen::Matrix
 struct StageCostates {
   Eigen::MatrixXd psi_q;  ///< N s × n
   Eigen::MatrixXd psi_p;  ///< N s × n
+  Eigen::MatrixXd psi_y;  ///< N s × l, at fixed (q, p)
 };
 
 /// Stage costates read off the multipliers. No coefficient of the adjoint scheme enters, so that the scheme can be
@@ -50,6 +51,9 @@ struct StageCostates {
 /// For both, Ψ^q_i = -(C_v + F_vᵀΨ^p_i + L_vv w_i): this is w = -∂H/∂p at the stage, H = C + Ψ^q·v + Ψ^p·F and v = v(q,
 /// p).
 ///   - Tangent-space: α_i of Q̇_i - V_i, β_i of d/dt L_v - F: Ψ^p_i = -β_i/(h b_i), Ψ^q_i = -α_i/(h b_i) - L_vqᵀΨ^p_i.
+///
+/// First-order states add the row γ_i of Ẏ_i - g for all: Ψ^y_i = -γ_i/(h b_i), and g_vᵀΨ^y_i to the bracket of Ψ^q_i.
+/// Integral constraints take their prices times c from C.
 ///
 /// `multipliers` has an entry per constraint of the program; `trajectory` holds its nodes and stages.
 [[nodiscard]] StageCostates stage_costates(const Transcription& transcription, const Eigen::VectorXd& multipliers,

@@ -77,6 +77,11 @@ class ConstraintWords {
     for (Eigen::Index i = 0; i < shape.integrals; ++i) {
       if (unknown == layout_->integral_head(i) + layout_->intervals()) return fmt::format("bounds().integrals[{}]", i);
     }
+    const std::size_t velocities = shape.interior_velocities.size();
+    if (unknown - layout_->interior_velocity(0, 0) < velocities * static_cast<std::size_t>(n_)) {
+      const auto i = static_cast<Eigen::Index>(unknown - layout_->interior_velocity(0, 0)) % n_;
+      return "bounds().interior: the velocity of " + coordinate(i) + where(place);
+    }
     return "the bounds of a velocity, momentum or cost" + where(place);
   }
 
@@ -372,6 +377,7 @@ std::string contradiction(const Transcription& transcription) {
   std::vector<std::string> parts;
   const EndBounds& last = transcription.bounds().last;
   if (states_more_than(last, transcription.bounds().q)) parts.emplace_back("final_state");
+  if (!transcription.bounds().interior.empty()) parts.emplace_back("bounds().interior");
   if (transcription.layout().shape().conditions > 0) parts.emplace_back("boundary_conditions");
   if (transcription.traced_problem().path_constraint_count() > 0) parts.emplace_back("path_constraints");
   if (parts.empty()) return "";

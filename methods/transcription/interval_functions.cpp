@@ -9,11 +9,12 @@ struct Unknowns : IntervalUnknowns {
   ExpressionVector left_sums;   // z_k: the cost in Mayer form, integrals
   ExpressionVector right_sums;  // z_{k+1}
   ExpressionVector parameters;  // unknown ones
+  ExpressionVector velocity;    // of the right node, where it is an unknown of its own
   LocalInputs inputs;
 };
 
 Unknowns make_unknowns(const TracedProblem& problem, const Element& element, const Tableau& tableau,
-                       const IntervalRules& rules) {
+                       const IntervalRules& rules, bool has_velocity = false) {
   const std::size_t parameters = problem.open_parameters().size();
   InputCounter counter(parameters);
   Unknowns unknowns;
@@ -23,6 +24,7 @@ Unknowns make_unknowns(const TracedProblem& problem, const Element& element, con
   unknowns.right_sums = counter.take(sums);
   const Expression horizon = rules.free_horizon ? counter.take() : Expression(1.0);
   unknowns.parameters = counter.take(problem.unknown_count());
+  unknowns.velocity = counter.take(has_velocity ? problem.configuration_size() : 0);
   unknowns.inputs.parameters = parameters;
   unknowns.inputs.unknowns = counter.taken() - parameters;
   unknowns.h = horizon * Expression::input(unknowns.inputs.step());
@@ -82,6 +84,15 @@ Schedule stage_table(const std::vector<ControlledState>& stages, const std::vect
 }
 
 }  // namespace
+
+LocalFunctions trace_velocity_tie(const TracedProblem& traced, const Element& element, const Tableau& tableau,
+                                  const IntervalRules& rules) {
+  const Unknowns unknowns = make_unknowns(traced, element, tableau, rules, true);
+  const TracedProblem problem = traced.with_open_inputs(unknowns.parameters);
+  const State right{unknowns.right_q, unknowns.velocity, unknowns.t + unknowns.h, unknowns.right_y};
+  const ExpressionVector tie = element.trace(problem, tableau, unknowns).right_momentum - problem.at(right).momentum;
+  return differentiate(Expression(0.0), tie, unknowns.inputs.unknowns, unknowns.inputs.parameters);
+}
 
 IntervalFunctions trace_interval(const TracedProblem& traced, const Element& element, const Tableau& tableau,
                                  const IntervalRules& rules) {

@@ -44,6 +44,12 @@ struct IntervalFunctions : LocalFunctions {
   Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i, U_i, Y_i, Ẏ_i
 };
 
+/// The equation that ties the velocity of a node between the ends, an unknown of its own, to the momentum of the node:
+/// p_{k+1} - L_v(q_{k+1}, v, t_{k+1}, y_{k+1}) = 0, p_{k+1} as interval k sees it. Local unknowns: those of
+/// `IntervalFunctions`, then v. Local constraints: n.
+[[nodiscard]] LocalFunctions trace_velocity_tie(const TracedProblem& traced, const Element& element,
+                                                const Tableau& tableau, const IntervalRules& rules);
+
 /// Traces the formulas of one interval of an element and differentiates them.
 [[nodiscard]] IntervalFunctions trace_interval(const TracedProblem& traced, const Element& element,
                                                const Tableau& tableau, const IntervalRules& rules);

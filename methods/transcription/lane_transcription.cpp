@@ -83,6 +83,7 @@ LaneTranscription::LaneTranscription(const Transcription& program)
     throw Error("a batch supports neither first-order states nor integral constraints");
   }
   if (program.layout().shape().unknown_parameters > 0) throw Error("a batch needs given parameters; some are unknown");
+  if (!program.bounds().interior.empty()) throw Error("a batch supports no bounds between the ends");
   if (program.has_free_horizon()) throw Error("a batch needs a given horizon, but this problem's is free");
   const Layout& layout = program.layout();
   const auto add = [&](const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,

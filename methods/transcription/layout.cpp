@@ -25,8 +25,10 @@ void Layout::append_unknowns() {
   const Eigen::Index m = shape_.control_size;
   Places& unknowns = structure_.unknowns;
   structure_.intervals = shape_.intervals;
+  structure_.has_interior_equations = shape_.has_interior_equations;
   append(unknowns, node, node_columns());
-  rates_ = append(unknowns, interval, interior_columns());
+  rates_ = append(unknowns, interval, interior_rates());
+  append(unknowns, interval, interior_first_order_stages() * shape_.first_order_size, true);
   controls_ = append(unknowns, node, shape_.shares_controls ? m : 0, true);
   inner_controls_ = append(unknowns, interval, (shape_.control_stages - (shape_.shares_controls ? 2 : 0)) * m, true);
   multipliers_ = append(unknowns, interval, shape_.multipliers);
@@ -35,6 +37,8 @@ void Layout::append_unknowns() {
   if (shape_.first_has_velocity) append_singles(unknowns, 0, shape_.configuration_size);
   if (shape_.last_has_velocity) append_singles(unknowns, shape_.intervals, shape_.configuration_size);
   append_singles(unknowns, shape_.intervals, shape_.last_multipliers);
+  for (const std::size_t number : shape_.interior_velocities)
+    append_singles(unknowns, number, shape_.configuration_size);
   const auto globals = static_cast<std::size_t>(shape_.unknown_parameters) + (shape_.free_horizon ? 1 : 0);
   if (globals > 0) unknowns.append(border, 0, globals);
 }
@@ -50,6 +54,8 @@ void Layout::append_rows() {
   if (shape_.last_has_velocity && own_ties) append_singles(rows, shape_.intervals, shape_.configuration_size);
   append_singles(rows, 0, shape_.first_holonomic);
   append_singles(rows, shape_.intervals, shape_.last_holonomic);
+  interior_ties_ = rows.size();
+  for (const std::size_t number : shape_.interior_velocities) append_singles(rows, number, shape_.configuration_size);
   if (shape_.conditions > 0) rows.append(border, 0, static_cast<std::size_t>(shape_.conditions));
 }
 
@@ -100,8 +106,13 @@ void Layout::place_ends() {
   };
   if (shape_.first_has_velocity) place_tie(0);
   if (shape_.last_has_velocity || shape_.last_multipliers > 0) place_tie(shape_.intervals);
-  const Eigen::Index others = shape_.first_holonomic + shape_.last_holonomic + shape_.conditions;
-  for (Eigen::Index i = 0; i < others; ++i) end_row_places_.emplace_back(own_row++);
+  for (Eigen::Index i = 0; i < shape_.first_holonomic + shape_.last_holonomic; ++i) {
+    end_row_places_.emplace_back(own_row++);
+  }
+  const auto conditions = interior_tie(std::ssize(shape_.interior_velocities), 0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(shape_.conditions); ++i) {
+    end_row_places_.emplace_back(conditions + i);
+  }
 }
 
 std::size_t Layout::control_head(Eigen::Index stage, Eigen::Index i) const noexcept {

@@ -26,11 +26,14 @@ struct LayoutShape {
   Eigen::Index node_rows = 0;                       ///< per node
   Eigen::Index stage_equations = 0;                 ///< per interval: the element's own
   Eigen::Index path_rows = 0;                       ///< per interval
-  bool mayer = false;                   ///< nodes carry the cost so far, z_k, and intervals have a row for it
-  bool first_has_velocity = false;      ///< v_0, or v_N, is an unknown in addition to the nodes'
-  bool last_has_velocity = false;       ///< the velocity at T is an unknown of its own
-  bool free_horizon = false;            ///< T is an unknown
-  Eigen::Index conditions = 0;          ///< boundary conditions
+  bool mayer = false;               ///< nodes carry the cost so far, z_k, and intervals have a row for it
+  bool first_has_velocity = false;  ///< v_0, or v_N, is an unknown in addition to the nodes'
+  bool last_has_velocity = false;   ///< the velocity at T is an unknown of its own
+  bool free_horizon = false;        ///< T is an unknown
+  Eigen::Index conditions = 0;      ///< boundary conditions
+  /// Nodes between the ends whose velocity is an unknown of its own, tied to their momentum.
+  std::vector<std::size_t> interior_velocities = {};
+  bool has_interior_equations = false;  ///< `IntervalStructure::has_interior_equations`
   Eigen::Index first_order_size = 0;    ///< l: nodes carry y besides
   Eigen::Index integrals = 0;           ///< nodes carry each so far, and intervals have a row for it
   Eigen::Index multipliers = 0;         ///< per interval, of holonomic constraints
@@ -48,11 +51,12 @@ struct LayoutShape {
 /// Where the unknowns and rows of all intervals stand in the program's vectors.
 ///
 /// Vectors are stored column by column: q_1 of all nodes, q_2 of all nodes, ..., then p or v, y, interior rates,
-/// controls, multipliers of holonomic constraints, z; at last v_0, v_N, multipliers of node N, unknown parameters and T
-/// where they are unknowns. Every local quantity of an element is therefore contiguous over the intervals: interval k's
-/// is at `first` + k. For a quantity of the left node `first` is the head of its series, for the same quantity of the
-/// right node one more. Rows: of the nodes, of the intervals, then p = L_v(q, v) of the ends (Hamiltonian only),
-/// holonomic constraints of the ends and the boundary conditions.
+/// controls, multipliers of holonomic constraints, z; at last v_0, v_N, multipliers of node N, velocities between the
+/// ends, unknown parameters and T where they are unknowns. Every local quantity of an element is therefore contiguous
+/// over the intervals: interval k's is at `first` + k. For a quantity of the left node `first` is the head of its
+/// series, for the same quantity of the right node one more. Rows: of the nodes, of the intervals, then p = L_v(q, v)
+/// of the ends (Hamiltonian only), holonomic constraints of the ends, p = L_v(q, v) of nodes between them, and the
+/// boundary conditions.
 class Layout {
  public:
   /// Numbers all unknowns and rows of a program of this shape.
@@ -134,6 +138,14 @@ class Layout {
   [[nodiscard]] std::size_t last_multiplier(Eigen::Index i) const noexcept {
     return last_velocity((shape_.last_has_velocity ? shape_.configuration_size : 0) + i);
   }
+  /// The number of component i of the velocity at the j-th of `LayoutShape::interior_velocities`.
+  [[nodiscard]] std::size_t interior_velocity(Eigen::Index j, Eigen::Index i) const noexcept {
+    return last_multiplier(shape_.last_multipliers + j * shape_.configuration_size + i);
+  }
+  /// The number of the equation that ties it to the momentum.
+  [[nodiscard]] std::size_t interior_tie(Eigen::Index j, Eigen::Index i) const noexcept {
+    return interior_ties_ + static_cast<std::size_t>(j * shape_.configuration_size + i);
+  }
   /// The number of the i-th unknown parameter.
   [[nodiscard]] std::size_t unknown_parameter(Eigen::Index i) const noexcept {
     return variable_count() - (shape_.free_horizon ? 1 : 0) - static_cast<std::size_t>(shape_.unknown_parameters - i);
@@ -192,6 +204,7 @@ class Layout {
   std::size_t interval_rows_ = 0;
   std::size_t single_unknowns_ = 0;  // where v_0, v_N, the multipliers of node N, unknown parameters, T begin
   std::size_t single_rows_ = 0;      // where the rows of the ends begin
+  std::size_t interior_ties_ = 0;    // the rows of velocities between the ends
   IntervalStructure structure_;
   std::vector<SeriesPlace> unknown_places_;
   std::vector<SeriesPlace> row_places_;

@@ -50,6 +50,25 @@ void release(Bounds& variables, const ReleasedComponents& released, std::size_t 
   }
 }
 
+/// At the nodes between the ends that have bounds of their own.
+void bound_interior(Bounds& variables, const ProblemBounds& bounds, const Layout& layout, const Grid& grid) {
+  Eigen::Index own = 0;  // among those whose velocity is an unknown of its own
+  for (const InteriorBounds& at : bounds.interior) {
+    const auto node = static_cast<std::size_t>(grid.node_at(at.relative_time));
+    const auto set_entry = [&](std::size_t entry, const Bounds& of, Eigen::Index i) {
+      set(variables, entry, 1, of.lower[i], of.upper[i]);
+    };
+    for (Eigen::Index i = 0; i < at.q.lower.size(); ++i) set_entry(layout.configuration_head(i) + node, at.q, i);
+    for (Eigen::Index i = 0; i < at.y.lower.size(); ++i) set_entry(layout.first_order_head(i) + node, at.y, i);
+    if (!at.v.any()) continue;
+    const bool is_of_node = layout.node_state() == NodeState::velocity;
+    for (Eigen::Index i = 0; i < at.v.lower.size(); ++i) {
+      set_entry(is_of_node ? layout.second_head(i) + node : layout.interior_velocity(own, i), at.v, i);
+    }
+    ++own;
+  }
+}
+
 /// The momentum of an end: fixed where the end is clamped, free otherwise.
 Bounds end_momentum(bool clamped, const EndBounds& end, double t, const TracedProblem& traced, const Problem& problem,
                     const char* where) {
@@ -82,7 +101,7 @@ void require_same_structure(const Problem& problem, const ProgramBounds& before,
 }
 
 ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
-                             double horizon, const EndRules& ends, const Layout& layout) {
+                             double horizon, const EndRules& ends, const Layout& layout, const Grid& grid) {
   ProgramBounds result{Bounds::none(static_cast<Eigen::Index>(layout.variable_count())),
                        Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.constraint_count())))};
   auto& [variables, rows] = result;
@@ -129,6 +148,7 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
     set_entry(variables, head, bounds.first.y, i);
     set_entry(variables, head + last_node, bounds.last.y, i);
   }
+  bound_interior(variables, bounds, layout, grid);
   bound_controls(variables, bounds.u, layout);
   for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) set(variables, layout.sum_head(i), 1, 0.0, 0.0);
   for (Eigen::Index i = 0; i < layout.shape().integrals; ++i) {

@@ -9,6 +9,7 @@
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/end_functions.hpp"
 #include "methods/transcription/layout.hpp"
+#include "methods/transcription/motions/grid.hpp"
 
 namespace dmocbench {
 
@@ -23,10 +24,11 @@ struct ProgramBounds {
 /// (∂A/∂q_N + W) = 0 (rem:inifinalvel). Path constraints have the bounds of the velocities, or are not negative
 /// (eq:gDLOCP5), or `ProblemBounds::path`. Sums begin at 0, and integrals end within their bounds. `horizon` is the
 /// time of the last end. Throws `Error` if the momentum at an end is not finite, or as `require_bounds_of_formulas` and
-/// `require_path_constraints_at_ends`.
+/// `require_path_constraints_at_ends`. Bounds between the ends are those of the unknowns of their nodes, which `grid`
+/// has.
 [[nodiscard]] ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced,
                                            const ProblemBounds& bounds, double horizon, const EndRules& ends,
-                                           const Layout& layout);
+                                           const Layout& layout, const Grid& grid);
 
 /// Throws `Error` unless the same entries have bounds, and equal ones, as before: solvers are set up for that.
 void require_same_structure(const Problem& problem, const ProgramBounds& before, const ProgramBounds& now);

@@ -1,5 +1,6 @@
 // The functions of `Transcription` that give a program other values.
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,6 +28,16 @@ void require_changeable(const Problem& problem, const TracedProblem& traced, con
 void require_same_velocities(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
   if (before.bounded_velocities() == now.bounded_velocities()) return;
   throw Error(problem.name() + ": other velocities than before have bounds; make a new transcription");
+}
+
+void require_same_times(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
+  const auto is_same = [](const InteriorBounds& a, const InteriorBounds& b) {
+    return a.relative_time == b.relative_time && a.v.any() == b.v.any();
+  };
+  if (std::ranges::equal(before.interior, now.interior, is_same)) return;
+  throw Error(problem.name() +
+              ": bounds().interior has other times than before, or bounds on other velocities; that is another "
+              "transcription");
 }
 
 }  // namespace
@@ -122,8 +133,9 @@ void Transcription::use(Values values) {
     throw Error(problem_->name() + ": whether the horizon is free cannot change; make a new transcription");
   }
   require_same_velocities(*problem_, problem_bounds_, values.bounds);
+  require_same_times(*problem_, problem_bounds_, values.bounds);
   require_readable_ends(values);
-  ProgramBounds bounds = program_bounds(*problem_, traced_, values.bounds, values.horizon, end_rules_, layout_);
+  ProgramBounds bounds = program_bounds(*problem_, traced_, values.bounds, values.horizon, end_rules_, layout_, grid_);
   require_same_structure(*problem_, bounds_, bounds);
   // Nothing below throws, except std::bad_alloc.
   problem_bounds_ = std::move(values.bounds);
@@ -134,6 +146,7 @@ void Transcription::use(Values values) {
   if (end_rules_.free_horizon) return;
   step_inputs_ = guessed_horizon_ * grid_.relative_widths();
   time_inputs_ = guessed_horizon_ * grid_.relative_times();
+  set_tie_inputs();
 }
 
 }  // namespace dmocbench

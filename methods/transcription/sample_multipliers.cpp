@@ -19,33 +19,42 @@ struct AdjointPoint {
   MotionPoint motion;
   Eigen::VectorXd psi_q;
   Eigen::VectorXd psi_p;
+  Eigen::VectorXd psi_y;  // l entries
 };
 
-/// The rates of ψ^p and ψ^q where `at_point` was evaluated last: -∂H/∂p and -∂H/∂q (methods/README.md).
+/// The rates of ψ^p, ψ^q and ψ^y where `at_point` was evaluated last: -∂H/∂p, -∂H/∂q and -∂H/∂y (methods/README.md).
 struct CostateRates {
   Eigen::VectorXd psi_p;
   Eigen::VectorXd psi_q;
+  Eigen::VectorXd psi_y;
 
   CostateRates(const PointDerivatives& at_point, const AdjointPoint& point)
       : psi_p(-solve_square(at_point.mass(), Eigen::VectorXd(at_point.cost_by_velocity() + point.psi_q +
-                                                             at_point.force_by_velocity().transpose() * point.psi_p))),
+                                                             at_point.force_by_velocity().transpose() * point.psi_p +
+                                                             at_point.rates_by_velocity().transpose() * point.psi_y))),
         psi_q(-at_point.cost_by_configuration() - at_point.force_by_configuration().transpose() * point.psi_p -
-              at_point.momentum_by_configuration().transpose() * psi_p) {}
+              at_point.momentum_by_configuration().transpose() * psi_p -
+              at_point.rates_by_configuration().transpose() * point.psi_y),
+        psi_y(-at_point.cost_by_first_order() - at_point.force_by_first_order().transpose() * point.psi_p -
+              at_point.momentum_by_first_order().transpose() * psi_p -
+              at_point.rates_by_first_order().transpose() * point.psi_y) {}
 };
 
-/// ψ^q, then ψ^p, over time, as the configuration of a motion.
+/// ψ^q, ψ^p and ψ^y, over time, as the configuration of a motion.
 Motion costate_curve(PointDerivatives& at_point, const Trajectory& trajectory) {
   const Eigen::Index n = trajectory.q.cols();
+  const Eigen::Index l = trajectory.psi_y.cols();
   Trajectory curve = trajectory;
-  curve.q.resize(trajectory.q.rows(), 2 * n);
-  curve.q << trajectory.psi_q, trajectory.psi_p;
-  curve.v.resize(trajectory.q.rows(), 2 * n);
+  curve.q.resize(trajectory.q.rows(), 2 * n + l);
+  curve.q << trajectory.psi_q, trajectory.psi_p, trajectory.psi_y;
+  curve.v.resize(trajectory.q.rows(), 2 * n + l);
   for (Eigen::Index k = 0; k < curve.q.rows(); ++k) {
-    AdjointPoint point{trajectory.node(k), trajectory.psi_q.row(k).transpose(), trajectory.psi_p.row(k).transpose()};
+    AdjointPoint point{trajectory.node(k), trajectory.psi_q.row(k).transpose(), trajectory.psi_p.row(k).transpose(),
+                       Trajectory::row_of(trajectory.psi_y, k)};
     point.motion.u = control_at(trajectory, trajectory.node_times[k]);
     at_point.evaluate(point.motion, trajectory.node_times[k]);
     const CostateRates rates(at_point, point);
-    curve.v.row(k) << rates.psi_q.transpose(), rates.psi_p.transpose();
+    curve.v.row(k) << rates.psi_q.transpose(), rates.psi_p.transpose(), rates.psi_y.transpose();
   }
   return smooth_motion(curve);
 }
@@ -67,15 +76,16 @@ class SampledCostates {
   [[nodiscard]] AdjointPoint stage(Eigen::Index row, double t) const {
     if (!has_same_stages_) return at(t);
     return {trajectory_.stage(row), trajectory_.stage_psi_q.row(row).transpose(),
-            trajectory_.stage_psi_p.row(row).transpose()};
+            trajectory_.stage_psi_p.row(row).transpose(), Trajectory::row_of(trajectory_.stage_psi_y, row)};
   }
   [[nodiscard]] AdjointPoint at(double t) const {
-    AdjointPoint point{motion_.at(t * stretch_), {}, {}};
+    AdjointPoint point{motion_.at(t * stretch_), {}, {}, {}};
     point.motion.v *= stretch_;
     const Eigen::VectorXd psi = costates_.at(t * stretch_).q;
     const Eigen::Index n = point.motion.q.size();
     point.psi_q = psi.head(n);
-    point.psi_p = psi.tail(n);
+    point.psi_p = psi.segment(n, n);
+    point.psi_y = psi.tail(psi.size() - 2 * n);
     return point;
   }
 
@@ -99,6 +109,12 @@ class MultiplierWriter {
   /// The `block`-th n rows of interval k.
   void write_interval(Eigen::Index block, Eigen::Index k, const Eigen::VectorXd& values) {
     for (Eigen::Index i = 0; i < n_; ++i) at(layout_.interval_row_head(block * n_ + i), k) = values[i];
+  }
+  /// The rows Ẏ_i - g of stage i in interval k.
+  void write_first_order(Eigen::Index i, Eigen::Index k, const Eigen::VectorXd& values) {
+    const Eigen::Index l = values.size();
+    const Eigen::Index first = layout_.shape().stage_equations - (layout_.stages() - i) * l;
+    for (Eigen::Index j = 0; j < l; ++j) at(layout_.interval_row_head(first + j), k) = values[j];
   }
   /// z_{k+1} - z_k - cost = 0 carries the cost from node to node.
   void write_costs(double value) {
@@ -134,8 +150,9 @@ void write_stage(const SampledCostates& sampled, PointDerivatives& at_point, Nod
                  double t, Eigen::Index stages, double weight, MultiplierWriter& writer) {
   const Eigen::Index k = row / stages;
   const Eigen::Index i = row % stages;
-  if (family == NodeState::configuration && i + 1 == stages) return;  // the last stage rate is eliminated
   const AdjointPoint point = sampled.stage(row, t);
+  writer.write_first_order(i, k, -weight * point.psi_y);
+  if (family == NodeState::configuration && i + 1 == stages) return;  // the last stage rate is eliminated
   at_point.evaluate(point.motion, t);
   if (family == NodeState::velocity) {
     writer.write_interval(2 * i, k,
@@ -167,7 +184,9 @@ void write_shooting(const SampledCostates& sampled, PointDerivatives& at_point, 
 }  // namespace
 
 Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& trajectory) {
-  if (!trajectory.has_costates()) throw Error("multipliers can only be sampled from a trajectory with costates");
+  if (!trajectory.has_costates() || trajectory.psi_y.cols() != program.traced_problem().first_order_size()) {
+    throw Error("multipliers can only be sampled from a trajectory with costates");
+  }
   program.traced_problem().require_no_constraints("the start from costates");
   const Layout& layout = program.layout();
   const NodeState family = layout.node_state();
@@ -175,7 +194,7 @@ Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& tra
   const double horizon = horizon_of(program, motion.horizon);
   const Eigen::VectorXd times = horizon * program.grid().relative_times();
   const Eigen::VectorXd widths = horizon * program.grid().relative_widths();
-  PointDerivatives at_point(program.traced_problem());
+  PointDerivatives at_point(program.traced_problem(), trajectory.integral_prices);
   const SampledCostates sampled(program, trajectory, at_point, horizon);
 
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

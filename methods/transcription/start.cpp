@@ -54,6 +54,11 @@ Eigen::VectorXd unknowns_of(const Transcription& transcription, const Trajectory
   }
   if (layout.shape().first_has_velocity) set(layout.first_velocity(0), motion.v.row(0).transpose());
   if (layout.shape().last_has_velocity) set(layout.last_velocity(0), motion.v.row(nodes - 1).transpose());
+  const std::vector<std::size_t>& velocities = layout.shape().interior_velocities;
+  for (std::size_t j = 0; j < velocities.size(); ++j) {
+    set(layout.interior_velocity(static_cast<Eigen::Index>(j), 0),
+        motion.v.row(static_cast<Eigen::Index>(velocities[j])).transpose());
+  }
   if (transcription.has_free_horizon()) set(layout.horizon(), motion.node_times.tail<1>());
   if (motion.unknowns.size() > 0) set(layout.unknown_parameter(0), motion.unknowns);
   return x;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/transcription/bound_prices.hpp"
 #include "methods/transcription/costates.hpp"
 #include "methods/transcription/motions/velocities_of_momenta.hpp"
 
@@ -102,14 +103,15 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
     trajectory.psi_p = std::move(psi.psi_p);
     trajectory.psi_y = std::move(psi.psi_y);
     read_prices(transcription, multipliers, trajectory);
+    trajectory.prices = bound_prices(transcription, primal, multipliers);
     const IntervalFunctions& functions = transcription.functions();
     const bool has_stages = functions.has_stage_unknowns && functions.rates.has_times_of(trajectory.tableau) &&
                             functions.controls.has_times_of(trajectory.tableau);
-    if (has_stages && functions.path_rows == 0 && functions.multipliers == 0 && trajectory.integrals.size() == 0 &&
-        trajectory.y.cols() == 0) {
+    if (has_stages && functions.path_rows == 0 && functions.multipliers == 0) {
       StageCostates stages = stage_costates(transcription, multipliers, trajectory);
       trajectory.stage_psi_q = std::move(stages.psi_q);
       trajectory.stage_psi_p = std::move(stages.psi_p);
+      trajectory.stage_psi_y = std::move(stages.psi_y);
     }
   }
   return trajectory;

@@ -20,9 +20,24 @@ namespace dmocbench {
 
 namespace {
 
-LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, const Tableau& tableau,
-                         const EndRules& ends, const IntervalFunctions& functions) {
-  return {.intervals = intervals,
+std::vector<double> interior_times(const ProblemBounds& bounds) {
+  std::vector<double> times;
+  for (const InteriorBounds& at : bounds.interior) times.push_back(at.relative_time);
+  return times;
+}
+
+bool fixes_any(const Bounds& bounds) { return (bounds.lower.array() == bounds.upper.array()).any(); }
+
+LayoutShape layout_shape(const Grid& grid, const TracedProblem& traced, const Tableau& tableau, const EndRules& ends,
+                         const IntervalFunctions& functions, const ProblemBounds& bounds) {
+  std::vector<std::size_t> velocities;
+  bool has_equations = false;
+  for (const InteriorBounds& at : bounds.interior) {
+    const bool has_velocity = at.v.any() && ends.node_state != NodeState::velocity;
+    if (has_velocity) velocities.push_back(static_cast<std::size_t>(grid.node_at(at.relative_time)));
+    has_equations = has_equations || has_velocity || fixes_any(at.q) || fixes_any(at.v) || fixes_any(at.y);
+  }
+  return {.intervals = grid.intervals(),
           .configuration_size = traced.configuration_size(),
           .control_size = traced.control_size(),
           .node_state = ends.node_state,
@@ -39,6 +54,8 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .last_has_velocity = ends.last_has_velocity(),
           .free_horizon = ends.free_horizon,
           .conditions = traced.boundary_condition_count(),
+          .interior_velocities = std::move(velocities),
+          .has_interior_equations = has_equations,
           .first_order_size = traced.first_order_size(),
           .integrals = traced.integral_count(),
           .multipliers = functions.multipliers,
@@ -94,58 +111,88 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
     : problem_(&problem),
       parameters_(dmocbench::parameter_values(problem)),
       tableau_(std::move(tableau)),
-      grid_(grid),
       cost_scale_(positive_cost_scale(problem)),
       guessed_horizon_(problem.horizon()),
       traced_(problem, open.names),
       problem_bounds_(problem_bounds(problem)),
+      grid_(grid.with_nodes_at(interior_times(problem_bounds_))),
       end_rules_(end_rules(problem, traced_, element.node_state(), form == CostForm::mayer)),
-      functions_(trace_interval(traced_, element, tableau_,
-                                {.cost_scale = cost_scale_,
-                                 .mayer = end_rules_.mayer,
-                                 .free_horizon = end_rules_.free_horizon,
-                                 .bounded_velocities = problem_bounds_.bounded_velocities()})),
+      functions_(trace_interval(traced_, element, tableau_, interval_rules())),
       end_functions_(trace_ends(problem, traced_, end_rules_)),
-      layout_(layout_shape(grid.intervals(), traced_, tableau_, end_rules_, functions_)),
-      bounds_(program_bounds(problem, traced_, problem_bounds_, guessed_horizon_, end_rules_, layout_)),
-      magnitudes_(check_guess(problem, traced_, grid,
+      layout_(layout_shape(grid_, traced_, tableau_, end_rules_, functions_, problem_bounds_)),
+      bounds_(program_bounds(problem, traced_, problem_bounds_, guessed_horizon_, end_rules_, layout_, grid_)),
+      magnitudes_(check_guess(problem, traced_, grid_,
                               element.node_state() != NodeState::configuration || tableau_.stages() > 1)),
-      rounding_floors_(rounding_floors_of(magnitudes_, guessed_horizon_ * grid.relative_widths(), layout_)),
-      step_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_widths()),
-      time_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_times()),
+      rounding_floors_(rounding_floors_of(magnitudes_, guessed_horizon_ * grid_.relative_widths(), layout_)),
+      step_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid_.relative_widths()),
+      time_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid_.relative_times()),
       jacobian_pattern_(assemble_pattern(
           jacobian_entries(functions_, layout_.row_places(), layout_.unknown_places(), grid.intervals()))),
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
   require_equalities_fit(problem, traced_, tableau_, functions_.controls, problem_bounds_);
   require_enough_intervals(problem, element);
-  check_constraint_windows(problem, traced_, tableau_, grid);
-  // The ends extend the patterns, which must be complete before the arrays of the intervals are allocated.
-  std::vector<SeriesPlace> end_jacobian;
-  std::vector<SeriesPlace> end_hessian;
-  const std::vector<SeriesPlace>& end_unknowns = layout_.end_unknown_places();
-  const std::vector<SeriesPlace>& end_rows = layout_.end_row_places();
+  if (!problem_bounds_.interior.empty()) traced_.require_no_constraints("a program with bounds between the ends");
+  check_constraint_windows(problem, traced_, tableau_, grid_);
+  std::vector<AddedPart> added;
   if (end_functions_) {
-    end_jacobian =
-        extend_pattern(jacobian_pattern_.pattern, jacobian_entries(*end_functions_, end_rows, end_unknowns, 1));
-    end_hessian = extend_pattern(hessian_pattern_.pattern, hessian_entries(*end_functions_, end_unknowns, 1));
+    added.push_back(
+        {&*end_functions_, layout_.end_unknown_places(), layout_.end_row_places(), &step_inputs_, &time_inputs_});
   }
-  add_part(functions_, layout_.unknown_places(), layout_.row_places(), jacobian_pattern_.places,
-           hessian_pattern_.places, derivatives);
-  if (end_functions_) add_part(*end_functions_, end_unknowns, end_rows, end_jacobian, end_hessian, derivatives);
+  const std::size_t velocities = layout_.shape().interior_velocities.size();
+  LocalFunctions tie;
+  if (velocities > 0) tie = trace_velocity_tie(traced_, element, tableau_, interval_rules());
+  tie_inputs_.assign(2 * velocities, Eigen::VectorXd(1));
+  set_tie_inputs();
+  for (std::size_t j = 0; j < velocities; ++j) added.push_back(tie_of(tie, j));
+  // Added parts extend the patterns, which must be complete before the arrays of the intervals are allocated.
+  for (AddedPart& part : added) {
+    part.jacobian =
+        extend_pattern(jacobian_pattern_.pattern, jacobian_entries(*part.functions, part.rows, part.unknowns, 1));
+    part.hessian = extend_pattern(hessian_pattern_.pattern, hessian_entries(*part.functions, part.unknowns, 1));
+  }
+  add_part({&functions_, layout_.unknown_places(), layout_.row_places(), &step_inputs_, &time_inputs_,
+            jacobian_pattern_.places, hessian_pattern_.places},
+           derivatives);
+  for (const AddedPart& part : added) add_part(part, derivatives);
 }
 
-void Transcription::add_part(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
-                             const std::vector<SeriesPlace>& rows, const std::vector<SeriesPlace>& jacobian,
-                             const std::vector<SeriesPlace>& hessian, std::string_view derivatives) {
-  const bool has_ends_only = !parts_.empty();
+IntervalRules Transcription::interval_rules() const {
+  return {.cost_scale = cost_scale_,
+          .mayer = end_rules_.mayer,
+          .free_horizon = end_rules_.free_horizon,
+          .bounded_velocities = problem_bounds_.bounded_velocities()};
+}
+
+Transcription::AddedPart Transcription::tie_of(const LocalFunctions& functions, std::size_t j) {
+  const std::size_t before = layout_.shape().interior_velocities[j] - 1;
+  AddedPart part{&functions, {}, {}, &tie_inputs_[2 * j], &tie_inputs_[2 * j + 1]};
+  for (const SeriesPlace& place : layout_.unknown_places()) part.unknowns.emplace_back(place.at(before));
+  for (Eigen::Index i = 0; i < traced_.configuration_size(); ++i) {
+    part.unknowns.emplace_back(layout_.interior_velocity(static_cast<Eigen::Index>(j), i));
+    part.rows.emplace_back(layout_.interior_tie(static_cast<Eigen::Index>(j), i));
+  }
+  return part;
+}
+
+void Transcription::set_tie_inputs() {
+  const std::vector<std::size_t>& nodes = layout_.shape().interior_velocities;
+  for (std::size_t j = 0; j < nodes.size(); ++j) {
+    const auto before = static_cast<Eigen::Index>(nodes[j]) - 1;
+    tie_inputs_[2 * j][0] = step_inputs_[before];
+    tie_inputs_[2 * j + 1][0] = time_inputs_[before];
+  }
+}
+
+void Transcription::add_part(const AddedPart& part, std::string_view derivatives) {
+  const bool is_added = !parts_.empty();
   const ProgramArrays arrays{.variables = layout_.variable_count(),
                              .constraints = layout_.constraint_count(),
                              .jacobian = jacobian_pattern_.pattern.size(),
                              .hessian = hessian_pattern_.pattern.size()};
   PartPlaces places =
-      part_places(functions, unknowns, rows, jacobian, hessian, arrays, has_ends_only ? 1 : layout_.intervals(),
-                  has_ends_only ? AssemblyMode::part : AssemblyMode::whole);
-  parts_.push_back(std::make_unique<ProgramPart>(functions, std::move(places), step_inputs_, time_inputs_,
+      part_places(*part.functions, part.unknowns, part.rows, part.jacobian, part.hessian, arrays,
+                  is_added ? 1 : layout_.intervals(), is_added ? AssemblyMode::part : AssemblyMode::whole);
+  parts_.push_back(std::make_unique<ProgramPart>(*part.functions, std::move(places), *part.steps, *part.times,
                                                  traced_.open_values(), derivatives));
 }
 

@@ -48,6 +48,9 @@ struct OpenParameters {
 /// constraints, boundary conditions, horizon. The cost is multiplied by `Problem::cost_scale`. `EndRules` describes how
 /// the ends enter, `program_bounds` how the bounds do.
 ///
+/// Where the problem has bounds at times between the ends, the grid is moved so that it has nodes there
+/// (`Grid::with_nodes_at`).
+///
 /// A program is made once and may then be given other values: parameters, ends, bounds and horizon (`set_parameters`
 /// and the functions after it), while tapes, patterns and memory stay. The structure stays too, and another one is
 /// rejected: the number of unknowns, which bounds exist and which of them are equal, parameters whose values formulas
@@ -117,7 +120,7 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
   /// (A, b, c).
   [[nodiscard]] const Tableau& tableau() const noexcept { return tableau_; }
-  /// Relative node times.
+  /// Relative node times: those of the constructor, moved to the times of `ProblemBounds::interior`.
   [[nodiscard]] const Grid& grid() const noexcept { return grid_; }
   /// The formulas of the problem.
   [[nodiscard]] const TracedProblem& traced_problem() const noexcept { return traced_; }
@@ -171,23 +174,35 @@ class Transcription final : public NonlinearProgram {
   /// Checks values and makes them the program's; the open parameters are set before.
   void use(Values values);
   void require_readable_ends(const Values& values) const;
+  [[nodiscard]] IntervalRules interval_rules() const;
   void set_end(const BoundaryState& state, EndBounds ProblemBounds::*end, const char* name);
   void require_enough_intervals(const Problem& problem, const Element& element) const;
   [[nodiscard]] long long fixed_variables_of_an_interval() const;
   [[nodiscard]] long long inequalities_of_an_interval() const;
-  /// Sets up the intervals at the first call, the ends at the second; the patterns must be complete.
-  void add_part(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
-                const std::vector<SeriesPlace>& rows, const std::vector<SeriesPlace>& jacobian,
-                const std::vector<SeriesPlace>& hessian, std::string_view derivatives);
+  /// A part that adds to the entries of the intervals: the ends, or a tie.
+  struct AddedPart {
+    const LocalFunctions* functions;
+    std::vector<SeriesPlace> unknowns;
+    std::vector<SeriesPlace> rows;
+    const Eigen::VectorXd* steps;
+    const Eigen::VectorXd* times;
+    std::vector<SeriesPlace> jacobian = {};  // entries of the patterns
+    std::vector<SeriesPlace> hessian = {};
+  };
+  /// The intervals at the first call, added parts at others; the patterns must be complete.
+  void add_part(const AddedPart& part, std::string_view derivatives);
+  /// The places of the tie of the velocity of a node between the ends, the j-th that has one.
+  [[nodiscard]] AddedPart tie_of(const LocalFunctions& functions, std::size_t j);
+  void set_tie_inputs();
 
   const Problem* problem_;
   Eigen::VectorXd parameters_;
   Tableau tableau_;
-  Grid grid_;
   double cost_scale_;
   double guessed_horizon_;
   TracedProblem traced_;
   ProblemBounds problem_bounds_;
+  Grid grid_;
   EndRules end_rules_;
   IntervalFunctions functions_;
   std::optional<EndFunctions> end_functions_;
@@ -199,7 +214,8 @@ class Transcription final : public NonlinearProgram {
   Eigen::VectorXd time_inputs_;
   AssembledPattern jacobian_pattern_;
   AssembledPattern hessian_pattern_;
-  std::vector<std::unique_ptr<ProgramPart>> parts_;  // the intervals; the ends, unless they add nothing
+  std::vector<Eigen::VectorXd> tie_inputs_;          // step and time of the intervals before interior velocities
+  std::vector<std::unique_ptr<ProgramPart>> parts_;  // the intervals; the ends, unless they add nothing; ties
 };
 
 }  // namespace dmocbench

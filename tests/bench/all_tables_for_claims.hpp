@@ -333,12 +333,37 @@ inline void add_rows_of(Rows& rows, const char* problem, const std::function<boo
   }
 }
 
+/// Orders of problems with first-order states.
+inline Rows first_order_rows() {
+  Rows rows;
+  for (const char* problem : {"two_link_with_motors", "orbital_transfer_with_mass"}) {
+    for (const std::string& method : methods) {
+      for (const std::string quantity :
+           {"state", "momentum", "costate", "first_order", "first_order_costate", "control_from_costate", "control"}) {
+        for (Row& row : rows_by_tableau(scheme_row(method), [&](Row& row, double order) {
+               const double s = row.needed("stages");
+               const double of_stage = row.text("tableau") == "gauss" ? s + 1.0 : s - 1.0;
+               row.set("problem", problem);
+               row.set("quantity", quantity);
+               row.set("verdict", "slope");
+               row.set("slope", quantity == "control" ? of_stage : order);
+               row.set("standard_error", 0.01);
+             })) {
+          rows.push_back(row);
+        }
+      }
+    }
+  }
+  return rows;
+}
+
 inline std::map<std::string, Rows> all_rows() {
   std::map<std::string, Rows> rows = rows_of_tables();
   rows["convergence_512_slopes"] = rows["convergence_slopes"];
   for (Row& row : rows["convergence_512_slopes"]) row.set("problem", two_link);
   add_rows_of(rows["convergence_indirect_slopes"], two_link,
               [](const Row& row) { return row.text("method") == "dmoc" && row.text("quantity") == "control"; });
+  rows["convergence_first_order_slopes"] = first_order_rows();
   for (Row& row : rows["equivalence"]) {
     if (row.text("method") == "tangent") row.set("adjoint_residual", 1e-12);
   }

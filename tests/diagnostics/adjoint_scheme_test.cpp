@@ -17,7 +17,9 @@ using tests::Scheme;
 
 std::vector<std::unique_ptr<Problem>> problems_with_adjoints() {
   std::vector<std::unique_ptr<Problem>> all = tests::problems();
-  all.push_back(make_problem("forced_oscillator"));
+  for (const char* name : {"forced_oscillator", "two_link_with_motors", "orbital_transfer_with_mass"}) {
+    all.push_back(make_problem(name));
+  }
   return all;
 }
 
@@ -62,6 +64,8 @@ TEST(AdjointScheme, ResidualIsAtRoundoffForEveryTableau) {
       EXPECT_LT(left.step_p, rounding) << problem->name() << ", " << scheme.label();
       EXPECT_LT(left.stage_q, rounding) << problem->name() << ", " << scheme.label();
       EXPECT_LT(left.stage_p, rounding) << problem->name() << ", " << scheme.label();
+      EXPECT_LT(left.step_y, rounding) << problem->name() << ", " << scheme.label();
+      EXPECT_LT(left.stage_y, rounding) << problem->name() << ", " << scheme.label();
       EXPECT_EQ(left.control.has_value(), scheme.family != "lobatto_shared");
       EXPECT_LT(left.control.value_or(0.0), rounding) << problem->name() << ", " << scheme.label();
     }
@@ -92,6 +96,10 @@ TEST(AdjointScheme, MultipliersWithTheWrongSignLeaveMuchMoreThanRounding) {
 TEST(AdjointScheme, ADisturbedCostateIsSeen) {
   const auto problem = make_problem("two_link_manipulator");
   const Trajectory good = polished(*problem, {"dmoc", 2});
+  const auto with_motors = make_problem("two_link_with_motors");
+  Trajectory disturbed_current = polished(*with_motors, {"dmoc", 2});
+  disturbed_current.stage_psi_y(5, 1) *= 1.01;
+  EXPECT_GT(residual(*with_motors, disturbed_current).largest(), far_above_rounding);
   for (Eigen::MatrixXd Trajectory::*table :
        {&Trajectory::psi_q, &Trajectory::psi_p, &Trajectory::stage_psi_q, &Trajectory::stage_psi_p}) {
     Trajectory disturbed = good;
@@ -120,6 +128,8 @@ TEST(AdjointScheme, StageCostatesOfBothFamiliesAgree) {
       EXPECT_LT((a.stage_psi_q - b.stage_psi_q).lpNorm<Eigen::Infinity>(), 1e-8 * size)
           << problem->name() << ", " << scheme.label();
       EXPECT_LT((a.stage_psi_p - b.stage_psi_p).lpNorm<Eigen::Infinity>(), 1e-8 * size)
+          << problem->name() << ", " << scheme.label();
+      EXPECT_LE((a.stage_psi_y - b.stage_psi_y).lpNorm<Eigen::Infinity>(), 1e-8 * size)
           << problem->name() << ", " << scheme.label();
     }
   }

@@ -38,15 +38,17 @@ TEST_P(StatedReference, IsWhatGaussWithThreeStagesFinds) {
 
 INSTANTIATE_TEST_SUITE_P(
     Smooth, StatedReference,
-    testing::Values(
-        Instance{"double_integrator", 4, {}}, Instance{"double_integrator", 4, {{"distance", 2.0}, {"horizon", 3.0}}},
-        Instance{"particle_steering", 32, {}}, Instance{"brachistochrone", 16, {}}, Instance{"cart_pole", 64, {}},
-        Instance{"planar_quadrotor", 48, {}}, Instance{"planar_quadrotor_flip", 64, {}},
-        Instance{"orbital_transfer", 32, {}}, Instance{"orbital_transfer", 128, {{"revolutions", 10.0}}},
-        Instance{"link_chain", 96, {}}, Instance{"link_chain", 64, {{"links", 2.0}}},
-        Instance{"spherical_pendulum", 24, {}}, Instance{"hovercraft", 32, {}}, Instance{"double_oscillator", 32, {}},
-        Instance{"rigid_quadrotor", 32, {}}, Instance{"cannonball", 128, {}}, Instance{"hanging_chain", 128, {}},
-        Instance{"two_link_with_motors", 128, {}}, Instance{"orbital_transfer_with_mass", 32, {}}),
+    testing::Values(Instance{"double_integrator", 4, {}},
+                    Instance{"double_integrator", 4, {{"distance", 2.0}, {"horizon", 3.0}}},
+                    Instance{"particle_steering", 32, {}}, Instance{"brachistochrone", 16, {}},
+                    Instance{"cart_pole", 64, {}}, Instance{"planar_quadrotor", 48, {}},
+                    Instance{"planar_quadrotor_flip", 64, {}}, Instance{"orbital_transfer", 32, {}},
+                    Instance{"orbital_transfer", 128, {{"revolutions", 10.0}}}, Instance{"link_chain", 96, {}},
+                    Instance{"link_chain", 64, {{"links", 2.0}}}, Instance{"spherical_pendulum", 24, {}},
+                    Instance{"hovercraft", 32, {}}, Instance{"double_oscillator", 32, {}},
+                    Instance{"rigid_quadrotor", 32, {}}, Instance{"cannonball", 128, {}},
+                    Instance{"hanging_chain", 128, {}}, Instance{"two_link_with_motors", 128, {}},
+                    Instance{"waypoints", 6, {}}, Instance{"orbital_transfer_with_mass", 32, {}}),
     [](const auto& instance) { return instance.param.problem + (instance.param.settings.empty() ? "" : "_as_set"); });
 
 TEST(References, SayHowTheyAreKnown) {

@@ -46,7 +46,8 @@ void expect_same(const Solution& ours, const Solution& theirs, const std::string
 }
 
 TEST(PreparedSolve, GivesBitByBitWhatASolveOfItsOwnGivesHoweverOften) {
-  for (const std::string name : {"orbital_transfer", "two_link_manipulator", "cart_pole", "brachistochrone"}) {
+  for (const std::string name : {"orbital_transfer", "two_link_manipulator", "cart_pole", "brachistochrone",
+                                 "two_link_with_motors", "spring_arm", "hanging_chain", "waypoints"}) {
     const auto problem = make_problem(name);
     for (const std::string& method : paper_families()) {
       const auto program = transcribe(*problem, method, 20);

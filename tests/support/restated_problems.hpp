@@ -28,6 +28,10 @@ class Restated final : public Problem {
   [[nodiscard]] std::string name() const override { return base_.name(); }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return base_.configuration_names(); }
   [[nodiscard]] std::vector<std::string> control_names() const override { return base_.control_names(); }
+  [[nodiscard]] std::vector<std::string> first_order_names() const override { return base_.first_order_names(); }
+  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
+    return base_.first_order_rates(x);
+  }
   [[nodiscard]] Expression lagrangian(const State& x) const override { return base_.lagrangian(x); }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return base_.force(x); }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {

@@ -67,5 +67,34 @@ TEST(Grid, RefusesAnIntervalSoNarrowThatRoundingDrownsTheMotion) {
   }
 }
 
+TEST(Grid, TakesNodesAtGivenTimesWithUniformPiecesBetweenThem) {
+  const Grid grid = Grid::uniform(8).with_nodes_at({0.3, 0.9});
+  ASSERT_EQ(grid.intervals(), 8U);
+  EXPECT_EQ(grid.node_at(0.3), 2);
+  EXPECT_EQ(grid.node_at(0.9), 7);
+  for (Eigen::Index k = 0; k < 8; ++k) {
+    EXPECT_NEAR(grid.relative_widths()[k], k < 2 ? 0.15 : k < 7 ? 0.12 : 0.1, 1e-15) << k;
+  }
+  EXPECT_EQ(Grid::uniform(7).with_nodes_at({}).relative_widths(), Grid::uniform(7).relative_widths());
+}
+
+TEST(Grid, StretchesAGradedGridInProportionAndMovesNoNodeThatIsThere) {
+  const Grid graded = Grid::from_nodes(nodes({0.0, 0.1, 0.25, 0.5, 1.0}));
+  EXPECT_LT((graded.with_nodes_at({0.25}).relative_times() - graded.relative_times()).norm(), 1e-15);
+  const Eigen::VectorXd moved = nodes({0.0, 0.12, 0.3, 8.0 / 15.0, 1.0});
+  EXPECT_LT((graded.with_nodes_at({0.3}).relative_times() - moved).norm(), 1e-15);
+}
+
+TEST(Grid, KeepsANodeForEachOfCrowdedTimes) {
+  const Grid grid = Grid::uniform(4).with_nodes_at({0.97, 0.98, 0.99});
+  EXPECT_LT((grid.relative_times() - nodes({0.0, 0.97, 0.98, 0.99, 1.0})).norm(), 1e-15);
+  const Grid early = Grid::uniform(4).with_nodes_at({0.01, 0.02});
+  EXPECT_EQ(early.node_at(0.01), 1);
+  EXPECT_EQ(early.node_at(0.02), 2);
+  tests::expect_error_naming({"3 times", "4 intervals"}, [] {
+    static_cast<void>(Grid::uniform(3).with_nodes_at({0.1, 0.2, 0.3}));
+  });
+}
+
 }  // namespace
 }  // namespace dmocbench

@@ -10,6 +10,7 @@
 #include "methods/transcription/elements/families.hpp"
 #include "problems/container_crane.hpp"
 #include "problems/two_link_manipulator.hpp"
+#include "problems/two_link_with_motors.hpp"
 #include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/restated_problems.hpp"
@@ -58,6 +59,16 @@ TEST(SampleMultipliers, AreThoseOfTheCostSoFarInMayerForm) {
                                        tests::common_start(problem), 1e-10, CostForm::mayer);
     EXPECT_LT(distance(sample_multipliers(*solved.transcription, solved.trajectory), solved.solution.multipliers),
               1e-9 * largest_multiplier(solved.solution.multipliers));
+  }
+}
+
+TEST(SampleMultipliers, OfFirstOrderStatesAreTheProgramsOwn) {
+  const TwoLinkWithMotors problem;
+  for (const Scheme& scheme : tests::all_schemes(3)) {
+    SCOPED_TRACE(scheme.label());
+    const Solved solved = tests::solve(problem, scheme, tests::graded_grid(16), tests::common_start(problem));
+    const Eigen::VectorXd sampled = sample_multipliers(*solved.transcription, solved.trajectory);
+    EXPECT_LT(distance(sampled, solved.solution.multipliers), 1e-9 * largest_multiplier(solved.solution.multipliers));
   }
 }
 

@@ -31,6 +31,9 @@ class AmplNames {
       }
     }
     for (Eigen::Index i = 1; i <= shape_.last_multipliers; ++i) names_.push_back(fmt::format("lambda_last_{}", i));
+    for (const std::size_t node : shape_.interior_velocities) {
+      for (const std::string& q : q_) names_.push_back(fmt::format("v_{}[{}]", q, node));
+    }
     for (Eigen::Index i = 0; i < shape_.unknown_parameters; ++i) names_.push_back(fmt::format("parameter_{}", i + 1));
     if (shape_.free_horizon) names_.emplace_back("T");
     return std::move(names_);
@@ -51,6 +54,9 @@ class AmplNames {
     }
     for (Eigen::Index i = 1; i <= shape_.first_holonomic; ++i) names_.push_back(fmt::format("constraint_first_{}", i));
     for (Eigen::Index i = 1; i <= shape_.last_holonomic; ++i) names_.push_back(fmt::format("constraint_last_{}", i));
+    for (const std::size_t node : shape_.interior_velocities) {
+      for (const std::string& q : q_) names_.push_back(fmt::format("momentum_{}[{}]", q, node));
+    }
     for (Eigen::Index i = 0; i < shape_.conditions; ++i) names_.push_back(fmt::format("condition_{}", i + 1));
     return std::move(names_);
   }

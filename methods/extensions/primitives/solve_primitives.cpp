@@ -121,12 +121,14 @@ void require_primitives(const Transcription& program) {
   const ProblemBounds bounds = program.problem().bounds();
   const LayoutShape& shape = program.layout().shape();
   if (bounds.first.all_fixed() && bounds.last.all_fixed() && !bounds.horizon.is_free() && !program.end_functions() &&
-      shape.integrals == 0 && shape.unknown_parameters == 0 && shape.first_order_size == 0 && shape.multipliers == 0) {
+      shape.integrals == 0 && shape.unknown_parameters == 0 && shape.first_order_size == 0 && shape.multipliers == 0 &&
+      bounds.interior.empty()) {
     return;
   }
   throw Error(
       fmt::format("{} has no primitives: both ends and the horizon must be fixed, without a final cost, boundary "
-                  "conditions, integral constraints, unknown parameters, first-order states or constraints g(q) = 0",
+                  "conditions, integral constraints, unknown parameters, first-order states, constraints g(q) = 0 or "
+                  "bounds between the ends",
                   program.problem().name()));
 }
 

@@ -42,6 +42,7 @@ void require_feedback(const Transcription& program, const Eigen::VectorXd& prima
                        : shape.first_order_size > 0   ? "first-order states"
                        : shape.unknown_parameters > 0 ? "unknown parameters"
                        : shape.multipliers > 0        ? "constraints g(q) = 0"
+                       : shape.has_interior_equations ? "conditions between the ends"
                                                       : nullptr;
   if (reason != nullptr) {
     throw Error(std::string("there are no feedback gains with ") + reason +

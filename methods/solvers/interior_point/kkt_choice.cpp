@@ -14,6 +14,9 @@ tl::expected<std::unique_ptr<kkt::KktSystem>, std::string> make_kkt(NonlinearPro
   if (choices.factorisation == InteriorPointOptions::Factorisation::sparse) {
     return std::make_unique<kkt::SparseKkt>(program);
   }
+  if (program.interval_structure() != nullptr && program.interval_structure()->has_interior_equations) {
+    return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::along_the_horizon);
+  }
   return kkt::IntervalKkt::make(program).map(
       [&](auto by_intervals) { return std::make_unique<kkt::RefinedKkt>(program, std::move(by_intervals)); });
 }

@@ -1,5 +1,7 @@
 #include "methods/transcription/motions/grid.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,6 +41,38 @@ Grid Grid::from_nodes(Eigen::VectorXd relative_times) {
     }
   }
   return {std::move(relative_times), std::move(widths)};
+}
+
+Grid Grid::with_nodes_at(const std::vector<double>& times) const {
+  if (times.empty()) return *this;
+  const auto count = std::ssize(times);
+  const Eigen::Index last = nodes_.size() - 1;
+  if (last <= count) {
+    throw Error(fmt::format("{} times between the ends need a node each, and at least {} intervals, not {}", count,
+                            count + 1, last));
+  }
+  Eigen::VectorXd moved(nodes_.size());
+  Eigen::Index from = 0;  // the node that was moved last, and where to
+  double to = 0.0;
+  const auto move = [&](Eigen::Index node, double time) {
+    const double stretch = (time - to) / (nodes_[node] - nodes_[from]);
+    for (Eigen::Index k = from; k < node; ++k) moved[k] = to + stretch * (nodes_[k] - nodes_[from]);
+    from = node;
+    to = time;
+  };
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const double time = times[static_cast<std::size_t>(j)];
+    const Eigen::Index above = std::clamp<Eigen::Index>(node_at(time), 1, last);
+    const Eigen::Index nearest = time - nodes_[above - 1] < nodes_[above] - time ? above - 1 : above;
+    move(std::clamp(nearest, from + 1, last - (count - j)), time);  // which leaves a node for each of the others
+  }
+  move(last, 1.0);
+  moved[last] = 1.0;
+  return from_nodes(std::move(moved));
+}
+
+Eigen::Index Grid::node_at(double relative_time) const {
+  return std::lower_bound(nodes_.begin(), nodes_.end(), relative_time) - nodes_.begin();
 }
 
 }  // namespace dmocbench

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace dmocbench {
@@ -21,6 +23,13 @@ class Grid {
   /// Any relative node times. Throws `Error` unless they ascend strictly from 0 to 1 and every interval is at least
   /// `narrowest` wide.
   [[nodiscard]] static Grid from_nodes(Eigen::VectorXd relative_times);
+
+  /// As many intervals, with nodes at these ascending relative times between 0 and 1. The node nearest to each is moved
+  /// there, and the nodes between two of them are moved in proportion: a uniform grid becomes uniform pieces. Without
+  /// times the grid itself. Throws `Error` if there are as many times as intervals, or as `from_nodes`.
+  [[nodiscard]] Grid with_nodes_at(const std::vector<double>& times) const;
+  /// The number of the node at a relative time that `with_nodes_at` was given.
+  [[nodiscard]] Eigen::Index node_at(double relative_time) const;
 
   /// N.
   [[nodiscard]] std::size_t intervals() const noexcept { return static_cast<std::size_t>(nodes_.size() - 1); }

@@ -7,6 +7,24 @@
 
 namespace dmocbench {
 
+/// By how much the least cost grows per unit of the bound that acts: positive for a lower bound, negative for an upper
+/// one, 0 where none acts. Tables without columns belong to quantities without bounds.
+///
+/// A bound at the stages acts all along: its price is per unit of time, so that moving the bound by e(t) changes the
+/// least cost by Σ h b_i price_i e(t_i). A bound at a node acts at that time alone. Values that are given at the ends
+/// have no price here; the costates are theirs.
+struct BoundPrices {
+  Eigen::MatrixXd q;        ///< of bounds of q at the nodes, between the ends too, (N + 1) × n
+  Eigen::MatrixXd v;        ///< of bounds of q̇ at ends and at times between them, (N + 1) × n
+  Eigen::MatrixXd y;        ///< of bounds of first-order states at the nodes, (N + 1) × l
+  Eigen::MatrixXd stage_v;  ///< of bounds of q̇ along the motion, N s × n
+  Eigen::MatrixXd stage_u;  ///< of bounds of the controls, N s × m, where they are unknowns at the stages; neighbours
+                            ///< share the price of a control that they share
+  Eigen::MatrixXd path;      ///< of bounds of path constraints, N s × as many
+  Eigen::VectorXd unknowns;  ///< of the ranges of unknown parameters
+  double horizon = 0.0;      ///< of the bounds of T
+};
+
 /// A discrete motion in the same form for every method; diagnostics, tables and figures are made from it.
 ///
 /// Units are the problem's as solved. Row k of a node table is node k = 0 .. N; row k s + i of a stage table is
@@ -34,10 +52,11 @@ struct Trajectory {
   Eigen::MatrixXd psi_q;
   Eigen::MatrixXd psi_p;  ///< see `psi_q`
   /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, where bounds on velocities,
-  /// path constraints, integrals or first-order states have multipliers of their own there, and of shooting, whose
-  /// stages are not unknowns.
+  /// path constraints and holonomic constraints have multipliers of their own there, and of shooting, whose stages are
+  /// not unknowns.
   Eigen::MatrixXd stage_psi_q;
   Eigen::MatrixXd stage_psi_p;  ///< see `stage_psi_q`
+  Eigen::MatrixXd stage_psi_y;  ///< of first-order states, N s × l; see `stage_psi_q`
 
   double cost = 0.0;  ///< the true cost, not the scaled one
 
@@ -46,6 +65,8 @@ struct Trajectory {
   /// By how much the least cost grows per unit of the active bound of each integral, as many; empty without
   /// multipliers.
   Eigen::VectorXd integral_prices;
+
+  BoundPrices prices;  ///< of all other bounds; without columns where there are no multipliers
 
   /// h_k = t_{k+1} - t_k.
   [[nodiscard]] double step(Eigen::Index k) const { return node_times[k + 1] - node_times[k]; }

@@ -1,0 +1,111 @@
+// What bounds cost: the prices of a motion against differences of re-solved optima.
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+#include "tests/support/restated_problems.hpp"
+#include "tests/support/solving.hpp"
+#include "tests/support/wider_problems.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Restated;
+using tests::Scheme;
+using Statement = Restated::Statement;
+
+/// All schemes, those in which neighbours share a control among them.
+std::vector<Scheme> every_scheme() {
+  std::vector<Scheme> schemes = tests::all_schemes();
+  for (const Scheme& scheme : tests::schemes_with_shared_controls()) schemes.push_back(scheme);
+  return schemes;
+}
+
+class BoundPricesOf : public testing::TestWithParam<Scheme> {
+ protected:
+  static constexpr Eigen::Index intervals = 12;
+  static constexpr double step = 1e-3;
+
+  /// The double integrator on steps that differ, with bounds as `state` states them.
+  static Trajectory solved(const std::function<void(Statement&)>& state) {
+    const tests::DoubleIntegrator base;
+    const Restated problem(base, state);
+    const auto program = tests::transcribe(problem, GetParam(), tests::graded_grid(intervals));
+    SolverOptions options;
+    options.tolerance = 1e-11;
+    const Solution solution =
+        make_solver("interior_point", options)->solve(*program, sample(*program, guessed_motion(problem)));
+    EXPECT_EQ(solution.status, Status::solved) << solution.message;
+    return read_trajectory(*program, solution.primal, solution.multipliers);
+  }
+  /// d least cost / d bound, of bounds that `state` states for the value of a number.
+  static double slope(const std::function<void(Statement&, double)>& state, double at) {
+    const auto cost = [&](double value) { return solved([&](Statement& s) { state(s, value); }).cost; };
+    return (cost(at + step) - cost(at - step)) / (2.0 * step);
+  }
+  /// Σ h b_i price_i: the price of moving a bound all along.
+  static double total(const Trajectory& motion, const Eigen::MatrixXd& prices) {
+    const Eigen::Index s = motion.stages();
+    double sum = 0.0;
+    for (Eigen::Index row = 0; row < prices.rows(); ++row) {
+      sum += motion.step(row / s) * motion.tableau.b[row % s] * prices(row, 0);
+    }
+    return sum;
+  }
+  static void expect_price(double price, double slope, double sign) {
+    EXPECT_GT(sign * price, 0.1);
+    EXPECT_NEAR(price, slope, 1e-3 * std::abs(slope));
+  }
+};
+
+TEST_P(BoundPricesOf, ControlsAreNegativeAtUpperAndPositiveAtLowerBounds) {
+  const auto upper = [](Statement& s, double most) { s.u = Bounds::all(1, -tests::infinity, most); };
+  const Trajectory pushed = solved([&](Statement& s) { upper(s, 5.0); });
+  expect_price(total(pushed, pushed.prices.stage_u), slope(upper, 5.0), -1.0);
+  const auto lower = [](Statement& s, double least) { s.u = Bounds::all(1, least, tests::infinity); };
+  const Trajectory motion = solved([&](Statement& s) { lower(s, -5.0); });
+  expect_price(total(motion, motion.prices.stage_u), slope(lower, -5.0), 1.0);
+}
+
+TEST_P(BoundPricesOf, VelocitiesAndPathConstraints) {
+  const auto velocity = [](Statement& s, double most) { s.v = Bounds::all(1, -tests::infinity, most); };
+  const Trajectory slow = solved([&](Statement& s) { velocity(s, 1.3); });
+  expect_price(total(slow, slow.prices.stage_v), slope(velocity, 1.3), -1.0);
+  const auto path = [](Statement& s, double least) {
+    s.path_constraints = [](const ControlledState& x) { return ExpressionVector::Constant(1, x.u[0] + x.q[0]); };
+    s.path = Bounds::all(1, least, tests::infinity);
+  };
+  const Trajectory motion = solved([&](Statement& s) { path(s, -4.0); });
+  expect_price(total(motion, motion.prices.path), slope(path, -4.0), 1.0);
+}
+
+TEST_P(BoundPricesOf, ConfigurationsAtTheNodesAndAtFreeEnds) {
+  // On its way through a point beyond the end it would go on farther than it may.
+  const auto wall = [](Statement& s, double most) {
+    s.interior = {{.relative_time = 0.4, .q = Bounds::all(1, 1.2, 1.2)}};
+    s.q = Bounds::all(1, -tests::infinity, most);
+  };
+  const Trajectory stopped = solved([&](Statement& s) { wall(s, 1.22); });
+  Eigen::Index node = 0;
+  EXPECT_LT((stopped.node_times.array() - 0.4).abs().minCoeff(&node), 1e-12);
+  expect_price(stopped.prices.q.sum() - stopped.prices.q(node, 0), slope(wall, 1.22), -1.0);
+  const auto end = [](Statement& s, double least) {
+    s.last.q = Bounds::all(1, least, tests::infinity);
+    s.last.v = Bounds::all(1, least, tests::infinity);
+  };
+  const Trajectory motion = solved([&](Statement& s) { end(s, 0.8); });
+  expect_price(motion.prices.q(intervals, 0) + motion.prices.v(intervals, 0), slope(end, 0.8), 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BoundPricesOf, testing::ValuesIn(every_scheme()), [](const auto& instance) {
+  return instance.param.method + "_" + instance.param.family + std::to_string(instance.param.stages);
+});
+
+}  // namespace
+}  // namespace dmocbench
