@@ -282,7 +282,7 @@ Claims order_claims() {
        .needs = "convergence_first_order_slopes"},
       {.id = "stage_controls_with_first_order_states",
        .problems = {with_first_order_states.front()},
-       .where = "section 3.6, remark behind main_theorem",
+       .where = "section 3.6, remark after main_theorem",
        .states = "stage controls that drive first-order states have order s + 1 (Gauss) and s - 1 (Lobatto)",
        .judge = stage_controls_with_first_order_states,
        .condition = "H_u contains the costate of y, which the other half of the tableau carries",

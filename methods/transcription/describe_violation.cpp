@@ -157,7 +157,7 @@ class ConstraintWords {
   [[nodiscard]] std::string stage_equation(Eigen::Index column) const {
     const LayoutShape& shape = layout_->shape();
     const Eigen::Index l = shape.first_order_size;
-    const Eigen::Index conditions = shape.stage_equations - l * shape.stages;  // those of holonomic constraints last
+    const Eigen::Index conditions = shape.stage_equations - l * shape.stages;  // of holonomic constraints last
     const Eigen::Index elements = conditions - shape.multipliers;
     if (column >= conditions) {
       return "first_order_rates: the rate of " + named('y', (column - conditions) % l, problem_->first_order_names());

@@ -45,7 +45,7 @@ struct IntervalFunctions : LocalFunctions {
 };
 
 /// The equation that ties the velocity of a node between the ends, an unknown of its own, to the momentum of the node:
-/// p_{k+1} - L_v(q_{k+1}, v, t_{k+1}, y_{k+1}) = 0, p_{k+1} as interval k sees it. Local unknowns: those of
+/// p_{k+1} - L_v(q_{k+1}, v, t_{k+1}, y_{k+1}) = 0, p_{k+1} as interval k sees it. Local unknowns: as in
 /// `IntervalFunctions`, then v. Local constraints: n.
 [[nodiscard]] LocalFunctions trace_velocity_tie(const TracedProblem& traced, const Element& element,
                                                 const Tableau& tableau, const IntervalRules& rules);

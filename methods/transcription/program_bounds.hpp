@@ -24,8 +24,7 @@ struct ProgramBounds {
 /// (∂A/∂q_N + W) = 0 (rem:inifinalvel). Path constraints have the bounds of the velocities, or are not negative
 /// (eq:gDLOCP5), or `ProblemBounds::path`. Sums begin at 0, and integrals end within their bounds. `horizon` is the
 /// time of the last end. Throws `Error` if the momentum at an end is not finite, or as `require_bounds_of_formulas` and
-/// `require_path_constraints_at_ends`. Bounds between the ends are those of the unknowns of their nodes, which `grid`
-/// has.
+/// `require_path_constraints_at_ends`. Bounds between the ends bound the unknowns of their nodes, which `grid` has.
 [[nodiscard]] ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced,
                                            const ProblemBounds& bounds, double horizon, const EndRules& ends,
                                            const Layout& layout, const Grid& grid);

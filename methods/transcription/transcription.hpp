@@ -120,7 +120,7 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
   /// (A, b, c).
   [[nodiscard]] const Tableau& tableau() const noexcept { return tableau_; }
-  /// Relative node times: those of the constructor, moved to the times of `ProblemBounds::interior`.
+  /// Relative node times: the constructor's, moved to the times of `ProblemBounds::interior`.
   [[nodiscard]] const Grid& grid() const noexcept { return grid_; }
   /// The formulas of the problem.
   [[nodiscard]] const TracedProblem& traced_problem() const noexcept { return traced_; }
