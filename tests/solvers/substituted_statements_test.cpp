@@ -44,7 +44,12 @@ TEST_P(SubstitutedStatements, HaveTheSameCostAndNeverFewerUnknowns) {
   const auto& [pair, method] = GetParam();
   const Scheme scheme{method, 2};
   const auto cost_of = [&](const Problem& problem) {
-    return tests::solve(problem, scheme, Grid::uniform(48), guessed_motion(problem)).trajectory.cost;
+    const auto program = tests::transcribe(problem, scheme, Grid::uniform(48));
+    const Solution solution = make_solver("ipopt")->solve(*program, sample(*program, guessed_motion(problem)));
+    // The cost of a rate of a force, and of the bend of a chain, hardly determines them.
+    EXPECT_LT(solution.kkt_residual.value_or(1.0), 1e-7) << solution.message;
+    EXPECT_LT(solution.constraint_violation.value_or(1.0), 1e-8) << solution.message;
+    return solution.objective / program->cost_scale();
   };
   const double cost = cost_of(*pair.stated);
   EXPECT_NEAR(pair.unit * cost_of(*pair.substituted), cost, pair.accuracy * std::abs(cost));
