@@ -15,6 +15,7 @@
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/runtime/counted.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/families.hpp"
