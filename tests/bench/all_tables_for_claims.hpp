@@ -448,6 +448,12 @@ inline std::map<std::string, Rows> all_rows() {
   rows["shooting"] = shooting_rows();
   rows["convergence_shooting_slopes"] = shooting_slope_rows("1");
   rows["convergence_shooting_two_stages_slopes"] = shooting_slope_rows("2");
+  rows["convergence_galerkin"] = galerkin_rows();
+  rows["convergence_galerkin_slopes"] = galerkin_slope_rows(
+      "gauss", {{"galerkin_1_1", "1", "2.01"}, {"galerkin_2_1", "3", "2.0"}, {"galerkin_2_3", "3", "3.97"}});
+  rows["convergence_galerkin_shared_slopes"] = galerkin_slope_rows("gauss", {{"galerkin_2_2_shared", "3", "4.04"}});
+  rows["convergence_galerkin_lobatto_slopes"] = galerkin_slope_rows("lobatto", {{"galerkin_2_1", "3", "2.02"}});
+  rows["consistency_galerkin"] = galerkin_momentum_rows();
   rows["cold_start_shooting_shares"] = shooting_cold_rows();
   rows["structure_advantage_shooting"] = shooting_cost_rows();
   rows["profile"] = profile_rows();

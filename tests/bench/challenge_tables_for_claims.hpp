@@ -71,6 +71,47 @@ inline Rows shooting_slope_rows(const char* stages) {
                         {orbit, "multiple_shooting_midpoint_1", "gauss", "1", "state", "slope", "1.99", "0.01"}});
 }
 
+/// Methods, quadrature points and slopes of the state.
+inline Rows galerkin_slope_rows(const char* tableau,
+                                const std::vector<std::tuple<const char*, const char*, const char*>>& curves) {
+  const ColumnNames columns{"problem", "method", "tableau",        "stages",  "quantity",
+                            "verdict", "slope",  "standard_error", "fine_end"};
+  Rows rows;
+  for (const auto& [method, points, slope] : curves) {
+    for (const char* quantity : {"state", "costate"}) {
+      rows.push_back(
+          row_of_texts(columns, {orbit, method, tableau, points, quantity, "slope", slope, "0.01", "grids"}));
+    }
+  }
+  return rows;
+}
+
+/// The same solutions by DMOC and by galerkin with r = s = m, and the balance of momentum with other controls.
+inline Rows galerkin_rows() {
+  Rows rows;
+  for (const char* method : {"dmoc", "galerkin_1_1", "galerkin_1_2"}) {
+    for (const long long intervals : {16LL, 32LL}) {
+      Row row = solved_row(method, intervals);
+      const bool is_other = method == std::string("galerkin_1_2");
+      row.set("objective", is_other ? 4.1e-5 : 4e-5);
+      row.set("state_error", is_other ? 2e-3 : 1e-3);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+inline Rows galerkin_momentum_rows() {
+  Rows rows;
+  for (const char* method : {"galerkin_1_1", "galerkin_2_1"}) {
+    Row row = solved_row(method, 16);
+    row.set("momentum_defect_max", 1e-15);
+    row.set("largest_force", 1.0);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 inline Rows shooting_cold_rows() {
   const ColumnNames columns{"problem",     "method",    "tableau",    "stages", "solver",
                             "derivatives", "intervals", "start_kind", "starts", "confirmed"};

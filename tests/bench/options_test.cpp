@@ -1,11 +1,13 @@
 #include "bench/run/options.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <ranges>
 #include <stdexcept>
 #include <system_error>
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
@@ -83,6 +85,59 @@ TEST(Intervals, MoreThanFitIntoMemoryAreRefused) {
   const auto counts = std::views::iota(1, 1002);
   expect_error_naming({"--intervals", "1000"},
                       [&] { static_cast<void>(intervals(fmt::format("{}", fmt::join(counts, ",")))); });
+}
+
+ExperimentOptions by_galerkin(std::vector<int> stages) {
+  return {.problems = {"two_link_manipulator"},
+          .methods = {"galerkin"},
+          .stages = std::move(stages),
+          .intervals = "16",
+          .name = "any"};
+}
+
+/// "galerkin_2_1 gauss 3": method and quadrature of each case.
+std::vector<std::string> schemes_of(const ExperimentOptions& options) {
+  std::vector<std::string> schemes;
+  for (const Case& the_case : expand_cases(options)) {
+    schemes.push_back(fmt::format("{} {} {}", the_case.method, the_case.tableau, the_case.stages));
+  }
+  return schemes;
+}
+
+TEST(GalerkinOptions, HaveAsManyPointsAndControlNodesAsTheDegreeUnlessTheySayOtherwise) {
+  ExperimentOptions options = by_galerkin({2});
+  options.quadratures = {"gauss", "lobatto"};
+  EXPECT_EQ(schemes_of(options), (std::vector<std::string>{"galerkin_2_2 gauss 2", "galerkin_2_2 lobatto 3"}));
+  options.controls = "shared";
+  options.quadratures.clear();
+  EXPECT_EQ(schemes_of(options), (std::vector<std::string>{"galerkin_2_2_shared gauss 2"}));
+}
+
+TEST(GalerkinOptions, TakeTheCombinationsOfSeveralNumbersThatExist) {
+  ExperimentOptions options = by_galerkin({1, 2});
+  options.points = {1, 2};
+  options.control_nodes = {1, 2};
+  EXPECT_EQ(schemes_of(options),
+            (std::vector<std::string>{"galerkin_1_1 gauss 1", "galerkin_1_1 gauss 2", "galerkin_1_2 gauss 2",
+                                      "galerkin_2_1 gauss 2", "galerkin_2_2 gauss 2"}));
+}
+
+TEST(GalerkinOptions, RefuseANumberThatIsInNoCombination) {
+  const auto refuses = [](const std::string& because, const std::function<void(ExperimentOptions&)>& change) {
+    ExperimentOptions options = by_galerkin({1, 2});
+    change(options);
+    expect_error_naming({because}, [&] { static_cast<void>(expand_cases(options)); });
+  };
+  refuses("degree 2 needs 2 quadrature points", [](ExperimentOptions& options) { options.points = {1}; });
+  refuses("3 control nodes needs 3", [](ExperimentOptions& options) {
+    options.points = {2};
+    options.control_nodes = {1, 3};
+  });
+  refuses("radau", [](ExperimentOptions& options) { options.quadratures = {"radau"}; });
+  refuses("--method galerkin", [](ExperimentOptions& options) {
+    options.methods = {"dmoc"};
+    options.points = {2};
+  });
 }
 
 TEST(Sentences, OfLibrariesSayWhatTheyMean) {

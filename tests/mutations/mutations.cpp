@@ -28,7 +28,8 @@ class MutantElement final : public Element {
   [[nodiscard]] std::string name() const override { return element_->name(); }
   [[nodiscard]] std::string description() const override { return element_->description(); }
   [[nodiscard]] NodeState node_state() const override { return element_->node_state(); }
-
+  [[nodiscard]] Tableau rates(const Tableau& tableau) const override { return element_->rates(tableau); }
+  [[nodiscard]] Tableau controls(const Tableau& tableau) const override { return element_->controls(tableau); }
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const override {
     Tableau coefficients = tableau;

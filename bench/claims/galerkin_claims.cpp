@@ -1,0 +1,142 @@
+// Galerkin variational integrators: which control space (section 2.2) costs order, and what they keep of DMOC.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "bench/claims/claim.hpp"
+#include "methods/transcription/elements/galerkin_element.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Degree s of q and number m of control nodes.
+struct Spaces {
+  int degree = 0;
+  int nodes = 0;
+};
+
+/// The spaces of a row by galerkin; none of another method.
+Spaces spaces_of(const Row& row) {
+  for (const int degree : {1, 2, 3, 4}) {
+    for (const int nodes : {1, 2, 3, 4}) {
+      for (const bool is_continuous : {false, true}) {
+        if (row.text("method") == galerkin_name(degree, nodes, is_continuous)) return {degree, nodes};
+      }
+    }
+  }
+  return {};
+}
+
+bool has_any(const Spaces& spaces) { return spaces.degree > 0; }
+bool is_too_small(const Spaces& spaces) { return spaces.nodes < spaces.degree; }
+bool is_large_enough(const Spaces& spaces) { return has_any(spaces) && !is_too_small(spaces); }
+
+double expected_order_of(const Row& row) {
+  const Spaces spaces = spaces_of(row);
+  return 2.0 * std::min(spaces.degree, spaces.nodes);
+}
+
+/// Whether an order was fitted. Where finer grids contradict the range that it was fitted on, it can support an order
+/// and not refute it: errors are not asymptotic there.
+bool is_fitted(const Row& row) {
+  if (row.text("verdict") != "slope") return false;
+  return row.text("fine_end") != "orders" || verdict_on_order(row, expected_order_of(row)) == ClaimVerdict::reproduced;
+}
+
+/// State and costates at the nodes have the order 2 min(s, m), of the spaces that are meant; `floor` if less than half
+/// of their orders were fitted.
+Predicate have_the_order_of_spaces(std::string table, bool (*is_meant)(const Spaces&)) {
+  return [table = std::move(table), is_meant](const ResultTables& tables, const std::string& problem) -> Finding {
+    const Selection rows = tables.rows(table + "_slopes", problem).where([&](const Row& row) {
+      return is_meant(spaces_of(row)) && (row.text("quantity") == "state" || row.text("quantity") == "costate");
+    });
+    require(!rows.empty(), "{}_slopes.csv has no order of a galerkin method for {}", table, problem);
+    const Selection fitted = rows.where(is_fitted);
+    const ClaimVerdict of_fitted =
+        verdict_on_all(fitted, [](const Row& row) { return verdict_on_order(row, expected_order_of(row)); });
+    const bool are_few = 2 * fitted.size() < rows.size();
+    const std::string words = rows.in_words("; ", [](const Row& row) {
+      const std::string order = is_fitted(row)                   ? fmt::format("{:.2f}", row.needed("slope"))
+                                : row.text("verdict") == "slope" ? "not asymptotic"
+                                                                 : row.text("verdict");
+      return fmt::format("{} r = {} {} {}", row.text("method"), row.text("stages"), row.text("quantity"), order);
+    });
+    return found(are_few && of_fitted == ClaimVerdict::reproduced ? ClaimVerdict::floor : of_fitted,
+                 "slopes against the indirect solution: {}{}", words,
+                 unsolved_behind(tables, table, {{"problem", problem}}));
+  };
+}
+
+/// Cost and error of the state of galerkin with r = s = m next to DMOC's.
+Finding galerkin_is_dmoc(const ResultTables& tables, const std::string& problem) {
+  constexpr double equal_solutions = 1e-9;
+  const Selection rows = tables.rows("convergence_galerkin", problem).usable();
+  double of_cost = 0.0;
+  double of_state = 0.0;
+  std::size_t pairs = 0;
+  for (const Row& dmoc : rows.where("method", "dmoc")) {
+    const int s = static_cast<int>(dmoc.needed("stages"));
+    for (const Row& row :
+         rows.matching(dmoc, {"tableau", "stages", "intervals"}).where("method", galerkin_name(s, s, false))) {
+      const double cost = dmoc.needed("objective");
+      of_cost = std::max(of_cost, std::abs(row.needed("objective") - cost) / std::abs(cost));
+      of_state = std::max(of_state, std::abs(row.needed("state_error") - dmoc.needed("state_error")));
+      ++pairs;
+    }
+  }
+  require(pairs > 0, "convergence_galerkin.csv has no solve of {} by dmoc and by galerkin with r = s = m", problem);
+  return found(std::max(of_cost, of_state) < equal_solutions,
+               "of {} pairs of solves, largest relative difference of the cost {:.1e}, of the errors of q {:.1e}",
+               pairs, of_cost, of_state);
+}
+
+/// The change of momentum less the work of the forces, relative to the largest force or absolute.
+Finding galerkin_keeps_momentum(const ResultTables& tables, const std::string& problem) {
+  constexpr double rounding_of_balance = 1e-11;
+  const Selection all = tables.rows("consistency_galerkin", problem);
+  const Selection rows = all.usable();
+  require(!rows.empty(), "consistency_galerkin.csv has no solved row of {}", problem);
+  const double largest = rows.max(
+      [](const Row& row) { return row.needed("momentum_defect_max") / std::max(1.0, row.needed("largest_force")); });
+  return found(largest < rounding_of_balance,
+               "largest defect of an interval in {} solves with {} pairs of s and m: {:.1e}{}", rows.size(),
+               rows.group_by({"method"}).size(), largest, left_out(all, rows));
+}
+
+}  // namespace
+
+/// Control spaces of their own.
+Claims galerkin_claims() {
+  const auto order = [](const char* id, const char* table, bool (*is_meant)(const Spaces&), const char* states) {
+    return Claim{.id = id,
+                 .where = "section 2.2, discrete control path space",
+                 .states = states,
+                 .judge = have_the_order_of_spaces(table, is_meant),
+                 .condition =
+                     "fixed ends, no bound is active; s is the degree of q, m the number of control nodes per "
+                     "interval, r of quadrature points",
+                 .evidence = {std::string(table) + "_slopes.csv"}};
+  };
+  return {order("control_space_large_enough", "convergence_galerkin", is_large_enough,
+                "with m >= s and any Gauss quadrature of r >= s points state and costates at the nodes have order 2s: "
+                "neither more control nodes nor more quadrature points gain order"),
+          order("control_space_too_small", "convergence_galerkin", is_too_small,
+                "with m < s the order of state and costates at the nodes is 2m"),
+          order("control_space_continuous", "convergence_galerkin_shared", has_any,
+                "continuous controls through m Lobatto nodes, m >= 2, have order 2 min(s, m) as well"),
+          order("control_space_by_lobatto_quadrature", "convergence_galerkin_lobatto", has_any,
+                "by s + 1 Lobatto points the order is 2 min(s, m) as well"),
+          {.id = "galerkin_is_dmoc",
+           .where = "section 3.4, eq:DMOC_RK_L",
+           .states = "with r = s = m by Gauss the Galerkin integrator has the solutions of DMOC",
+           .judge = galerkin_is_dmoc,
+           .evidence = {"convergence_galerkin.csv"}},
+          {.id = "galerkin_momentum",
+           .where = "section 2.2, eq:noether_force_d",
+           .states = "for every control space the change of momentum equals the work of the forces to rounding",
+           .judge = galerkin_keeps_momentum,
+           .evidence = {"consistency_galerkin.csv"}}};
+}
+
+}  // namespace dmocbench
