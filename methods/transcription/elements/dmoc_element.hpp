@@ -20,7 +20,7 @@ namespace dmocbench {
 ///   stages:      (∂A/∂Q̇_j + W[∂/∂Q̇_j]) / (h b_j) = 0, j = 1 .. s-1 (unit: momentum).
 /// Holonomic constraints g(q) = 0 (DMOCC), by Gauss with one stage or Lobatto: λ_k at node k and, by Lobatto, λ_i at
 /// the interior stages. The equation of node k gets -h w Gᵀ(q_k) λ_k from the interval to its right, w = ½ (Gauss) or
-/// b_1, so that λ_k counts for the whole node, half of it from each interval; work is done by -Gᵀ(Q_i) λ_i at
+/// b_1, so that λ_k refers to the step of its right interval; work is done by -Gᵀ(Q_i) λ_i at
 /// interior stages. Further equations of the interval: g(Q_i) = 0 there and g(q_{k+1}) = 0. Node N has a multiplier of
 /// its own (`end_functions`).
 /// Momenta: the forced discrete Legendre transforms (eq:varmech_dlegf), p_k = -(term at node k) and
