@@ -67,6 +67,10 @@ TEST(SolveBatch, GivesTheAnswersOfSingleSolvesForEveryFamilyAndSeveralStages) {
     }
   }
   Case("two_link_manipulator", "dmoc", 1, 16).expect_answers_of_single_solves(24, 0.1);
+  for (const char* method : {"galerkin_2_1", "galerkin_1_3"}) {
+    SCOPED_TRACE(method);
+    Case("orbital_transfer", method, 3, 16).expect_answers_of_single_solves(12, 0.02);
+  }
 }
 
 TEST(SolveBatch, GivesTheAnswersOfSingleSolvesWhereThereAreBoundsAndInequalities) {
