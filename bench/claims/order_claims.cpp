@@ -228,12 +228,6 @@ Finding orders_with_first_order_states(const ResultTables& tables, const std::st
       expected_order);
 }
 
-Finding stage_controls_with_first_order_states(const ResultTables& tables, const std::string& problem) {
-  return first_order_orders(tables, problem, {"control"}, [](const Row& row) {
-    return row.needed("stages") + (row.text("tableau") == "gauss" ? 1.0 : -1.0);
-  });
-}
-
 }  // namespace
 
 /// Orders of state and costate for every tableau.
@@ -278,14 +272,6 @@ Claims order_claims() {
            "with first-order states, collocated by half A of the tableau, all three methods have order 2s (Gauss) "
            "and 2s - 2 (Lobatto) at the nodes, in q, p, y, u(x, psi) and all costates",
        .judge = orders_with_first_order_states,
-       .evidence = first_order_evidence,
-       .needs = "convergence_first_order_slopes"},
-      {.id = "stage_controls_with_first_order_states",
-       .problems = {with_first_order_states.front()},
-       .where = "section 3.6, remark after main_theorem",
-       .states = "stage controls that drive first-order states have order s + 1 (Gauss) and s - 1 (Lobatto)",
-       .judge = stage_controls_with_first_order_states,
-       .condition = "H_u contains the costate of y, which the other half of the tableau carries",
        .evidence = first_order_evidence,
        .needs = "convergence_first_order_slopes"}};
 }
