@@ -314,7 +314,8 @@ class Problem:
     y = first_order_states("mass", ...) with first_order_rates(self, x), read as x.y.mass: what has a rate, but no
     inertia; L is varied with y held fixed;
     any number of `unknown`s: parameters that a solve chooses;
-    bounds: (lower, upper) of "q", "v", "u", "y", "path", "integrals" where they depend on parameters, or of the last two;
+    bounds: a dict of "q", "v", "u", "y", "path" or "integrals" to (lower, upper), for the latter two and for bounds that
+    depend on parameters; each side is one number for all entries, a list, a dict by names, or None;
     guess(self, t) -> (q, v), (q, v, u) or (q, v, u, y), or a `motion`: where solves start;
     symmetry(self, q): the generator of a group action, n entries; cost_scale: the factor by which solvers see the cost;
     picture(self, x): a dict of a name to a formula or (formula, unit); name, source, time_unit ("s", 1.0), reference
