@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/bench/all_tables_for_claims.hpp"
+#include "tests/bench/doctored_verdict.hpp"
 
 namespace dmocbench {
 namespace {
@@ -13,83 +13,66 @@ const std::string by_nodes = "multiple_shooting_rk4_1";
 const std::string by_midpoint = "multiple_shooting_midpoint_1";
 const std::string by_controls = "single_shooting_rk4_1";
 
-/// The verdict on the orbit's claim where a table has been doctored by `change` in the rows of a method.
-ClaimVerdict verdict_of(const std::string& claim, const std::string& table = "", const std::string& method = "",
-                        const std::function<void(Row&)>& change = {}) {
-  ResultTables results;
-  for (const char* name : {"shooting", "convergence_shooting_slopes", "convergence_shooting_two_stages_slopes",
-                           "cold_start_shooting_shares", "structure_advantage_shooting"}) {
-    static const std::map<std::string, tests::Rows> all = tests::all_rows();
-    tests::Rows rows = all.at(name);
-    for (Row& row : rows) {
-      if (name == table && row.text("method") == method) change(row);
-    }
-    results.add(name, tests::declared_table(name, rows));
-  }
-  for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id == std::string(orbit) + "/" + claim) return judged.verdict;
-  }
-  ADD_FAILURE() << "no claim " << claim;
-  return ClaimVerdict::not_judged;
-}
+using tests::sets;
 
-auto sets(const char* column, const char* text) {
-  return [=](Row& row) { row.set(column, text); };
+ClaimVerdict verdict_on_shooting(const std::string& claim, const std::string& table = "",
+                                 const std::string& method = "", const std::function<void(Row&)>& change = {}) {
+  return tests::doctored_verdict("shooting", claim, table, method, change);
 }
 
 TEST(ShootingClaims, OnTheOrderTurnWithTheSlopeOfAnyIntegrator) {
   const std::string claim = "order_of_shooting";
-  EXPECT_EQ(verdict_of(claim), ClaimVerdict::reproduced);
+  EXPECT_EQ(verdict_on_shooting(claim), ClaimVerdict::reproduced);
   for (const auto& [table, method] :
        {std::pair("convergence_shooting_slopes", by_nodes), std::pair("convergence_shooting_slopes", by_midpoint),
         std::pair("convergence_shooting_two_stages_slopes", by_nodes)}) {
-    EXPECT_EQ(verdict_of(claim, table, method, sets("slope", "3.0")), ClaimVerdict::differs);
-    EXPECT_EQ(verdict_of(claim, table, method, sets("verdict", "floor")), ClaimVerdict::floor);
-    EXPECT_EQ(verdict_of(claim, table, method, sets("stages", "3")), ClaimVerdict::not_judged);
+    EXPECT_EQ(verdict_on_shooting(claim, table, method, sets("slope", "3.0")), ClaimVerdict::differs);
+    EXPECT_EQ(verdict_on_shooting(claim, table, method, sets("verdict", "floor")), ClaimVerdict::floor);
+    EXPECT_EQ(verdict_on_shooting(claim, table, method, sets("stages", "3")), ClaimVerdict::not_judged);
   }
 }
 
 TEST(ShootingClaims, OnTheSizeTurnWhereDmocIsNotBetween) {
   const std::string claim = "single_shooting_smallest";
-  EXPECT_EQ(verdict_of(claim), ClaimVerdict::reproduced);
-  EXPECT_EQ(verdict_of(claim, "shooting", "dmoc", sets("unknowns", "400")), ClaimVerdict::differs);
-  EXPECT_EQ(verdict_of(claim, "shooting", by_controls, sets("unknowns", "200")), ClaimVerdict::differs);
-  EXPECT_EQ(verdict_of(claim, "shooting", by_nodes, sets("status", "step failed")), ClaimVerdict::not_judged);
+  EXPECT_EQ(verdict_on_shooting(claim), ClaimVerdict::reproduced);
+  EXPECT_EQ(verdict_on_shooting(claim, "shooting", "dmoc", sets("unknowns", "400")), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_on_shooting(claim, "shooting", by_controls, sets("unknowns", "200")), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_on_shooting(claim, "shooting", by_nodes, sets("status", "step failed")), ClaimVerdict::not_judged);
 }
 
 TEST(ShootingClaims, OnTheConditionStateNumbers) {
   const std::string claim = "condition_of_shooting";
-  EXPECT_EQ(verdict_of(claim), ClaimVerdict::measured);
-  EXPECT_EQ(verdict_of(claim, "shooting", by_nodes, sets("condition", "")), ClaimVerdict::not_judged);
+  EXPECT_EQ(verdict_on_shooting(claim), ClaimVerdict::measured);
+  EXPECT_EQ(verdict_on_shooting(claim, "shooting", by_nodes, sets("condition", "")), ClaimVerdict::not_judged);
 }
 
 TEST(ShootingClaims, OnColdStartsTurnWithTheCountsAndAreUndecidedNearEqualOnes) {
   const char* const table = "cold_start_shooting_shares";
   for (const auto& [claim, weaker] : {std::pair("multiple_shooting_more_robust_than_single", by_controls),
                                       std::pair("dmoc_more_robust_than_multiple_shooting", by_nodes)}) {
-    EXPECT_EQ(verdict_of(claim), ClaimVerdict::reproduced);
-    EXPECT_EQ(verdict_of(claim, table, weaker, sets("confirmed", "50")),
+    EXPECT_EQ(verdict_on_shooting(claim), ClaimVerdict::reproduced);
+    EXPECT_EQ(verdict_on_shooting(claim, table, weaker, sets("confirmed", "50")),
               weaker == by_nodes ? ClaimVerdict::undecided : ClaimVerdict::differs);
-    EXPECT_EQ(verdict_of(claim, table, weaker, sets("confirmed", "51")), ClaimVerdict::not_judged);
+    EXPECT_EQ(verdict_on_shooting(claim, table, weaker, sets("confirmed", "51")), ClaimVerdict::not_judged);
   }
   const std::string claim = "multiple_shooting_more_robust_than_single";
-  EXPECT_EQ(verdict_of(claim, table, by_controls, sets("confirmed", "33")), ClaimVerdict::undecided);
-  EXPECT_EQ(verdict_of(claim, table, by_nodes, sets("intervals", "64")), ClaimVerdict::not_judged);
+  EXPECT_EQ(verdict_on_shooting(claim, table, by_controls, sets("confirmed", "33")), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict_on_shooting(claim, table, by_nodes, sets("intervals", "64")), ClaimVerdict::not_judged);
 }
 
 TEST(ShootingClaims, OnCostTurnWithTheTimesAndNeedRoundsAndAnErrorThatBothReach) {
   const char* const table = "structure_advantage_shooting";
   for (const auto& [claim, method] : {std::pair("multiple_shooting_slower_at_equal_error", by_nodes),
                                       std::pair("single_shooting_slower_at_equal_error", by_controls)}) {
-    EXPECT_EQ(verdict_of(claim), ClaimVerdict::reproduced);
+    EXPECT_EQ(verdict_on_shooting(claim), ClaimVerdict::reproduced);
     const auto takes = [](double seconds) {
       return [=](Row& row) { row.set("round_seconds", tests::rounds_around(seconds * row.needed("intervals"))); };
     };
-    EXPECT_EQ(verdict_of(claim, table, method, takes(2e-5)), ClaimVerdict::differs);
-    EXPECT_EQ(verdict_of(claim, table, method, sets("round_seconds", "0.1")), ClaimVerdict::undecided);
-    EXPECT_EQ(verdict_of(claim, table, method, sets("round_seconds", "")), ClaimVerdict::not_judged);
-    EXPECT_EQ(verdict_of(claim, table, method, sets("objective_error", "10")), ClaimVerdict::not_judged);
-    EXPECT_EQ(verdict_of(claim, table, method, sets("branch", "other")), ClaimVerdict::not_judged);
+    EXPECT_EQ(verdict_on_shooting(claim, table, method, takes(2e-5)), ClaimVerdict::differs);
+    EXPECT_EQ(verdict_on_shooting(claim, table, method, sets("round_seconds", "0.1")), ClaimVerdict::undecided);
+    EXPECT_EQ(verdict_on_shooting(claim, table, method, sets("round_seconds", "")), ClaimVerdict::not_judged);
+    EXPECT_EQ(verdict_on_shooting(claim, table, method, sets("objective_error", "10")), ClaimVerdict::not_judged);
+    EXPECT_EQ(verdict_on_shooting(claim, table, method, sets("branch", "other")), ClaimVerdict::not_judged);
   }
 }
 
@@ -101,8 +84,8 @@ TEST(ShootingClaims, OnCostCompareTimesWhereErrorsAreEqualAndNotOnEqualGrids) {
     };
   };
   const auto verdict = [&](double seconds) {
-    return verdict_of("multiple_shooting_slower_at_equal_error", "structure_advantage_shooting", by_nodes,
-                      takes(seconds));
+    return verdict_on_shooting("multiple_shooting_slower_at_equal_error", "structure_advantage_shooting", by_nodes,
+                               takes(seconds));
   };
   EXPECT_EQ(verdict(0.6e-4), ClaimVerdict::reproduced);  // 0.6 times DMOC's on every grid
   EXPECT_EQ(verdict(0.4e-4), ClaimVerdict::differs);
