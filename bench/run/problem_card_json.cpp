@@ -160,6 +160,7 @@ nlohmann::ordered_json problem_cards_schema() {
        {"end", state},
        {"bounds", described(object_of({{"q", bounds}, {"v", bounds}, {"u", bounds}}),
                             "along the motion, an entry per quantity; empty if there are no bounds")},
+       {"holonomic_constraints", described(count(), "how many constraints g(q) = 0")},
        {"path_constraints", described(count(), "how many")},
        {"boundary_conditions", described(count(), "how many")},
        {"integral_constraints", described(count(), "how many")},

@@ -51,7 +51,7 @@ TEST_F(WrittenTables, AreRefusedWhereTheMetadataTellNothingOfThem) {
                                  R"({"tables": {"table.csv": {"columns": [5], "rows": 0, "crc32": "0"}}})",
                                  R"({"tables": {"table.csv": {"columns": ["a"], "rows": {}, "crc32": "0"}}})",
                                  R"({"tables": {"table.csv": {"columns": ["a"], "rows": 0, "crc32": 7}}})"}) {
-    expect_error_naming({"table.json does not tell of table.csv"},
+    expect_error_naming({"table.json does not list table.csv"},
                         [&] { require_as_written(nlohmann::json::parse(told), "table.json", "table.csv", "a\n"); });
   }
 }

@@ -59,7 +59,12 @@ bool expect_agreement(const Problem& problem, const tests::Scheme& scheme, int i
   std::mt19937 generator(static_cast<unsigned>(std::hash<std::string>()(label)));
   Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(intervals), "tape",
                         form);
-  const auto kkt = IntervalKkt::make(program).value();
+  auto made = IntervalKkt::make(program);
+  if (program.layout().shape().has_interior_equations) {
+    EXPECT_FALSE(made.has_value());  // the systems of such nodes differ from all others
+    return false;
+  }
+  const auto kkt = std::move(made).value();
   const Eigen::VectorXd x =
       sample(program, guessed_motion(problem)) + random_vector(program.variable_count(), 1e-2, generator);
   const KktNumbers numbers = numbers_at(program, x, 1e-2, 10.0, generator);

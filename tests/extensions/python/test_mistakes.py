@@ -86,7 +86,7 @@ class Mistakes(unittest.TestCase):
                                                                        start=start, end=end), AttributeError)
 
     def test_what_methods_do_not_know(self):
-        self.refused("does not know first-order states \\(y\\)", restated.TwoLinkWithMotors(), method="multiple_shooting_rk4_1")
+        self.refused("does not support first-order states \\(y\\)", restated.TwoLinkWithMotors(), method="multiple_shooting_rk4_1")
         solution = db.solve(restated.TwoLinkWithMotors(), intervals=64, stages=2)
         with self.assertRaisesRegex(db.Error, "first-order states"):
             solution.estimated_error()

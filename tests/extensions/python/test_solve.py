@@ -40,7 +40,8 @@ class Pendulum(unittest.TestCase):
     def test_is_solved_by_every_method_tableau_and_solver(self):
         near = db.solve(PendulumSwingUp(), intervals=64, stages=2)  # one of several minima
         costs = [db.solve(PendulumSwingUp(), method, intervals=64, tableau=tableau, stages=stages, solver=solver, start=near)
-                 for method in db.methods() if "midpoint" not in method for tableau, stages in (("gauss", 2), ("lobatto", 3))
+                 for method in db.methods() if not ("midpoint" in method or method.startswith("galerkin"))  # of order 2
+                 for tableau, stages in (("gauss", 2), ("lobatto", 3))
                  for solver in ("interior_point", "ipopt", "auto", "sqp")
                  if not (method.startswith(("single", "multiple")) and tableau == "lobatto")]
         self.assertGreater(len(costs), 20)
