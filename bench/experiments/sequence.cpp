@@ -109,8 +109,7 @@ void add_options(CommandLine& line, SequenceOptions& options) {
   line.list("--method", options.methods, fmt::format("methods: {}", fmt::join(paper_families(), ", ")));
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
   line.number("--steps", options.steps, 1, 100000, "problems in a sequence");
-  line.number("--cold-every", options.cold_every, 0, 100000,
-              "number of steps between cold solves; 0: no cold solves");
+  line.number("--cold-every", options.cold_every, 0, 100000, "number of steps between cold solves; 0: no cold solves");
   line.number("--repeats", options.repeats, 1, 1000, "solves of every step; its time is the smallest of them");
   line.number("--disturbance", options.disturbance, 0.0, 1.0,
               "of the initial states of a receding horizon, a share of the range of the first motion");

@@ -137,9 +137,10 @@ std::string comparison_html(const ResultsFolder& results) {
   std::set<std::string> methods;
   for (const std::string& method : fields_of(results, "method")) methods.insert(method_in_words(method));
   return fmt::format("<p>{} by the methods {}: {} in {}, {}, {}.</p>\n",
-                     counted(fields_of(results, "problem").size(), "problem"), escaped(fmt::format("{}", fmt::join(methods, "; "))),
-                     counted(rows, "row"), counted(results.tables.size(), "table"),
-                     counted(results.figures.size(), "figure"), counted(results.claims.rows().size(), "claim"));
+                     counted(fields_of(results, "problem").size(), "problem"),
+                     escaped(fmt::format("{}", fmt::join(methods, "; "))), counted(rows, "row"),
+                     counted(results.tables.size(), "table"), counted(results.figures.size(), "figure"),
+                     counted(results.claims.rows().size(), "claim"));
 }
 
 /// Links to the sections of the page.

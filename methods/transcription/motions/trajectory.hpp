@@ -14,12 +14,12 @@ namespace dmocbench {
 /// least cost by Σ h b_i price_i e(t_i). A bound at a node acts at that time alone. Values that are given at the ends
 /// have no price here; the costates are theirs.
 struct BoundPrices {
-  Eigen::MatrixXd q;        ///< of bounds of q at the nodes, between the ends too, (N + 1) × n
-  Eigen::MatrixXd v;        ///< of bounds of q̇ at ends and at times between them, (N + 1) × n
-  Eigen::MatrixXd y;        ///< of bounds of first-order states at the nodes, (N + 1) × l
-  Eigen::MatrixXd stage_v;  ///< of bounds of q̇ along the motion, N s × n
-  Eigen::MatrixXd stage_u;  ///< of bounds of the controls, N s × m, where they are unknowns at the stages; neighbours
-                            ///< share the price of a control that they share
+  Eigen::MatrixXd q;         ///< of bounds of q at the nodes, between the ends too, (N + 1) × n
+  Eigen::MatrixXd v;         ///< of bounds of q̇ at ends and at times between them, (N + 1) × n
+  Eigen::MatrixXd y;         ///< of bounds of first-order states at the nodes, (N + 1) × l
+  Eigen::MatrixXd stage_v;   ///< of bounds of q̇ along the motion, N s × n
+  Eigen::MatrixXd stage_u;   ///< of bounds of the controls, N s × m, where they are unknowns at the stages; neighbours
+                             ///< share the price of a control that they share
   Eigen::MatrixXd path;      ///< of bounds of path constraints, N s × as many
   Eigen::VectorXd unknowns;  ///< of the ranges of unknown parameters
   double horizon = 0.0;      ///< of the bounds of T
