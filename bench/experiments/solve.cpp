@@ -25,8 +25,9 @@ struct Measured {
   std::optional<double> estimated_error;
 };
 
-std::vector<std::string> answer_columns(bool with_horizon) {
+std::vector<std::string> answer_columns(bool with_horizon, bool with_tableau) {
   std::vector<std::string> columns{"problem", "method", "N", "status", "cost"};
+  if (with_tableau) columns.insert(columns.begin() + 2, "tableau");
   if (with_horizon) columns.emplace_back("T");
   for (const char* const column : {"iterations", "seconds", "replay error", "worst between stages", "files"})
     columns.emplace_back(column);
@@ -65,6 +66,9 @@ std::string violation_in_words(const SolvedCase& solved) {
                      solved.the_case.problem->card().time_unit.factor * worst.time);
 }
 
+/// "gauss 2": the family of tableaus and the stages.
+std::string tableau_in_words(const Case& the_case) { return fmt::format("{} {}", the_case.tableau, the_case.stages); }
+
 Row row_of_answer(const SolvedCase& solved, const IndependentChecks& checks, const std::string& files) {
   const Solution& solution = solved.solution;
   const Problem& problem = *solved.the_case.problem;
@@ -72,6 +76,7 @@ Row row_of_answer(const SolvedCase& solved, const IndependentChecks& checks, con
   Row row;
   row.set("problem", problem.name());
   row.set("method", solved.the_case.method);
+  row.set("tableau", tableau_in_words(solved.the_case));
   row.set("N", solved.the_case.intervals());
   row.set("status", name_of(solution.status));
   row.set("iterations", solution.major_iterations);
@@ -144,7 +149,11 @@ class Solve final : public ExperimentOf<Measured> {
   }
   void finish(Table& /*table*/, FurtherOutput& output) override {
     trace_.describe(output);
-    Table summary(answer_columns(std::ranges::any_of(answers_, has_free_horizon)));
+    const auto has_another_tableau = [&](const auto& answer) {
+      return tableau_in_words(answer.solved.the_case) != tableau_in_words(answers_.front().solved.the_case);
+    };
+    Table summary(answer_columns(std::ranges::any_of(answers_, has_free_horizon),
+                                 std::ranges::any_of(answers_, has_another_tableau)));
     for (const auto& [solved, checks] : answers_) {
       const std::string file = output.prefix.string() + label_of_(solved.the_case);
       summary.append(row_of_answer(solved, checks, solved.trajectory ? file + "_nodes.csv" : "none"));
