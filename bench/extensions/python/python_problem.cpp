@@ -61,7 +61,7 @@ std::vector<Parameter> parameters_of(const py::object& original) {
   return parameters;
 }
 
-Bounds bounds_of(const py::dict& numbers, const char* name) {
+Bounds bounds_of(const py::handle numbers, const char* name) {
   const auto [lower, upper] = numbers[name].cast<std::pair<Eigen::VectorXd, Eigen::VectorXd>>();
   return {.lower = lower, .upper = upper};
 }
@@ -314,6 +314,13 @@ PythonProblem::Numbers PythonProblem::read_numbers() const {
     numbers.bounds.v = bounds_of(stated, "v_bounds");
     numbers.bounds.u = bounds_of(stated, "u_bounds");
     numbers.bounds.y = bounds_of(stated, "y_bounds");
+    for (const py::handle waypoint : stated["waypoints"]) {
+      const auto [time, parts] = waypoint.cast<std::pair<double, py::dict>>();
+      const auto part = [&parts = parts](const char* name) {
+        return parts.contains(name) ? bounds_of(parts, name) : Bounds{};
+      };
+      numbers.bounds.interior.push_back({.relative_time = time, .q = part("q"), .v = part("v"), .y = part("y")});
+    }
     const ControlledState x = some_point();
     if (stated.contains("path_bounds"))
       numbers.bounds.path = for_each(bounds_of(stated, "path_bounds"), path_constraints(x).size());

@@ -380,3 +380,24 @@ class ChainOfGivenLength(db.Problem):
 
     def guess(self, t):
         return [8.0 * t * (0.5 * t - 0.25) + 1.0], [8.0 * t - 2.0], [8.0]
+
+
+class PointsAtGivenTimes(db.Problem):
+    """hovercraft through given points at given times, least control effort"""
+
+    name = "waypoints"
+    q = db.coordinates("x", "y", unit="m")
+    u = db.controls("u_x", "u_y", unit="N")
+    horizon = 60.0
+    start = db.at_rest([1.0, 1.0])
+    end = db.state([1.0, 1.0], db.free())
+    waypoints = {50.0 / 60.0: db.state([6.0, 0.0]), 25.0 / 60.0: db.state([4.0, 3.0])}
+
+    def lagrangian(self, x):
+        return 0.5 * x.v @ x.v
+
+    def force(self, x):
+        return x.u
+
+    def running_cost(self, x):
+        return x.u @ x.u

@@ -85,6 +85,19 @@ class Mistakes(unittest.TestCase):
         self.refused("y has no entry voltage; it has current", variant(**{**rates, "force": lambda self, x: [x.y.voltage]},
                                                                        start=start, end=end), AttributeError)
 
+    def test_waypoints(self):
+        class Through(restated.PointsAtGivenTimes):
+            waypoints = {0.5: [1.0, 2.0]}
+        self.refused("waypoints\\[0.5\\] is \\[1.0, 2.0\\], expected state", Through())
+
+        class Late(restated.PointsAtGivenTimes):
+            waypoints = {1.5: db.state([1.0, 2.0])}
+        self.refused("1.5", Late())
+
+        class Wrong(restated.PointsAtGivenTimes):
+            waypoints = {0.5: db.state({"z": 1.0})}
+        self.refused("waypoints\\[0.5\\]: q has an entry z", Wrong())
+
     def test_what_methods_do_not_know(self):
         self.refused("does not support first-order states \\(y\\)", restated.TwoLinkWithMotors(), method="multiple_shooting_rk4_1")
         solution = db.solve(restated.TwoLinkWithMotors(), intervals=64, stages=2)

@@ -154,7 +154,7 @@ class RestatedProblems(unittest.TestCase):
         for cls, name in ((restated.TwoLinkWithMotors, "two_link_with_motors"),
                           (restated.OrbitalTransferWithMass, "orbital_transfer_with_mass"),
                           (restated.CannonballOfUnknownRadius, "cannonball"), (restated.ChainOfGivenLength, "hanging_chain"),
-                          (restated.PushedInABand, "pushed_in_a_band")):
+                          (restated.PushedInABand, "pushed_in_a_band"), (restated.PointsAtGivenTimes, "waypoints")):
             for method in ("dmoc", "tangent"):
                 with self.subTest(name, method=method):
                     a, b = (db.solve(problem, method, intervals=64, stages=2) for problem in (cls(), name))

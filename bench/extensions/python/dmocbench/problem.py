@@ -23,6 +23,7 @@ Numbers = Union[float, Sequence[float], Mapping[str, float], None]
 
 # Names in messages of C++ and their Python names.
 _words = {"Problem::": "", "initial_state": "start", "final_state": "end", "bounds().first": "start", "bounds().last": "end",
+          "bounds().interior": "waypoints",
           "bounds().horizon": "horizon", "bounds().": "bounds of ", "configuration_names": "q", "control_names": "u", "first_order_names": "y",
           "varying()": "a formula",
           "parameter()": "its number"}
@@ -204,7 +205,7 @@ class free(between):
 
 
 class state:
-    """A state at an end of the horizon: configuration q, rates v and first-order states y, each a list or a dict by
+    """A state at an end of the horizon, or at a waypoint: configuration q, rates v and first-order states y, each a list or a dict by
     names.
 
     Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None is at rest.
@@ -287,8 +288,8 @@ def _table(values, t, name):
     return table
 
 
-_declared = {"q", "u", "y", "start", "end", "horizon", "bounds", "guess", "cost_scale", "name", "source", "time_unit",
-             "reference", "path_constraint_names", "boundary_condition_names"}
+_declared = {"q", "u", "y", "start", "end", "horizon", "bounds", "waypoints", "guess", "cost_scale", "name", "source",
+             "time_unit", "reference", "path_constraint_names", "boundary_condition_names"}
 _formulas = {"lagrangian", "force", "running_cost", "first_order_rates", "integrands", "path_constraints", "constraints",
              "boundary_conditions", "final_cost", "symmetry", "picture"}
 _members = _declared | _formulas
@@ -310,6 +311,8 @@ class Problem:
     final_cost(self, last): a cost of the end, where last.t is the horizon; boundary_conditions(self, first, last) = 0;
     constraints(self, q) = 0 of a mechanism in redundant coordinates;
     path_constraints(self, x) >= 0, or between bounds = {"path": (lower, upper)}; equal bounds make an equality;
+    waypoints: a dict of shares of the horizon to state(...), what holds at these times; parts and entries that are left out
+    are open;
     integrands(self, x): their integrals over the horizon are between bounds = {"integrals": (lower, upper)};
     y = first_order_states("mass", ...) with first_order_rates(self, x), read as x.y.mass: what has a rate, but no
     inertia; L is varied with y held fixed;
@@ -321,7 +324,7 @@ class Problem:
     picture(self, x): a dict of a name to a formula or (formula, unit); name, source, time_unit ("s", 1.0), reference
     (cost, digits, certificate), path_constraint_names, boundary_condition_names: words for tables and figures.
 
-    start, end, horizon, bounds and cost_scale may be methods too, where they depend on parameters. The docstring of the
+    start, end, horizon, bounds, waypoints and cost_scale may be methods too, where they depend on parameters. The docstring of the
     class is the description. Formulas are traced once: they may loop and call functions, but not branch on x. They may
     contain functions of dmocbench (sin, sqrt, smooth_abs, Spline, ...), the same ones of numpy, and arrays of formulas.
     """
@@ -398,7 +401,7 @@ class Problem:
 
     def _has_constant_numbers(self):
         constants = (state, between, int, float, dict, type(None))
-        stated = [inspect.getattr_static(self, name, None) for name in ("start", "end", "horizon", "bounds")]
+        stated = [inspect.getattr_static(self, name, None) for name in ("start", "end", "horizon", "bounds", "waypoints")]
         return all(isinstance(value, constants) for value in stated)
 
     def _value_of(self, name):
@@ -451,6 +454,28 @@ class Problem:
                 bounds[part] = self._bounds_of_formulas(limits, what, part)
         return bounds
 
+    def _waypoints(self):
+        """(share of the horizon, (lower, upper) of the parts that are given) in the order of time."""
+        stated = self._value_of("waypoints") if getattr(self, "waypoints", None) is not None else {}
+        if not isinstance(stated, dict):
+            raise Error(f"waypoints is {type(stated).__name__}, expected a dict such as {{0.5: state(q)}}")
+        result = []
+        for time, at in stated.items():
+            where = f"waypoints[{time!r}]"
+            if not isinstance(at, state):
+                raise Error(f"{where} is {at!r}, expected state(...)")
+            parts = {}
+            for part, given, names in (("q", at.q, self.q.names), ("v", at.v, self.q.names),
+                                       ("y", at.y, self._first_order_names())):
+                if given is None:
+                    continue
+                if isinstance(given, dict):
+                    _require_known(given, names, f"{where}: {part}")
+                    given = {**{name: free() for name in names}, **given}
+                parts[part] = _end_part(given, names, f"{where}: {part}")[1:]
+            result.append((_number(time, "waypoints: a time"), parts))
+        return sorted(result, key=lambda entry: entry[0])
+
     def _bounds_of_formulas(self, limits, what, part):
         """Lower and upper bounds, an entry each, or one for all."""
         if getattr(self, {"path": "path_constraints", "integrals": "integrands"}[part], None) is None:
@@ -475,6 +500,7 @@ class Problem:
                 numbers[f"{where}_{part}_bounds"] = (lower, upper)
         for part, limits in self._bounds().items():
             numbers[part + "_bounds"] = limits
+        numbers["waypoints"] = self._waypoints()
         return numbers
 
     def _guess_at(self, t):
