@@ -25,7 +25,7 @@ struct Measured {
 /// How often each method finds the best minimum, and at which cost.
 Table minima_found(const Table& minima, const Table& shares) {
   const ColumnNames group{"problem", "tableau", "stages", "solver", "derivatives", "intervals"};
-  Table found({"problem", "N", "method", "minima", "best cost", "best in", "95 % interval", "not solved"});
+  Table found({"problem", "N", "method", "minima", "best cost", "best in", "95 % interval", "no motion", "not solved"});
   for (const Row& share : shares.rows()) {
     const Selection of_group = Selection(minima).matching(share, group);
     const Selection best = of_group.where("is_best", "yes");
@@ -33,6 +33,7 @@ Table minima_found(const Table& minima, const Table& shares) {
     row.set("N", share.text("intervals"));
     row.set("minima",
             of_group.where([&](const Row& minimum) { return minimum.number(share.text("method"), 0.0) > 0.0; }).size());
+    row.set("no motion", share.text("unconfirmed"));
     row.set("not solved", share.text("unsolved"));
     row.set("best cost", best.empty() ? "none is a motion" : fmt::format("{:.7g}", best.front().needed("objective")));
     row.set("best in", fmt::format("{} of {}", share.text("best"), share.text("starts")));

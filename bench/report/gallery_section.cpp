@@ -9,6 +9,7 @@
 #include "bench/report/reached_optima.hpp"
 #include "bench/report/sections.hpp"
 #include "bench/report/statement.hpp"
+#include "methods/runtime/counted.hpp"
 #include "problems/problem_registry.hpp"
 #include "problems/registry.hpp"
 
@@ -89,16 +90,17 @@ std::string unknown_motions(const ResultsFolder& results, const std::vector<std:
 std::string gallery_section(const ResultsFolder& results) {
   if (results.motions.empty()) return "";
   std::string html =
-      "<section id=\"gallery\"><h2>Gallery</h2>\n<p>Statements of all problems of the library, in the units in which "
+      "<section id=\"gallery\"><h2>Gallery</h2>\n<p>Statements of the problems of this folder, in the units in which "
       "they are solved, with the motions found. A method reaches an optimum if its cost is within 1 %; other minima "
       "and coarse grids are farther away.</p>\n";
   std::vector<std::string> names = problem_names();
   html += unknown_motions(results, names);
-  // Problems of this folder come first.
-  std::ranges::stable_partition(names, [&results](const std::string& name) {
-    return !motions_of(results, name).empty() || lowest_cost(results, name).has_value();
+  const auto others = std::erase_if(names, [&results](const std::string& name) {
+    return motions_of(results, name).empty() && !lowest_cost(results, name);
   });
   for (const std::string& name : names) html += problem_html(*make_problem(name), results);
+  if (others > 0)
+    html += fmt::format("<p>Not solved in this folder: {} of the library.</p>\n", counted(others, "problem"));
   return html + "</section>\n";
 }
 
