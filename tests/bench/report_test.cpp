@@ -390,15 +390,23 @@ TEST(Report, TellsWhichMethodsReachTheOptimumOfAProblemAsItIsStated) {
   EXPECT_TRUE(reached_optima(results, "arm", 1.0).empty());
 }
 
-TEST(Report, StatesEveryProblemOfTheLibraryBesideItsMotion) {
+TEST(Report, StatesEveryProblemOfTheFolderNextToItsMotionAndNoOther) {
+  const Table motion = Table::from_csv("t_[s],x_[m],y_[m]\n0,0,9\n1,1,8\n");
+  const auto states = [](const std::string& page, const std::string& name) {
+    return has(page, "<article id=\"" + anchor("problem", name) + "\">");
+  };
   ResultsFolder results;
-  results.motions.push_back({"hang_glider", "dmoc", Table::from_csv("t_[s],x_[m],y_[m]\n0,0,9\n1,1,8\n")});
-  const std::string page = report_page(results, "");
+  results.motions.push_back({"hang_glider", "dmoc", motion});
+  const std::string of_one = report_page(results, "");
+  EXPECT_TRUE(has(of_one, "-1247.987601, 10 digits"));
+  EXPECT_TRUE(has(of_one, "<p>Minimise <math><mrow><mi>Φ</mi></mrow></math></p>"));
+  EXPECT_TRUE(has(of_one, fmt::format("Not solved in this folder: {} problems", problem_names().size() - 1)));
   for (const std::string& name : problem_names()) {
-    EXPECT_TRUE(has(page, "<article id=\"" + anchor("problem", name) + "\">")) << name;
+    EXPECT_EQ(states(of_one, name), name == "hang_glider") << name;
+    results.motions.push_back({name, "dmoc", motion});
   }
-  EXPECT_TRUE(has(page, "-1247.987601, 10 digits"));
-  EXPECT_TRUE(has(page, "<p>Minimise <math><mrow><mi>Φ</mi></mrow></math></p>"));
+  const std::string of_all = report_page(results, "");
+  for (const std::string& name : problem_names()) EXPECT_TRUE(states(of_all, name)) << name;
 }
 
 }  // namespace
