@@ -1,8 +1,10 @@
 # Orders of all methods for problems with first-order states, for every tableau.
 #   gnuplot -e "results='results'" plots/first_order.gp
+# Reads convergence_first_order.csv, which bench/reproduce --all writes, and its slopes; draws nothing if they are not there.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 name = "convergence_first_order"
+if (!exists_table(name)) { exit }
 eval require(name, "problem,method,tableau,stages,status,branch,intervals,first_order_error,control_error")
 eval require(name."_slopes", "problem,method,tableau,stages,quantity,slope,verdict")
 
