@@ -63,7 +63,8 @@ std::string next_to_try(const SolvedCase& solved, const std::string& start) {
   }
   if (status == Status::too_large || status == Status::invalid_program || the_case.solver == "nlopt")
     return "Try --solver auto.";
-  if (the_case.solver != "auto") return "Try --solver auto: interior_point, then ipopt from its last point.";
+  if (the_case.solver != "auto")
+    return "Try --solver auto: interior_point, then ipopt, then a feasible motion as the start.";
   if (start == "guess") return "Try --start common, a motion that other methods find first.";
   return "Try another guess (Problem::guess), or --start FILE with a motion near the one you want.";
 }

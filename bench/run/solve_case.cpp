@@ -166,12 +166,6 @@ void judge_in_time(SolvedCase& solved, const Trajectory& motion, const TimeOfCas
   }
 }
 
-/// Names the solver of the answer where that was left open.
-void note_solver(SolvedCase& solved) {
-  if (solved.the_case.solver == "auto" && solved.solution.solver == "ipopt")
-    solved.note("interior_point failed; ipopt continued from its last point.");
-}
-
 /// Notes the branch of the answer, and the reason if it did not begin at the requested start.
 void tell_start(SolvedCase& solved, const Start& start) {
   if (start.branch && solved.trajectory) {
@@ -195,7 +189,7 @@ void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& ti
     }
   }
   if (solved.trajectory && is_solved(solution.status)) judge_in_time(solved, *solved.trajectory, time);
-  note_solver(solved);
+  if (!solved.solution.failed_before.empty()) solved.note(solved.solution.failed_before);
   tell_start(solved, start);
   const std::string missed = describe_violation(*solved.the_case.problem, program, solution, solved.tolerance);
   if (!missed.empty()) solved.note(missed);

@@ -230,14 +230,15 @@ bool moves_to_least_violation(const CountedProgram& program, const SolverOptions
   return false;
 }
 
-/// Whether descent on the violation alone, from a point, meets the constraints.
-bool meets_from(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start) {
+/// Where descent on the violation alone, from a point, meets the constraints; empty if it does not.
+Eigen::VectorXd feasible_point_from(const CountedProgram& program, const SolverOptions& options,
+                                    const Eigen::VectorXd& start) {
   ViolationDescent descent(program.uncounted(), start);
   for (int i = 0; i < most_steps && descent.violation() > options.tolerance; ++i) {
     const bool must_end = (options.stop_requested && options.stop_requested()) || program.is_out_of_time();
     if (must_end || !descent.step()) break;
   }
-  return descent.violation() <= options.tolerance;
+  return descent.violation() <= options.tolerance ? descent.point() : Eigen::VectorXd();
 }
 
 /// A point with every unknown that has two bounds half way between them.
@@ -251,6 +252,14 @@ Eigen::VectorXd between_bounds(const NonlinearProgram& program, Eigen::VectorXd 
 
 }  // namespace
 
+Eigen::VectorXd feasible_point(const CountedProgram& program, const SolverOptions& options,
+                               const Eigen::VectorXd& start) {
+  if (!start.allFinite()) return {};
+  Eigen::VectorXd point = feasible_point_from(program, options, start);
+  if (point.size() > 0) return point;
+  return feasible_point_from(program, options, between_bounds(program.uncounted(), start));
+}
+
 void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start,
                          Solution& solution) {
   const bool claims = solution.status == Status::infeasible;
@@ -262,9 +271,7 @@ void judge_infeasibility(const CountedProgram& program, const SolverOptions& opt
   const bool is_least =
       is_outside && (is_point_of_least_violation(program.uncounted(), solution.primal) ||
                      ((claims || has_failed) && moves_to_least_violation(program, options, solution)));
-  if (is_least && start.allFinite() &&
-      (meets_from(program, options, start) ||
-       meets_from(program, options, between_bounds(program.uncounted(), start)))) {
+  if (is_least && feasible_point(program, options, start).size() > 0) {
     solution.status = Status::step_failed;
     solution.message =
         "Near the last point the constraints cannot be met any better, but descent on their violation alone, from the "

@@ -68,6 +68,12 @@ class ViolationDescent {
   bool uses_curvature_ = false;
 };
 
+/// A point that meets the constraints within the tolerance of the options: where descent on the violation alone ends,
+/// from `start` or, if that fails, from half way between the bounds. Empty if neither does, or if the solve must end.
+/// It counts no evaluation.
+[[nodiscard]] Eigen::VectorXd feasible_point(const CountedProgram& program, const SolverOptions& options,
+                                             const Eigen::VectorXd& start);
+
 /// Decides for all solvers whether a program is infeasible from where the solver started. "infeasible" if the last
 /// point is one of least violation (`is_point_of_least_violation`), or if descent from it ends at one, to which
 /// `solution.primal` then moves; "step failed" if the solver reports infeasible and neither holds. For a `solution`

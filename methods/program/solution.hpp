@@ -32,6 +32,7 @@ struct Solution {
   Status status = Status::not_run;  ///< how it ended, as `confirm` judges
   std::string message;              ///< the outcome in one sentence
   std::string solver;               ///< the solver whose answer it is; of `auto` the one that gave it
+  std::string failed_before;        ///< of `auto`: which attempts failed before this one, in a sentence; may be empty
   Eigen::VectorXd primal;           ///< ξ, variable_count() entries; empty if the solver never started
   Eigen::VectorXd multipliers;      ///< λ, constraint_count() entries; empty if there is no point to have them at
   /// The solver gave none, so they are the least-squares multipliers of its point (`least_squares_multipliers`).

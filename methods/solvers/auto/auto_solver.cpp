@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "methods/judgement/least_violation.hpp"
 #include "methods/program/counted_program.hpp"
 
 namespace dmocbench {
@@ -23,11 +24,15 @@ bool leaves_hope(Status status) {
   }
 }
 
-/// Both methods; the program of each is the same.
+/// Both solvers; the program of each is the same.
 class AutoRun final : public PreparedRun {
  public:
   AutoRun(const Solver& first, const Solver& second, CountedProgram& program)
-      : names_{first.name(), second.name()}, first_(first.prepare(program)), second_(second.prepare(program)) {}
+      : program_(program),
+        options_(first.options()),
+        names_{first.name(), second.name()},
+        first_(first.prepare(program)),
+        second_(second.prepare(program)) {}
 
   void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers, std::optional<double> barrier_parameter,
            Solution& solution) override {
@@ -36,13 +41,28 @@ class AutoRun final : public PreparedRun {
     solution.solver = names_[0];
     if (!leaves_hope(solution.status)) return;
     const bool has_point = solution.primal.size() == start.size() && solution.primal.allFinite();
-    const Solution first = std::exchange(solution, {});
-    second_->run(has_point ? first.primal : start, {}, std::nullopt, solution);
-    solution.solver = names_[1];
-    solution.major_iterations = first.major_iterations.value_or(0) + solution.major_iterations.value_or(0);
+    continue_with(1, has_point ? Eigen::VectorXd(solution.primal) : start, solution);
+    solution.failed_before = "interior_point failed; ipopt continued from its last point.";
+    if (!has_point || !leaves_hope(solution.status)) return;
+    const Eigen::VectorXd feasible = feasible_point(program_, options_, start);
+    if (feasible.size() == 0) return;
+    continue_with(0, feasible, solution);
+    solution.failed_before =
+        "interior_point and ipopt failed; interior_point began again at a motion that meets the constraints.";
   }
 
  private:
+  /// Replaces the solution by the one of a method from another point; iterations add up.
+  void continue_with(std::size_t method, const Eigen::VectorXd& start, Solution& solution) {
+    const int before = solution.major_iterations.value_or(0);
+    solution = {};
+    (method == 0 ? first_ : second_)->run(start, {}, std::nullopt, solution);
+    solution.solver = names_[method];
+    solution.major_iterations = before + solution.major_iterations.value_or(0);
+  }
+
+  const CountedProgram& program_;
+  const SolverOptions& options_;
   std::array<std::string, 2> names_;
   std::unique_ptr<PreparedRun> first_;
   std::unique_ptr<PreparedRun> second_;
@@ -58,7 +78,9 @@ AutoOptions auto_options(const NamedOptions& named) {
 AutoSolver::AutoSolver(const SolverOptions& options, AutoOptions choices)
     : Solver(options), first_(options, std::move(choices.interior_point)), second_(options, std::move(choices.ipopt)) {}
 
-std::string AutoSolver::description() const { return "interior_point and, where that fails, ipopt from its point"; }
+std::string AutoSolver::description() const {
+  return "interior_point, then ipopt from its point, then from a feasible motion";
+}
 
 std::unique_ptr<PreparedRun> AutoSolver::prepare(CountedProgram& program) const {
   return std::make_unique<AutoRun>(first_, second_, program);

@@ -20,10 +20,12 @@ struct AutoOptions {
 [[nodiscard]] AutoOptions auto_options(const NamedOptions& named);
 
 /// `interior_point` first and, where that fails, Ipopt from the point where it ended (from the start where it has
-/// none, as where it rejects the program). `Solution::solver` names the one whose answer it is.
+/// none, as where it rejects the program). Where both fail, `interior_point` again from a motion that meets the
+/// constraints, if descent on their violation alone finds one (`feasible_point`). `Solution::solver` names the solver
+/// whose answer it is, and `Solution::failed_before` the attempts before it.
 ///
-/// Counts and times include both: evaluations, seconds, major iterations. The limit of time holds for
-/// both together, the limit of iterations for each. Linear systems are counted where `interior_point` gives the answer.
+/// Counts and times include all attempts: evaluations, seconds, major iterations. The limit of time holds for all of
+/// them together, the limit of iterations for each. Linear systems are counted where `interior_point` gives the answer.
 class AutoSolver final : public Solver {
  public:
   /// Throws `Error` if Ipopt does not take one of the named options.

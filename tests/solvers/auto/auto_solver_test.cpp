@@ -1,11 +1,13 @@
 #include "methods/solvers/auto/auto_solver.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "methods/error.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/cart_pole.hpp"
+#include "tests/binaries/own_problems/mountain_car.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/value_of.hpp"
 
@@ -80,6 +82,23 @@ TEST_F(AutoSolverTest, PassesOptionsOnToTheSolverThatHasThem) {
   EXPECT_EQ(solve(*with({{"factorisation", "sparse"}, {"mu_strategy", "adaptive"}}), start_).status, Status::solved);
   EXPECT_THROW((void)with({{"no_such_option", "1"}}), Error);
   EXPECT_THROW((void)with({{"factorisation", "banded"}}), Error);
+}
+
+/// At 64 intervals both solvers end where the time is too short for the swing back, though motions exist.
+TEST(AutoSolver, StartsAgainFromAMotionThatMeetsTheConstraintsWhereBothFail) {
+  const MountainCar problem;
+  Transcription program(problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(64));
+  const Eigen::VectorXd start = sample(program, guessed_motion(problem));
+  const Solution first = InteriorPointSolver().solve(program, start);
+  const Solution second = IpoptSolver(SolverOptions{}).solve(program, first.primal);
+  ASSERT_FALSE(is_solved(first.status));
+  ASSERT_FALSE(is_solved(second.status));
+  const Solution solution = AutoSolver(SolverOptions{}).solve(program, start);
+  EXPECT_EQ(solution.status, Status::solved);
+  EXPECT_EQ(solution.solver, "interior_point");
+  EXPECT_THAT(solution.failed_before, testing::HasSubstr("interior_point and ipopt failed"));
+  EXPECT_GT(tests::value_of(solution.major_iterations),
+            tests::value_of(first.major_iterations) + tests::value_of(second.major_iterations));
 }
 
 }  // namespace
