@@ -5,8 +5,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "methods/expression/schedule.hpp"
+#include "methods/judgement/dependent_rows.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/undefined_stage.hpp"
 
@@ -333,6 +335,23 @@ std::string vanishing_conditions(const Problem& problem, Transcription& transcri
   return text;
 }
 
+/// Constraints whose gradients depend on each other where the solve ended.
+std::string dependent_constraints(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x) {
+  constexpr std::size_t most_named = 3;
+  if (!x.allFinite()) return "";
+  const std::vector<std::size_t> rows = dependent_rows(transcription, x);
+  if (rows.empty()) return "";
+  const ConstraintWords words(problem, transcription, x);
+  if (rows.size() == 1) return fmt::format(" The derivatives of {} vanish.", words.row(rows.front()));
+  std::vector<std::string> named;
+  for (std::size_t i = 0; i < std::min(most_named, rows.size()); ++i) named.push_back(words.row(rows[i]));
+  if (rows.size() > most_named) named.push_back(fmt::format("{} more", rows.size() - most_named));
+  const std::string last = named.back();
+  named.pop_back();
+  return fmt::format(" Constraints depend on each other, so that one of them is implied or cannot be met: {} and {}.",
+                     fmt::join(named, "; "), last);
+}
+
 std::string held_horizon(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x) {
   if (!transcription.has_free_horizon()) return "";
   const HorizonBounds bounds = problem.bounds().horizon;
@@ -423,7 +442,10 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
   if (has_failed_there && !text.empty()) return text;
   const bool has_stuck = solution.status == Status::step_failed || solution.status == Status::iteration_limit ||
                          solution.status == Status::infeasible || solution.status == Status::not_confirmed;
-  if (has_stuck) text += vanishing_conditions(problem, transcription, x);
+  if (has_stuck) {
+    const std::string vanishing = vanishing_conditions(problem, transcription, x);
+    text += vanishing.empty() ? dependent_constraints(problem, transcription, x) : vanishing;
+  }
   if (text.starts_with(' ')) text.erase(0, 1);
   Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription.constraint_count()));
   transcription.constraints(x, rows);

@@ -256,6 +256,27 @@ TEST_P(ViolationInWords, NamesAConditionWhoseDerivativesVanishWhereTheSolveEnded
   EXPECT_PRED2(says, ended.words(), "boundary_conditions[0] is rank deficient: its derivatives vanish at node 12");
 }
 
+/// Two equations that say the same of the end, and differ by a constant from what both can meet.
+TEST_P(ViolationInWords, NamesConstraintsThatDependOnEachOther) {
+  const tests::Pendulum base;
+  const Restated conditioned(base, [](Statement& s) {
+    s.last.free_configuration(0);
+    s.conditions = [](const State& /*first*/, const State& last) -> ExpressionVector {
+      return ExpressionVector{{last.q[0] - 1.0, exp(last.q[0]) - 3.0}};
+    };
+  });
+  Ended ended(conditioned, GetParam(), Status::step_failed);
+  EXPECT_PRED2(says, ended.words(), "depend on each other");
+  EXPECT_PRED2(says, ended.words(), "boundary_conditions[0]");
+  EXPECT_PRED2(says, ended.words(), "boundary_conditions[1]");
+}
+
+TEST_P(ViolationInWords, NamesNoDependenceOfIndependentConstraints) {
+  const tests::MovingFrame problem;
+  Ended ended(problem, GetParam(), Status::step_failed);
+  EXPECT_FALSE(says(ended.words(), "depend on each other")) << ended.words();
+}
+
 TEST_P(ViolationInWords, TellsThatACostMayHaveNoLowerBound) {
   const Endless problem;
   Ended ended(problem, GetParam());

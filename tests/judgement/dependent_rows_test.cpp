@@ -1,0 +1,81 @@
+#include "methods/judgement/dependent_rows.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/small_programs.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::HyperDual;
+using tests::HyperVector;
+using tests::SmallProgram;
+using tests::vector;
+using Rows = std::vector<std::size_t>;
+
+/// Four variables without bounds; the rows are equal to 0.
+SmallProgram with_rows(const std::function<HyperVector(const HyperVector&)>& rows, int count) {
+  return tests::equality_program([](const HyperVector& x) { return x[0]; }, rows, 4, Eigen::VectorXd::Zero(count));
+}
+
+Rows sorted(Rows rows) {
+  std::ranges::sort(rows);
+  return rows;
+}
+
+const Eigen::VectorXd here = vector({0.3, -0.7, 1.1, 0.0});
+
+TEST(DependentRows, AreNoneWhereTheGradientsAreIndependent) {
+  SmallProgram program = with_rows([](const HyperVector& x) { return HyperVector{x[0] * x[1], x[1] + x[2], x[3]}; }, 3);
+  EXPECT_EQ(dependent_rows(program, here), Rows{});
+}
+
+TEST(DependentRows, AreThoseOfTheCombinationWithoutAGradient) {
+  // Row 3 is the product of rows 0 and 1 plus a constant: its gradient is a combination of theirs.
+  SmallProgram program = with_rows(
+      [](const HyperVector& x) {
+        const HyperDual a = x[0] * x[1];
+        const HyperDual b = x[1] + x[2];
+        return HyperVector{a, b, x[3], a * b};
+      },
+      4);
+  EXPECT_EQ(sorted(dependent_rows(program, here)), (Rows{0, 1, 3}));
+}
+
+TEST(DependentRows, AreOneDependencyOfSeveral) {
+  SmallProgram program = with_rows(
+      [](const HyperVector& x) {
+        return HyperVector{x[0], x[1], 2.0 * x[0], x[1] * x[1]};
+      },
+      4);
+  const Rows found = sorted(dependent_rows(program, here));
+  EXPECT_TRUE(found == (Rows{0, 2}) || found == (Rows{1, 3})) << testing::PrintToString(found);
+}
+
+TEST(DependentRows, IsOneRowWhereItsDerivativesVanish) {
+  SmallProgram program = with_rows([](const HyperVector& x) { return HyperVector{x[0], x[3] * x[3]}; }, 2);
+  EXPECT_EQ(dependent_rows(program, here), Rows{1});
+  EXPECT_EQ(dependent_rows(program, vector({0.3, -0.7, 1.1, 0.1})), Rows{});
+}
+
+TEST(DependentRows, CountHeldInequalitiesAndFreeVariablesOnly) {
+  const auto program = [](double most_of_first, double most_of_row) {
+    return SmallProgram({[](const HyperVector& x) { return x[0]; },
+                         [](const HyperVector& x) {
+                           return HyperVector{x[0] + x[1], x[1]};
+                         },
+                         vector({0.0, -unbounded}), vector({most_of_first, unbounded}), vector({0.0, -unbounded}),
+                         vector({0.0, most_of_row})});
+  };
+  const Eigen::VectorXd point = vector({0.0, 0.0});
+  const auto rows_of = [&](SmallProgram of) { return sorted(dependent_rows(of, point)); };
+  EXPECT_EQ(rows_of(program(0.0, 0.0)), (Rows{0, 1}));  // without x₀ both are x₁
+  EXPECT_EQ(rows_of(program(0.0, 1.0)), Rows{});        // the second is not held
+  EXPECT_EQ(rows_of(program(1.0, 0.0)), Rows{});
+}
+
+}  // namespace
+}  // namespace dmocbench
