@@ -11,12 +11,12 @@ namespace dmocbench {
 
 /// The residuals at which a program counts as solved: the tolerance, or rounding where that is larger. The solvers that
 /// are compared stop by this rule, and all are judged by it (`confirm`). Rounding belongs to the constraint, or to the
-/// variable (`RoundingFloors`). The program must outlive it.
+/// variable (`RoundingFloors`). The floors, or the program that they are of, must outlive it.
 class StopRule {
  public:
   /// `tolerance` > 0, of the program as the solver sees it.
-  StopRule(const NonlinearProgram& program, double tolerance)
-      : tolerance_(tolerance), floors_(program.rounding_floors()) {}
+  StopRule(const NonlinearProgram& program, double tolerance) : StopRule(program.rounding_floors(), tolerance) {}
+  StopRule(const RoundingFloors& floors, double tolerance) : tolerance_(tolerance), floors_(floors) {}
 
   /// True if all constraints, and all variables, are allowed the same: then the largest residual decides.
   [[nodiscard]] bool is_one_for_all() const { return floors_.are_equal(); }

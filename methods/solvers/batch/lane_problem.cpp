@@ -14,6 +14,7 @@ LaneProblem::LaneProblem(const NonlinearProgram& program, std::unique_ptr<LanePr
       lanes_(std::move(lanes)),
       inequalities_(inequalities_of(program)),
       fixed_(fixed_variables(program)),
+      usual_rows_(program.constraint_lower()),
       bounds_(program, inequalities_),
       variables_(static_cast<Eigen::Index>(program.variable_count())),
       constraints_(static_cast<Eigen::Index>(program.constraint_count())),
@@ -24,7 +25,7 @@ LaneProblem::LaneProblem(const NonlinearProgram& program, std::unique_ptr<LanePr
       of_lagrangian_(primal_count()) {}
 
 void LaneProblem::set_equality_values(std::size_t lane, const Eigen::VectorXd& values) {
-  rows_.of(lane) = values.size() > 0 ? values : program_.constraint_lower();
+  rows_.of(lane) = values.size() > 0 ? values : usual_rows_;
   for (const Eigen::Index row : inequalities_) rows_.of(lane)[row] = 0.0;
 }
 

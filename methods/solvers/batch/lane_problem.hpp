@@ -28,6 +28,9 @@ struct LaneValues {
 
 /// Eight barrier problems side by side: `interior_point::BarrierProgram` in lanes. A point is primal: the unknowns, and
 /// after them the slacks of inequalities.
+///
+/// The program's bounds are read when it is made only: while threads work, single solves give the program the values of
+/// their own instance.
 class LaneProblem {
  public:
   /// `program` has an interval structure and must outlive this.
@@ -39,7 +42,8 @@ class LaneProblem {
   [[nodiscard]] const std::vector<Eigen::Index>& inequalities() const noexcept { return inequalities_; }
   [[nodiscard]] Eigen::Index variable_count() const noexcept { return variables_; }
   [[nodiscard]] Eigen::Index constraint_count() const noexcept { return constraints_; }
-  [[nodiscard]] bool is_fixed(Eigen::Index variable) const { return dmocbench::is_fixed(program_, variable); }
+  /// The variables whose bounds are equal, in ascending order.
+  [[nodiscard]] const std::vector<Eigen::Index>& fixed() const noexcept { return fixed_; }
   [[nodiscard]] Eigen::Index primal_count() const noexcept {
     return variables_ + static_cast<Eigen::Index>(inequalities_.size());
   }
@@ -71,6 +75,7 @@ class LaneProblem {
   std::unique_ptr<LaneProgram> lanes_;
   std::vector<Eigen::Index> inequalities_;
   std::vector<Eigen::Index> fixed_;
+  Eigen::VectorXd usual_rows_;  // the values of equalities that an instance without values of its own has
   LaneBounds bounds_;
   Eigen::Index variables_;
   Eigen::Index constraints_;

@@ -25,8 +25,9 @@ LaneRun::LaneRun(SharedBatch& batch, std::unique_ptr<LaneProgram> lanes, std::un
       queue_(batch, lanes->parameter_count()),
       problem_(batch.program(), std::move(lanes)),
       kkt_(std::move(kkt)),
-      stop_rule_(batch.program(), options_.tolerance),
-      rounding_of_theta_(batch.program().rounding_floors().norm_of_constraints(problem_.constraint_count())),
+      floors_(batch.program().rounding_floors()),
+      stop_rule_(floors_, options_.tolerance),
+      rounding_of_theta_(floors_.norm_of_constraints(problem_.constraint_count())),
       primal_(problem_.primal_count()),
       multipliers_(problem_.constraint_count()),
       z_(problem_.bounds().count()),
@@ -337,11 +338,9 @@ void LaneRun::give_up(std::size_t number) {
 
 /// Whether the tolerance may miss the cost: its gradient is below the permitted residual.
 bool LaneRun::has_small_cost(std::size_t number) const {
-  const auto gradient = problem_.gradient().of(number);
-  for (Eigen::Index j = 0; j < problem_.variable_count(); ++j) {
-    if (!problem_.is_fixed(j) && std::abs(gradient[j]) >= confirmation_factor * options_.tolerance) return false;
-  }
-  return true;
+  Eigen::VectorXd gradient = problem_.gradient().of(number);
+  for (const Eigen::Index j : problem_.fixed()) gradient[j] = 0.0;
+  return gradient.lpNorm<Eigen::Infinity>() < confirmation_factor * options_.tolerance;
 }
 
 void LaneRun::finish(std::size_t number, Status status) {

@@ -110,6 +110,7 @@ class LaneRun {
   PhaseClock clock_;
   LaneProblem problem_;
   std::unique_ptr<kkt::LaneKkt> kkt_;
+  RoundingFloors floors_;  // of the program as the batch began
   StopRule stop_rule_;
   double rounding_of_theta_;
   std::array<Lane, instance_lanes> lanes_;
