@@ -15,14 +15,14 @@ int merge(CommandLine& line) {
   JoiningOptions options;
   options.out = "results";
   std::vector<std::string> folders;
-  line.option("--name", options.name, "name of the table: the experiment's, unless its --name gave another");
-  line.option("--out", options.out,
-              "results folder where the parts are (in NAME.parts), and where the table is written");
-  line.option("--from", folders, "further results folder with parts, of another machine; may be repeated");
-  line.option("--grid", options.grid, "the grid file of the parts, whose file names are not trusted");
-  line.option("--start", options.start, "the start of the parts, if it was a file");
-  line.option("--option", options.passed_on,
-              "the options of the parts, if they are a foreign solver's; may be repeated");
+  line.option("--name", options.name, "name of the table: the name of the experiment, or the value of its --name");
+  line.option("--out", options.out, "results folder that has the parts in NAME.parts, and gets the table");
+  line.option("--from", folders,
+              "another results folder with parts, for example copied from another machine; may be repeated");
+  line.option("--grid", options.grid,
+              "the grid file of the parts, if they used one: file names in parts are not trusted");
+  line.option("--start", options.start, "the start file of the parts, if they used one");
+  line.option("--option", options.passed_on, "the same --option that the parts were given; may be repeated");
   add_library_option(line, options.libraries);
   line.parse();
   require_name(options.name, options.out);
@@ -37,9 +37,9 @@ int merge(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "merge",
-      "Joins the parts that an experiment wrote with --part into its table NAME.csv and computes the rest: "
-      "every file that the whole run would have written. If parts are missing, present twice or of another run, they "
-      "are named, and no file is written. The exit code is as for the whole run: 1 if a solve failed.",
+      "Joins the parts that an experiment wrote with --part into its table NAME.csv, and writes every other file "
+      "that one run of all cases would have written. If parts are missing, damaged, present twice or from different "
+      "runs, merge names them and writes nothing. The exit code is the exit code of the experiment.",
       argc, argv, merge);
 }
 

@@ -32,9 +32,8 @@ do for [problem_word in problems_of(name, "first_order_error")] {
     figure = problem."_first_order"
     eval begin_figure(kind, figure, 1080)
     figure_title = title_text(problem_label(problem).": errors with first-order states",\
-        "Ours: DMOC, Hamiltonian and tangent-space collocation collocate y alike. Nodes have order 2s (Gauss), 2s − 2 (Lobatto).",\
-        "Against the finest grid of each curve. ".conditions(name).", then Newton steps to rounding. Dots: DMOC, with fitted"\
-        ." orders; squares: Hamiltonian; stars: tangent-space. Grey: powers of N.")
+        "Ours. Dots: DMOC, with fitted orders; squares: Hamiltonian; stars: tangent-space. Grey: powers of N.",\
+        "Reference: finest grid of each curve. ".conditions(name).", polished.")
     eval panels(4, 1, 65, 285, 84, 0, 36)
     do for [quantity in quantities] {
       error = quantity."_error"

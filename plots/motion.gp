@@ -1,13 +1,13 @@
-# The motion found by DMOC, one figure per problem: a picture of the motion and its controls over time.
+# Motions, one figure per problem and run: a picture of the motion, or its coordinates, controls and path constraints over time.
 #   gnuplot -e "results='results'" plots/motion.gp
 # Reads motion_PROBLEM_{picture,nodes,stages}.csv of every problem, and the same of `solve --name NAME`, whose figure is
-# NAME_motion; pictures/PROBLEM.gp draws, or else pictures/any.gp. The motions of the report's gallery are the report's.
+# NAME_motion; motions of one problem by several methods share a figure. pictures/PROBLEM.gp draws a single motion, or else
+# pictures/any.gp. The motions of the report's gallery are the report's.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
-motions = system("cd '".results."' 2>/dev/null &&\
-    for nodes in *_nodes.csv; do name=${nodes%_nodes.csv}; case $name in library_motions*|*[!A-Za-z0-9_]*) ;; *)\
-    if [ -e ${name}_picture.csv ] && [ -e ${name}_stages.csv ]; then echo $name; fi ;; esac; done")
+motions = system("ls '".results."'/*.json >/dev/null 2>&1 && awk -f '".plots."/motions.awk' '".results."'/*.json")
 if (strlen(motions) == 0) { print results."/motion_PROBLEM_nodes.csv is missing"; exit status 1 }
+split_plus(text) = system("echo '".text."' | tr '+' ' '")
 
 # Colours over time: light at the start, dark at the end.
 set palette defined (0 "#9ADBE8", 0.35 "#3FA0CC", 0.7 "#2A5CA8", 1 "#2B1B5E")
@@ -28,23 +28,25 @@ left_square = "set lmargin at screen 0.125; set rmargin at screen 0.525; set bma
 right_panel(low, high) = sprintf("set size noratio; set lmargin at screen 0.66; set rmargin at screen 0.98;\
     set bmargin at screen %g; set tmargin at screen %g; set xtics autofreq; set ytics autofreq", low, high)
 
-do for [motion in motions] {
-  problem = motion[1:7] eq "motion_" ? motion[8:] : motion
+do for [described in motions] {
+  members = split_plus(entry(described, "members"))
+  methods = split_plus(entry(described, "methods"))
+  counts = split_plus(entry(described, "intervals"))
+  motion = word(members, 1)
+  problem = entry(described, "figure")
   nodes = motion."_nodes"
   stages = motion."_stages"
   picture = motion."_picture"
-  # " by DMOC, N = 128", from the row of the solve.
-  solve = exists_table(motion) ? word(system(rows_awk("-v take=drawn -v branches=any -v distinct=method,intervals",\
-      motion)), 1) : ""
-  by_whom = strlen(solve) == 0 ? "" : " by ".method_label(entry(solve, "method")).", N = ".entry(solve, "intervals")
+  # " by DMOC, N = 128"; several methods are named below the title.
+  by_whom = words(members) > 1 ? "" : " by ".method_label(methods).", N = ".counts
   # Why the solve failed, whose last iterate is drawn with open symbols; empty if it did not.
-  status = system(sprintf("awk '/\"nodes\": \"%s_nodes.csv\"/ { found = 1 } found && /\"status\"/ {\
-      gsub(/.*: \"|\".*/, \"\"); gsub(/[^A-Za-z ]/, \"\"); print; exit }' '%s/%s.json' 2>/dev/null", motion, results,\
-      run_of(motion)))
-  failure = status eq "solved" || status eq "solved control not determined" || status eq "too coarse"\
-      || status eq "violates between stages" ? "" : strlen(status) == 0 ? "" : "not solved: ".status
+  status = entry(described, "status")
+  failure = status eq "solved" || status eq "solved__control_not_determined" || status eq "too_coarse"\
+      || status eq "violates_between_stages" ? "" : "not solved: ".system("echo '".status."' | tr '_' ' '")
   drawing = plots."/pictures/".problem.".gp"
-  if (strlen(failure) > 0 || system("test -f '".drawing."' && echo 1") eq "") { drawing = plots."/pictures/any.gp" }
+  if (words(members) > 1 || strlen(failure) > 0 || system("test -f '".drawing."' && echo 1") eq "") {
+    drawing = plots."/pictures/any.gp"
+  }
   incomplete = incomplete_run(motion)
   do for [kind in kinds] { load drawing }
 }

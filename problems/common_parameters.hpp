@@ -14,7 +14,7 @@ namespace dmocbench {
   return {"gravity", value, "m/s^2", "gravitational acceleration", lower, 1e3};
 }
 
-/// The parameter `horizon`, T in s; `of` names the process that lasts so long.
+/// The parameter `horizon`, T in s. `of` names the motion that takes this time, for its description: "swing".
 [[nodiscard]] inline Parameter horizon_parameter(double value, const std::string& of = "") {
   return {"horizon", value, "s", of.empty() ? "duration T" : "duration T of the " + of, 1e-3, 1e3};
 }
@@ -24,8 +24,8 @@ namespace dmocbench {
   return {name, on ? 1.0 : 0.0, "", meaning, 0.0, 1.0, true};
 }
 
-/// `optimum` if every parameter of the problem has its default value, those in `except` apart: a certified optimum
-/// holds for the data with which it was computed.
+/// `optimum` if every parameter of the problem, except the ones named in `except`, has its default value; otherwise
+/// nothing, because a certified optimum holds only for the data with which it was computed.
 [[nodiscard]] inline std::optional<ReferenceOptimum> with_default_parameters(
     const Problem& problem, ReferenceOptimum optimum, std::initializer_list<std::string_view> except = {}) {
   if (!problem.has_default_parameters(except)) return std::nullopt;

@@ -81,28 +81,28 @@ int measure_all(CommandLine& line) {
   line.number("--rounds", rounds, 0, 10000, "number of timed repetitions of the whole refinement");
   line.option("--solver", solver, "solver, as `list` names them");
   line.flag("--quick", is_quick, "the uneven problems alone, unless --problem names others");
-  TableRun run("adaptive", line);
+  TableRun run("adaptive", line, TableRun::Resumes::yes);
   static_cast<void>(make_solver(solver));  // rejects unknown names before anything is solved
   const bool is_named = asked.problems != all_problems;
-  Tables tables;
   for (const std::shared_ptr<const Problem>& problem : run.selected(asked)) {
     const bool is_uneven = is_one_of(uneven, problem->name());
     if (is_quick && !is_named && !is_uneven) continue;
-    run.show(problem->name() + ", certified");
-    const CertifiedProblem certified(problem, TableRun::solver_options());
-    measure_effectivities(run, certified, solver, tables);
-    const bool with_uniform = is_named || is_uneven;
-    if (with_uniform || is_one_of(with_several_minima, problem->name())) {
-      compare_grids(run, certified, with_uniform, rounds, solver, tables);
-    }
+    run.stage(problem->name(), [&] {
+      Tables tables;
+      run.show(problem->name() + ", certified");
+      const CertifiedProblem certified(problem, TableRun::solver_options());
+      measure_effectivities(run, certified, solver, tables);
+      const bool with_uniform = is_named || is_uneven;
+      if (with_uniform || is_one_of(with_several_minima, problem->name()))
+        compare_grids(run, certified, with_uniform, rounds, solver, tables);
+      run.add("adaptive", needed_columns(), tables.needed);
+      run.add("adaptive_effectivity", effectivity_columns(), tables.effectivity);
+      run.add("adaptive_steps", step_columns(), tables.steps);
+    });
   }
-  const Table needed = table_of(needed_columns(), tables.needed);
-  run.findings().show("intervals for 1e-8", needed,
+  run.findings().show("intervals for 1e-8", run.table("adaptive"),
                       {"problem", "method", "stages", "grid", "status", "intervals", "true_error", "estimated_error"},
                       "adaptive.csv");
-  run.add("adaptive", needed);
-  run.add("adaptive_effectivity", effectivity_columns(), tables.effectivity);
-  run.add("adaptive_steps", step_columns(), tables.steps);
   return run.write();
 }
 

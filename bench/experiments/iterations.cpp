@@ -27,10 +27,11 @@ class Iterations final : public ExperimentOf<Measured> {
   Iterations()
       : ExperimentOf({.name = "iterations",
                       .description =
-                          "Major and minor iterations of the SQP method with the law that predicts them, and the same "
-                          "solves in other measures of cost: Ipopt's iterations, SLSQP's evaluations (up to 400 free "
-                          "variables), seconds, entries of the KKT matrix and of its factor. NAME_ratios.csv compares "
-                          "collocation with DMOC. Default start: the problem's guess.",
+                          "Major and minor iterations of the solver sqp, with the number of minor iterations that its "
+                          "law predicts. Further columns measure the cost of the same solve otherwise: iterations of "
+                          "Ipopt, evaluations of SLSQP (up to 400 free variables), seconds, entries of the KKT matrix "
+                          "and of its factor. NAME_ratios.csv divides the costs of collocation by DMOC's. By default "
+                          "solves start at the problem's guess.",
                       .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
                       .further_files = {"_ratios.csv"},
                       .branches = BranchesTold::of_any_start,

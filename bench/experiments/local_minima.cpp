@@ -35,7 +35,7 @@ Table minima_found(const Table& minima, const Table& shares) {
             of_group.where([&](const Row& minimum) { return minimum.number(share.text("method"), 0.0) > 0.0; }).size());
     row.set("no motion", share.text("unconfirmed"));
     row.set("not solved", share.text("unsolved"));
-    row.set("best cost", best.empty() ? "none is a motion" : fmt::format("{:.7g}", best.front().needed("objective")));
+    row.set("best cost", best.empty() ? "not found" : fmt::format("{:.7g}", best.front().needed("objective")));
     row.set("best in", fmt::format("{} of {}", share.text("best"), share.text("starts")));
     constexpr double percent = 100.0;
     row.set("95 % interval", fmt::format("{:.0f} to {:.0f} %", percent * share.number("share_lower", 0.0),

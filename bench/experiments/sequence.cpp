@@ -122,22 +122,21 @@ void add_options(CommandLine& line, SequenceOptions& options) {
 int run_sequences(CommandLine& line) {
   SequenceOptions options;
   add_options(line, options);
-  TableRun run("sequence", line);
+  TableRun run("sequence", line, TableRun::Resumes::yes);
   options.methods = chosen_of("--method", paper_families(), options.methods);
   const auto problems = run.selected(options.problems);
   for (const auto& problem : problems) static_cast<void>(homotopy_of(options, *problem));
   const SolverOptions solver_options = TableRun::solver_options();
   StartProvider starts({}, solver_options);
-  std::vector<SequenceStep> steps;
   for (const auto& problem : problems) {
-    run.show(problem->name());
-    const std::vector<SequenceStep> of_problem = run_problem(options, problem, starts, solver_options);
-    steps.insert(steps.end(), of_problem.begin(), of_problem.end());
+    run.stage(problem->name(), [&] {
+      run.show(problem->name());
+      const std::vector<SequenceStep> steps = run_problem(options, problem, starts, solver_options);
+      run.add("sequence", step_table(steps));
+      run.add("sequence_summary", sequence_summary(steps));
+    });
   }
-  const Table summary = sequence_summary(steps);
-  run.add("sequence", step_table(steps));
-  run.add("sequence_summary", summary);
-  run.findings().show("sequences", summary,
+  run.findings().show("sequences", run.table("sequence_summary"),
                       {"problem", "method", "sequence", "steps", "solved", "median_iterations",
                        "median_cold_iterations", "median_microseconds", "p99_microseconds"},
                       "sequence_summary.csv");

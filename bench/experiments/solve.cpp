@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 
 #include "bench/experiments/minor_trace.hpp"
 #include "bench/experiments/wanted_accuracy.hpp"
+#include "bench/run/advice.hpp"
 #include "bench/run/command_line.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/motion_files.hpp"
@@ -162,6 +164,13 @@ class Solve final : public ExperimentOf<Measured> {
       if (solved.estimated_error) output.metadata["motions"].back()["estimated_error"] = *solved.estimated_error;
     }
     output.findings.show("answers", summary, {}, output.prefix.string() + ".csv");
+    std::set<std::string> doubts;
+    for (const Answer& answer : answers_) {
+      if (is_solved(answer.solved.solution.status)) doubts.insert(doubt_about_units(*answer.solved.the_case.problem));
+    }
+    for (const std::string& doubt : doubts) {
+      if (!doubt.empty()) output.findings.say(doubt);
+    }
     for (const Answer& answer : answers_) {
       const Solution& solution = answer.solved.solution;
       if (solution.status != Status::solved)

@@ -1,5 +1,9 @@
 // The invariants of the discrete flows: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy
 // ("Conservation of a Modified Energy").
+#include <functional>
+
+#include <fmt/format.h>
+
 #include "bench/experiments/energy_columns.hpp"
 #include "bench/experiments/energy_tables.hpp"
 #include "bench/experiments/example_systems.hpp"
@@ -124,81 +128,94 @@ Table largest_defects(const Table& symplecticity) {
 void add_symplecticity(TableRun& run, const std::vector<MappedStates>& systems) {
   const SymplecticityTable symplecticity = symplecticity_table(systems);
   run.add("structure_symplecticity", symplecticity.table, symplecticity.unsolved);
-  run.findings().show("defect of the symplectic form", largest_defects(symplecticity.table), {},
-                      "structure_symplecticity.csv", most_shown);
 }
 
 void add_energy_against_work(TableRun& run, const std::vector<std::shared_ptr<const Problem>>& problems) {
-  run.show("energies against the work of forces");
   const EnergyWorkTables work = energy_work_tables(problems, TableRun::solver_options());
   run.add("structure_energy_work", work.plain, work.unsolved);
   run.add("structure_modified_work", work.modified);
   run.add("structure_energy_work_slopes", work.orders);
-  run.findings().show("orders of the gap between energy and work", work.orders,
+}
+
+void show_findings(TableRun& run) {
+  run.findings().show("defect of the symplectic form", largest_defects(run.table("structure_symplecticity")), {},
+                      "structure_symplecticity.csv", most_shown);
+  run.findings().show("orders of the gap between energy and work", run.table("structure_energy_work_slopes"),
                       {"problem", "method", "quantity", "slope", "standard_error"}, "structure_energy_work_slopes.csv",
                       most_shown);
 }
 
 void add_long_time_energy(TableRun& run, const StructureOptions& options) {
-  EnergyResults results;
   for (const LongTimeMethod& method : long_time_methods()) {
-    run.show("energy over many periods: " + method.name);
-    follow(method, options.steps_per_period, options.periods, true, results);
-    if (method.name == "dmoc") oscillation_over_step(method, results);
+    const Scheme scheme = on_ellipse(method);
+    run.stage(fmt::format("energy {} {} {}", scheme.method, scheme.tableau, scheme.stages), [&] {
+      EnergyResults results;
+      run.show("energy over many periods: " + method.name);
+      follow(method, options.steps_per_period, options.periods, true, results);
+      if (method.name == "dmoc") oscillation_over_step(method, results);
+      run.add("structure_energy", period_columns, results.periods);
+      run.add("structure_energy_behaviour", behaviour_columns, results.behaviour);
+      run.add("structure_energy_slopes", order_columns, results.orders);
+    });
   }
-  run.add("structure_energy", period_columns, results.periods);
-  run.add("structure_energy_behaviour", behaviour_columns, results.behaviour);
-  run.add("structure_energy_slopes", order_columns, results.orders);
 }
 
 /// Tables of examples that were chosen for their structure.
 void add_examples(TableRun& run, const StructureOptions& options) {
-  run.show("momentum against the work of forces");
-  run.add("structure_momentum", noether_table(options.steps));
-  run.show("momentum along motions with orthogonal forces");
-  run.add("structure_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options()));
-  run.show("rotations");
-  run.add("structure_rotations", rotations_table(options.steps));
-  run.show("the symplectic form");
-  add_symplecticity(run, example_states());
-  run.show("modified energies");
-  const ModifiedEnergyTables modified = modified_energy_tables();
-  run.add("structure_modified_energy", modified.drifts);
-  run.add("structure_modified_energy_slopes", modified.orders);
-  std::vector<std::shared_ptr<const Problem>> problems;
-  for (const std::string& name : paper_problem_names()) problems.push_back(make_problem(name));
-  add_energy_against_work(run, problems);
+  const auto stage = [&run](const std::string& activity, const std::function<void()>& measure) {
+    run.stage(activity, [&] {
+      run.show(activity);
+      measure();
+    });
+  };
+  stage("momentum against the work of forces", [&] { run.add("structure_momentum", noether_table(options.steps)); });
+  stage("momentum along motions with orthogonal forces",
+        [&] { run.add("structure_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options())); });
+  stage("rotations", [&] { run.add("structure_rotations", rotations_table(options.steps)); });
+  stage("the symplectic form", [&] { add_symplecticity(run, example_states()); });
+  stage("modified energies", [&] {
+    const ModifiedEnergyTables modified = modified_energy_tables();
+    run.add("structure_modified_energy", modified.drifts);
+    run.add("structure_modified_energy_slopes", modified.orders);
+  });
+  stage("energies against the work of forces", [&] {
+    std::vector<std::shared_ptr<const Problem>> problems;
+    for (const std::string& name : paper_problem_names()) problems.push_back(make_problem(name));
+    add_energy_against_work(run, problems);
+  });
   add_long_time_energy(run, options);
 }
 
 /// Tables of any problem, along its optimal motions.
 void add_problems(TableRun& run, const std::vector<std::shared_ptr<const Problem>>& problems) {
   StartProvider starts({}, TableRun::solver_options());
-  std::vector<MappedStates> systems;
   for (const auto& problem : problems) {
-    run.show(problem->name() + ": the symplectic form along an optimal motion");
-    const Case fine{.problem = problem,
-                    .method = "dmoc",
-                    .tableau = "gauss",
-                    .stages = 2,
-                    .solver = "ipopt",
-                    .grid = Grid::uniform(256)};
-    systems.push_back(states_along(problem, starts.solve(fine)));
+    run.stage(problem->name(), [&] {
+      run.show(problem->name() + ": the symplectic form along an optimal motion");
+      const Case fine{.problem = problem,
+                      .method = "dmoc",
+                      .tableau = "gauss",
+                      .stages = 2,
+                      .solver = "ipopt",
+                      .grid = Grid::uniform(256)};
+      add_symplecticity(run, {states_along(problem, starts.solve(fine))});
+      run.show(problem->name() + ": energies against the work of forces");
+      add_energy_against_work(run, {problem});
+    });
   }
-  add_symplecticity(run, systems);
-  add_energy_against_work(run, problems);
 }
 
 int write_tables(CommandLine& line) {
   StructureOptions options;
   add_options(line, options);
-  TableRun run("structure", line);
+  TableRun run("structure", line, TableRun::Resumes::yes);
   if (!options.asked.problems.empty()) {
     add_problems(run, run.selected(options.asked));
   } else {
     if (!options.asked.settings.empty()) throw Error("--set is about a problem: name it by --problem");
     add_examples(run, options);
   }
+  show_findings(run);
   return run.write();
 }
 

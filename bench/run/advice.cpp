@@ -1,17 +1,42 @@
 #include "bench/run/advice.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "methods/mechanics/point_function.hpp"
+
 namespace dmocbench {
 
 namespace {
 
+/// Whether L depends on q_i through functions of period 2π, as on an angle in radians.
+bool has_period_of_angle(const Problem& problem, Eigen::Index i) {
+  PointFunction lagrangian(
+      problem.configuration_size(), problem.control_size(),
+      [&](const ControlledState& x) { return ExpressionVector{{problem.lagrangian(x.state())}}; },
+      problem.first_order_size());
+  MotionPoint point = problem.guess(0.4 * problem.horizon());
+  const auto value_after = [&](double turn) {
+    MotionPoint turned = point;
+    turned.q[i] += turn;
+    Eigen::VectorXd value(1);
+    lagrangian.evaluate(turned, 0.4 * problem.horizon(), value);
+    return value[0];
+  };
+  constexpr double rounding = 1e-9;
+  const double value = value_after(0.0);
+  const double size = rounding * (1.0 + std::abs(value));
+  return std::abs(value_after(2.0 * std::numbers::pi) - value) < size && std::abs(value_after(1.0) - value) > size;
+}
+
 /// A coordinate that is likely an angle in degrees: it turns by more than a full turn, and by a multiple of 15.
-std::optional<std::string> angle_in_degrees(const Problem& problem) {
+/// `is_angle(i, unit)`: whether q_i, with a unit that may be empty, can be an angle.
+template <class IsAngle>
+std::optional<std::string> angle_in_degrees(const Problem& problem, const IsAngle& is_angle) {
   constexpr double full_turn = 6.3;
   constexpr double step = 15.0;
   const Eigen::VectorXd turned = problem.final_state().q - problem.initial_state().q;
@@ -19,8 +44,8 @@ std::optional<std::string> angle_in_degrees(const Problem& problem) {
   const std::vector<std::string> units = problem.card().configuration_units;
   for (Eigen::Index i = 0; i < turned.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const bool may_be_angle = units.empty() || units[k] == "rad" || units[k] == "deg";
-    if (may_be_angle && std::abs(turned[i]) > full_turn && std::fmod(turned[i], step) == 0.0) {
+    const bool turns_by_degrees = std::abs(turned[i]) > full_turn && std::fmod(turned[i], step) == 0.0;
+    if (turns_by_degrees && is_angle(i, units.empty() ? "" : units[k])) {
       return fmt::format("Try radians: {} changes by {:g}, which looks like an angle in degrees.", names[k], turned[i]);
     }
   }
@@ -46,7 +71,19 @@ std::optional<std::string> units_apart(const Problem& problem) {
                      names[static_cast<std::size_t>(smallest)], least);
 }
 
+/// Whether a formula of the problem is not a number where the solve went.
+bool has_undefined_formula(const Solution& solution) {
+  return solution.status == Status::evaluation_failed || solution.message.find(" is not a number") != std::string::npos;
+}
+
 }  // namespace
+
+std::string doubt_about_units(const Problem& problem) {
+  const auto is_angle = [&](Eigen::Index i, const std::string& unit) {
+    return unit == "rad" || ((unit.empty() || unit == "deg") && has_period_of_angle(problem, i));
+  };
+  return angle_in_degrees(problem, is_angle).value_or("");
+}
 
 std::string next_to_try(const SolvedCase& solved, const std::string& start) {
   const Status status = solved.solution.status;
@@ -55,7 +92,14 @@ std::string next_to_try(const SolvedCase& solved, const std::string& start) {
   if (is_solved(status) || is_no_motion(status) || status == Status::interrupted) return "";
   if (status == Status::out_of_memory || status == Status::solver_error) return "";  // the message has the advice
   if (status == Status::time_limit) return "Try more time (--seconds) or fewer intervals.";
-  if (auto degrees = angle_in_degrees(problem)) return *degrees;
+  if (has_undefined_formula(solved.solution)) {
+    return "Try bounds that keep the coordinates away from the singularity of that formula (Problem::bounds), and a "
+           "guess within them.";
+  }
+  const auto may_be_angle = [](Eigen::Index /*i*/, const std::string& unit) {
+    return unit.empty() || unit == "rad" || unit == "deg";
+  };
+  if (auto degrees = angle_in_degrees(problem, may_be_angle)) return *degrees;
   if (auto units = units_apart(problem)) return *units;
   if (status == Status::infeasible && !problem.bounds().horizon.is_free()) {
     return fmt::format("Try a longer horizon than T = {:g}, or wider bounds: the ends may be out of reach.",

@@ -11,4 +11,8 @@ namespace dmocbench {
 /// argument of --start. Empty for a case that is solved, or that was stopped from outside.
 [[nodiscard]] std::string next_to_try(const SolvedCase& solved, const std::string& start);
 
+/// A sentence on a coordinate that is stated in radians, by its unit or by a Lagrangian of period 2π, and changes by a
+/// number that looks like an angle in degrees. Such a problem may be solved all the same. Empty if there is none.
+[[nodiscard]] std::string doubt_about_units(const Problem& problem);
+
 }  // namespace dmocbench

@@ -1,6 +1,7 @@
 #include "bench/run/command_line.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
@@ -239,7 +240,14 @@ std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& 
   for (const CLI::Option* known : app.get_options()) {
     for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
   }
-  const std::string meant = option.starts_with("--") ? likely_meant(option, names) : "";
+  // The letters of formulas, which are no misspellings of an option.
+  constexpr std::array letters{std::pair("N", "--intervals"), std::pair("n", "--intervals"), std::pair("s", "--stages"),
+                               std::pair("T", "--set")};
+  std::string meant = option.starts_with("--") ? likely_meant(option, names) : "";
+  for (const auto& [letter, name] : letters) {
+    const bool is_letter = option.substr(option.find_first_not_of('-')) == letter;
+    if (is_letter && std::ranges::find(names, name) != names.end()) meant = name;
+  }
   return meant.empty() ? error.what() : fmt::format("there is no option {} (did you mean {}?)", option, meant);
 }
 

@@ -300,10 +300,11 @@ void add_part_options(CommandLine& line, ExperimentOptions& options) {
   line.group("Parts");
   line.option(
       "--part", options.part,
-      "i/n: work on the i-th of n parts alone and write OUT/NAME.parts/i-of-n.part, whole or not at all; a part "
-      "that is there already stays. The exit code is 0 whatever its solves did. `merge` joins all parts");
+      "i/n: solve only the i-th of n parts of the cases, and write it to OUT/NAME.parts/i-of-n.part when it is "
+      "complete. A part that exists is not solved again. Failed solves do not change the exit code, 0. `merge` joins "
+      "the parts");
   line.option("--missing-parts", options.missing_parts,
-              "n: only print which of n parts of this very run are missing, one number per line");
+              "n: print the numbers of the missing parts of this run, of n, one per line, and solve nothing");
   line.option(
       "--join", options.join,
       "results folder whose parts are joined to the one table instead of solving anything, as `merge` calls it; "

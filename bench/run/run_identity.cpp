@@ -61,20 +61,26 @@ Json parameters_of(const std::vector<Case>& cases) {
 
 }  // namespace
 
-Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, const Json& metadata,
+Json identity_of(const std::string& experiment, const Json& metadata,
                  const std::vector<std::pair<std::string, std::string>>& options) {
-  Json identity{{"experiment", card.name}};
+  Json identity{{"experiment", experiment}};
   for (const char* const key : {"dmocbench", "compiler", "flags", "instruction_set", "libraries", "solvers"}) {
     identity[key] = metadata.at(key);
   }
   // Not the commit: a tree that was changed has several programs under one, and one program outlives many.
   identity["program"] = fmt::format("{:08x}", crc_32(read_file("/proc/self/exe")));
   if (metadata.contains("problem_libraries")) identity["problem_libraries"] = checksums_of(metadata);
-  identity["parameters"] = parameters_of(cases);
   identity["options"] = Json::object();
   for (const auto& [name, value] : options) {
     if (!is_about_the_machine(name)) identity["options"][name] = value;
   }
+  return identity;
+}
+
+Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, const Json& metadata,
+                 const std::vector<std::pair<std::string, std::string>>& options) {
+  Json identity = identity_of(card.name, metadata, options);
+  identity["parameters"] = parameters_of(cases);
   const std::string& start = card.options.start;
   std::error_code none;  // a start that is not a file is rejected where it is read
   if (start != "common" && start != "guess" && std::filesystem::is_regular_file(start, none))

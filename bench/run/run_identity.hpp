@@ -19,6 +19,10 @@ namespace dmocbench {
                                                  const nlohmann::ordered_json& metadata,
                                                  const std::vector<std::pair<std::string, std::string>>& options);
 
+/// The same of a run without cases.
+[[nodiscard]] nlohmann::ordered_json identity_of(const std::string& experiment, const nlohmann::ordered_json& metadata,
+                                                 const std::vector<std::pair<std::string, std::string>>& options);
+
 /// The keys of metadata that describe a machine.
 inline constexpr std::array keys_of_machine{"processor", "cores", "memory_gib", "operating_system"};
 

@@ -107,8 +107,9 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   if (undefined || std::isinf(found.relative_jump)) {
     solved.solution.message = fmt::format(
         "The discrete program is solved, but interval {} (t = {:.4g} to {:.4g}) does not lead to the next node: {} "
-        "More intervals do not help; state the formula so that it stays finite along the motion, as by a force as "
-        "control and a bound on its power as path constraint.",
+        "More intervals do not help; state the formula so that it stays finite along the motion, by "
+        "bounds that keep the coordinates away from a singularity, or by a force as control and a bound on its power "
+        "as path constraint.",
         k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
         undefined ? undefined->quantity + " is not a finite number there." : "its formulas are singular there.");
     return;

@@ -57,7 +57,7 @@ const Columns<SolvedCase>& core_columns() {
       {"method", "", "family of elements", from(&SolvedCase::the_case, &Case::method), in_key},
       {"tableau", "", "family of Butcher tableaus", from(&SolvedCase::the_case, &Case::tableau), in_key},
       {"stages", "", "number of stages s", from(&SolvedCase::the_case, &Case::stages), in_key},
-      {"solver", "", "who solved the program", from(&SolvedCase::the_case, &Case::solver), in_key},
+      {"solver", "", "solver as --solver names it", from(&SolvedCase::the_case, &Case::solver), in_key},
       {"derivatives", "", "back end of the solver's derivatives", from(&SolvedCase::the_case, &Case::derivatives),
        in_key},
       {"intervals", "", "number of intervals N", from(&SolvedCase::the_case, &Case::intervals), in_key},
@@ -68,7 +68,8 @@ const Columns<SolvedCase>& core_columns() {
       {"settings", "", "parameters that differ from their defaults, with spaces between them: mass=2 length=0.5",
        [](const SolvedCase& s) { return s.the_case.problem->settings(); }, in_key},
       {"variables", "", "unknowns of the program", count([](P p) { return p.variable_count(); })},
-      {"free_variables", "", "those not fixed by their bounds", count([](P p) { return free_variable_count(p); })},
+      {"free_variables", "", "unknowns that are not fixed by their bounds",
+       count([](P p) { return free_variable_count(p); })},
       {"constraints", "", "constraints of the program", count([](P p) { return p.constraint_count(); })},
       {"jacobian_nonzeros", "", "entries of the Jacobian", count([](P p) { return p.jacobian_structure().size(); })},
       {"hessian_nonzeros", "", "entries of the Hessian's lower triangle",
@@ -80,7 +81,7 @@ const Columns<SolvedCase>& core_columns() {
       {"objective", "cost", "cost of the trajectory", from(&SolvedCase::trajectory, &Trajectory::cost)},
       {"tolerance",
        "",
-       "of the solver",
+       "tolerance of the solver",
        {[](const SolvedCase& s) { return s.tolerance > 0.0 ? Cell(fmt::format("{:g}", s.tolerance)) : Cell(); },
         FieldType{FieldKind::number, true}}},
       {"kkt_residual", "", "scaled KKT residual", from(&SolvedCase::solution, &Solution::kkt_residual)},
@@ -89,19 +90,20 @@ const Columns<SolvedCase>& core_columns() {
       {"major_iterations", "", "iterations of the solver", from(&SolvedCase::solution, &Solution::major_iterations)},
       {"minor_iterations", "", "iterations of its quadratic programs",
        from(&SolvedCase::solution, &Solution::minor_iterations)},
-      {"setup_seconds", "s", "transcription: tracing, differentiation, structure; empty in a batch",
+      {"setup_seconds", "s", "time to make the program: tracing, derivatives, sparsity; empty in a batch",
        from(&SolvedCase::setup_seconds)},
-      {"evaluation_seconds", "s", "part of the solve spent in evaluations; empty in a batch",
+      {"evaluation_seconds", "s", "time that the solve spent in evaluations; empty in a batch",
        seconds(&Solution::evaluation_seconds)},
       {"seconds", "s", "wall clock of the solve; empty in a batch, whose cases share their time",
        seconds(&Solution::seconds)},
       {"largest_jump", "", "largest |(q, v)| by which an interval, replayed from its first node, misses the next one",
        from(&SolvedCase::accuracy, &Accuracy::jump)},
-      {"relative_jump", "", "the same of q or of v, whichever is larger relative to its range",
+      {"relative_jump", "",
+       "largest jump of q relative to the range of q, or of v relative to the range of v, whichever is larger",
        from(&SolvedCase::accuracy, &Accuracy::relative_jump)},
-      {"jump_interval", "", "the interval where that is", from(&SolvedCase::accuracy, &Accuracy::interval)},
-      {"answered_by", "",
-       "solver of the answer: the solver itself, the one that auto ended with, or batch: interior_point in lanes",
+      {"jump_interval", "", "interval with this largest relative jump",
+       from(&SolvedCase::accuracy, &Accuracy::interval)},
+      {"answered_by", "", "solver that found the answer; with auto the one of its two solvers, in a batch \"batch\"",
        from(&SolvedCase::solution, &Solution::solver)},
       {"message", "", "outcome of the solve, in words", from(&SolvedCase::solution, &Solution::message)},
   };
@@ -117,10 +119,11 @@ std::vector<double> seconds_of_rounds(const SolvedCase& solved) {
 
 Columns<std::vector<double>> round_columns() {
   constexpr double quarter = 0.25;
-  return {{"seconds_lower_quartile", "s", "of the rounds", quantile_of_rounds(quarter)},
-          {"seconds_upper_quartile", "s", "of the rounds", quantile_of_rounds(1.0 - quarter)},
-          {"round_seconds", "s", "wall clock of the solve in each round, with spaces between them",
-           [](const std::vector<double>& seconds) { return joined_numbers(seconds); }}};
+  return {
+      {"seconds_lower_quartile", "s", "lower quartile of the seconds of all rounds", quantile_of_rounds(quarter)},
+      {"seconds_upper_quartile", "s", "upper quartile of the seconds of all rounds", quantile_of_rounds(1.0 - quarter)},
+      {"round_seconds", "s", "wall clock of the solve in each round, with spaces between them",
+       [](const std::vector<double>& seconds) { return joined_numbers(seconds); }}};
 }
 
 Columns<IndependentChecks> check_columns() {
@@ -130,7 +133,8 @@ Columns<IndependentChecks> check_columns() {
           {"interval_cost", "cost",
            "cost of the motion when every interval is replayed alone; the grid makes it differ from the objective",
            &Checks::interval_cost},
-          {"violation_between_nodes", "", "of bounds and path constraints, where no point imposes them",
+          {"violation_between_nodes", "",
+           "largest violation of bounds and path constraints between the points that impose them",
            &Checks::violation_between_nodes},
           {"free_horizon_residual", "", "residual of the condition on T; empty for a fixed horizon",
            &Checks::free_horizon_residual}};

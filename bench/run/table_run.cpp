@@ -1,5 +1,6 @@
 #include "bench/run/table_run.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "bench/run/meanings.hpp"
 #include "bench/run/metadata.hpp"
 #include "bench/run/process_pool.hpp"
+#include "bench/run/run_identity.hpp"
 #include "bench/run/written_tables.hpp"
 #include "methods/runtime/counted.hpp"
 
@@ -15,10 +17,11 @@ namespace dmocbench {
 
 namespace {
 
-std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, Findings& findings) {
+std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, Findings& findings, bool* fresh) {
   line.group(group_of_output);
   line.option("--out", out, "folder for the results");
   findings.add_to(line);
+  if (fresh != nullptr) line.flag("--fresh", *fresh, "measure everything instead of resuming an interrupted run");
   std::vector<std::string> command_line = line.parse();
   listen_for_interrupt();  // created folders are removed when the run ends
   return command_line;
@@ -46,14 +49,40 @@ void write_tables(const std::vector<TableFile>& tables, const std::filesystem::p
   write_as(true);
 }
 
-TableRun::TableRun(std::string name, CommandLine& line)
+TableRun::TableRun(std::string name, CommandLine& line, Resumes resumes)
     : name_(std::move(name)),
-      command_line_(parse(line, out_, findings_)),
+      command_line_(parse(line, out_, findings_, resumes == Resumes::yes ? &fresh_ : nullptr)),
       folder_(out_),
       lock_(out_ / name_),
       progress_(name_, findings_.are_quiet()),
       scope_(interrupt_requested, 0.0) {
   require_writable(out_ / (name_ + ".json"));
+  if (resumes == Resumes::no) return;
+  finished_ = {out_ / (name_ + ".unfinished"), identity_of(name_, describe_run(command_line_), line.values())};
+  if (fresh_) return;
+  tables_ = finished_.resume();
+  if (finished_.count() > 0 && findings_.are_for_people())
+    print_line(fmt::format("{}: resumes an interrupted run, which has finished {}; --fresh measures everything", name_,
+                           counted(finished_.count(), "stage")));
+}
+
+void TableRun::stage(const std::string& name, const std::function<void()>& measure) {
+  if (finished_.contain(name)) return;
+  try {
+    measure();
+  } catch (...) {
+    if (interrupt_requested() && finished_.count() > 0 && findings_.are_for_people())
+      print_line(fmt::format("{}: {} finished; the same command resumes it", name_,
+                             counted(finished_.count(), "stage is", "stages are")));
+    throw;
+  }
+  finished_.add(name, tables_);
+}
+
+const Table& TableRun::table(const std::string& file) const {
+  const auto found = std::ranges::find(tables_, out_ / (file + ".csv"), &TableFile::file);
+  if (found == tables_.end()) throw Error(fmt::format("no stage of {} has made {}.csv", name_, file));
+  return found->table;
 }
 
 SolverOptions TableRun::solver_options() {
@@ -74,10 +103,15 @@ void TableRun::show(const std::string& activity) const {
 }
 
 void TableRun::add(const std::string& file, const Table& table, std::ptrdiff_t not_measured) {
-  const std::string gaps = not_measured > 0 ? fmt::format(", {} not measured", not_measured) : "";
-  tables_.push_back({out_ / (file + ".csv"), with_statements(table, statements_)});
-  rows_of_tables_.push_back(counted(table.rows().size(), "row") + gaps);
-  not_measured_ += not_measured;
+  const std::filesystem::path path = out_ / (file + ".csv");
+  Table added = with_statements(table, statements_);
+  const auto earlier = std::ranges::find(tables_, path, &TableFile::file);
+  if (earlier == tables_.end()) {
+    tables_.push_back({path, std::move(added), not_measured});
+    return;
+  }
+  for (const Row& row : added.rows()) earlier->table.append(row);
+  earlier->not_measured += not_measured;
 }
 
 int TableRun::write() const {
@@ -90,18 +124,23 @@ int TableRun::write() const {
   KeptRows kept(out_ / name_, std::move(own));
   for (const TableFile& table : tables_) kept.read(table.file);
   write_tables(tables_, out_ / (name_ + ".json"), command_line_, kept);
+  finished_.forget();
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   constexpr std::size_t few_tables = 4;
   const bool has_many = tables_.size() > few_tables;
   if (has_many && findings_.are_for_people())
     print_line(fmt::format("{}: {} tables: {}*.csv", name_, tables_.size(), (out_ / name_).string()));
-  for (std::size_t i = 0; i < tables_.size(); ++i) {
-    files.push_back(tables_[i].file.string());
+  std::ptrdiff_t not_measured = 0;
+  for (const TableFile& table : tables_) {
+    not_measured += table.not_measured;
+    files.push_back(table.file.string());
+    const std::string gaps = table.not_measured > 0 ? fmt::format(", {} not measured", table.not_measured) : "";
     if (!has_many && findings_.are_for_people())
-      print_line(fmt::format("{}: {}: {}", name_, rows_of_tables_[i], tables_[i].file.string()));
+      print_line(
+          fmt::format("{}: {}{}: {}", name_, counted(table.table.rows().size(), "row"), gaps, table.file.string()));
   }
-  const int code = not_measured_ > 0 ? 1 : 0;
-  findings_.end({{"experiment", name_}, {"exit_code", code}, {"not_measured", not_measured_}, {"files", files}});
+  const int code = not_measured > 0 ? 1 : 0;
+  findings_.end({{"experiment", name_}, {"exit_code", code}, {"not_measured", not_measured}, {"files", files}});
   return code;
 }
 

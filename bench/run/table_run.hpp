@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include "bench/run/column.hpp"
 #include "bench/run/command_line.hpp"
 #include "bench/run/findings.hpp"
+#include "bench/run/finished_stages.hpp"
 #include "bench/run/kept_rows.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/result_file.hpp"
@@ -21,12 +23,6 @@
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
-
-/// A table and the file that holds it.
-struct TableFile {
-  std::filesystem::path file;  ///< with its folder, NAME.csv
-  Table table;                 ///< with the meanings of its columns
-};
 
 /// Writes tables, and next to them the metadata of their run with the JSON Schema of their rows. Columns that a table
 /// leaves unexplained have the meanings of the first table. Rows kept from earlier runs precede the others. The
@@ -39,9 +35,13 @@ void write_tables(const std::vector<TableFile>& tables, const std::filesystem::p
 /// As long as it exists, an interrupt ends this thread's computations (`StopScope`).
 class TableRun {
  public:
-  /// Adds the options `--out`, `--quiet` and `--json`, reads the command line and locks the results `name` of the
-  /// output folder against other runs. Throws `Error` on bad input, or if files cannot be written there.
-  TableRun(std::string name, CommandLine& line);
+  /// Whether an interrupted run is resumed by the same command: its work is then divided into stages.
+  enum class Resumes : bool { no, yes };
+
+  /// Adds the options `--out`, `--quiet`, `--json` and, if it resumes, `--fresh`; reads the command line and locks the
+  /// results `name` of the output folder against other runs. Throws `Error` on bad input, or if files cannot be written
+  /// there.
+  TableRun(std::string name, CommandLine& line, Resumes resumes = Resumes::no);
 
   /// Options for solvers, which stop if the run is to stop.
   [[nodiscard]] static SolverOptions solver_options();
@@ -52,7 +52,13 @@ class TableRun {
   void show(const std::string& activity) const;
   /// The findings, printed when the run ends.
   [[nodiscard]] Findings& findings() noexcept { return findings_; }
-  /// Adds the table of a file, named without folder and ending. `not_measured`: rows that state why they lack a number.
+  /// Calls `measure`, which adds tables, unless the interrupted run that this one resumes has finished the stage; its
+  /// rows are then in the tables already. A stage that is over is saved in NAME.unfinished.
+  void stage(const std::string& name, const std::function<void()>& measure);
+  /// The table of a file so far. Throws `Error` if no stage has added it.
+  [[nodiscard]] const Table& table(const std::string& file) const;
+  /// Adds the table of a file, named without folder and ending; its rows follow the rows that are there.
+  /// `not_measured`: rows that state why they lack a number.
   void add(const std::string& file, const Table& table, std::ptrdiff_t not_measured = 0);
   /// The same with the meanings of its columns, for the metadata.
   template <class Record>
@@ -69,6 +75,7 @@ class TableRun {
   std::string name_;
   std::filesystem::path out_ = "results";
   Findings findings_;
+  bool fresh_ = false;
   std::vector<std::string> command_line_;
   OutputFolder folder_;
   ResultLock lock_;
@@ -76,8 +83,7 @@ class TableRun {
   StopScope scope_;
   std::set<Statement> statements_;
   std::vector<TableFile> tables_;
-  std::vector<std::string> rows_of_tables_;  ///< how many each has, in words
-  std::ptrdiff_t not_measured_ = 0;          ///< rows of all tables
+  FinishedStages finished_;
 };
 
 /// The result of `measure()`, or the sentence of the `Error` that it throws. Rethrows `Stopped`, because a requested

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -17,7 +19,9 @@ namespace dmocbench {
 
 namespace {
 
-/// Rows that agree in these are compared: they differ in method and start only.
+/// Rows that agree in these are compared: they differ in method, start and grid only.
+const ColumnNames columns_of_all_grids{"problem", "tableau", "stages", "solver", "derivatives"};
+/// Rows that agree in these differ in method and start only.
 const ColumnNames group_columns{"problem", "tableau", "stages", "solver", "derivatives", "intervals"};
 
 /// The part of a cost that the grid makes: how far it is from the cost of the same motion, interval by interval.
@@ -61,8 +65,36 @@ std::size_t unconfirmed_of(const std::vector<Selection>& minima, const std::stri
   return count;
 }
 
-/// The lowest minimum that is a motion, or the end.
-auto best_of(const std::vector<Selection>& minima) { return std::ranges::find_if(minima, is_motion); }
+/// The lowest answer of the best minimum on the finest grid that has one: the lowest minimum that is a motion. `row` is
+/// of any grid. Empty if no grid has one.
+std::optional<Row> finest_best(const Selection& rows, const Row& row, double separation) {
+  std::vector<Selection> grids = rows.matching(row, columns_of_all_grids).group_by({"intervals"});
+  std::ranges::sort(grids, std::greater(), [](const Selection& grid) { return grid.front().number("intervals", 0.0); });
+  for (const Selection& grid : grids) {
+    const std::vector<Selection> minima = minima_of(grid, separation);
+    const auto best = std::ranges::find_if(minima, is_motion);
+    if (best != minima.end()) return best->front();
+  }
+  return std::nullopt;
+}
+
+/// Among the minima of a grid the one that is the best minimum of the finest grid, or the end: the motion whose cost is
+/// nearest to it, within the separation and the grid errors of both.
+auto best_of(const std::vector<Selection>& minima, const std::optional<Row>& finest, double separation) {
+  auto best = minima.end();
+  if (!finest) return best;
+  const double wanted = finest->needed("objective");
+  double least = std::numeric_limits<double>::infinity();
+  for (auto minimum = minima.begin(); minimum != minima.end(); ++minimum) {
+    const Row& lowest = minimum->front();
+    const double distance = std::abs(lowest.needed("objective") - wanted);
+    const double permitted = separation * std::abs(wanted) + grid_error(lowest) + grid_error(*finest);
+    if (!is_motion(*minimum) || distance > permitted || distance >= least) continue;
+    least = distance;
+    best = minimum;
+  }
+  return best;
+}
 
 /// A minimum among the answers of all methods, and the answers that ended there.
 struct Minimum {
@@ -84,7 +116,9 @@ Columns<Minimum> minimum_columns(const std::vector<std::string>& methods) {
          Columns<Minimum>{
              {"minimum", "", "number of the minimum, from the lowest cost upwards", &Minimum::number, in_key},
              {"objective", "cost", "the lowest among the answers that are this minimum", &Minimum::objective},
-             {"is_best", "", "yes for the lowest minimum that is a motion", from(&Minimum::is_best, yes_or_no)},
+             {"is_best", "",
+              "yes for the lowest minimum that is a motion on the finest grid, and for its like on other grids",
+              from(&Minimum::is_best, yes_or_no)},
              {"is_motion", "", "yes if the intervals of some answer, replayed one by one, join",
               from(&Minimum::answers, is_motion_in_words)},
              {"replay_confirmed", "",
@@ -149,7 +183,7 @@ Table distinct_minima(const Selection& rows, double separation) {
   std::vector<Minimum> all;
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);
-    const auto best = best_of(minima);
+    const auto best = best_of(minima, finest_best(rows, group.front(), separation), separation);
     for (auto minimum = minima.begin(); minimum != minima.end(); ++minimum) {
       all.push_back({.head = group.front(),
                      .number = static_cast<std::size_t>(minimum - minima.begin()) + 1,
@@ -185,7 +219,7 @@ Table best_minimum_shares(const Selection& rows, double separation) {
   const std::vector<std::string> methods = rows.distinct("method");
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);
-    const auto best = best_of(minima);
+    const auto best = best_of(minima, finest_best(rows, group.front(), separation), separation);
     for (const std::string& method : methods) {
       const Selection starts = group.where("method", method);
       if (starts.empty()) continue;

@@ -12,8 +12,9 @@ namespace dmocbench {
 /// to it, and the grid errors of both: the differences between `objective` and `interval_cost`. So costs that methods
 /// have on one grid are compared at the accuracy that the grid allows. `minimum` counts from the lowest cost upwards.
 /// It is a motion if the intervals of some answer, replayed one by one, join (`largest_jump_of_a_motion`), and the best
-/// is the lowest that is. `replay_confirmed` is a second opinion that cannot judge unstable systems: whether the replay
-/// of the whole horizon ends near the final state for some answer. Rows that were not solved are in no minimum.
+/// is the lowest that is on the finest grid; on a coarser grid it is the minimum whose cost is nearest to that one's.
+/// `replay_confirmed` is a second opinion that cannot judge unstable systems: whether the replay of the whole horizon
+/// ends near the final state for some answer. Rows that were not solved are in no minimum.
 [[nodiscard]] Table distinct_minima(const Selection& rows, double separation);
 
 /// The shares of starts by which each method found the best minimum.

@@ -137,15 +137,16 @@ class Problem {
   [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
   /// The value of a parameter, as this thread sees it (`ParameterScope`). Throws `Error` if the name is unknown.
   [[nodiscard]] double parameter(std::string_view name) const;
-  /// A parameter for use in formulas, so that its value may change later: an input of the trace in a transcription that
-  /// keeps it open, elsewhere its value. Throws as `parameter`.
+  /// A parameter for formulas whose value may change without a new trace. In a transcription that keeps the parameter
+  /// open (`OpenParameters`) it is an input of the trace; everywhere else it is its present value. Throws as
+  /// `parameter`.
   [[nodiscard]] Expression varying(std::string_view name) const;
-  /// The numbers of the unknown ones among all parameters.
+  /// The indices of the unknown parameters (`Parameter::is_unknown`) among all parameters.
   [[nodiscard]] std::vector<std::size_t> unknowns() const;
   /// Sets a parameter. Throws `Error` if the name is unknown or the value is not allowed.
   void set_parameter(std::string_view name, double value);
-  /// True if every parameter has its default value, those in `except` apart: a certified optimum holds for the data
-  /// with which it was computed.
+  /// True if every parameter, except the ones named in `except`, has its default value. A certified optimum holds only
+  /// for the data with which it was computed.
   [[nodiscard]] bool has_default_parameters(std::initializer_list<std::string_view> except = {}) const;
 
   /// The parameters that differ from their defaults, as on the command line: "mass=2 length=0.5"; empty if none does.

@@ -21,7 +21,7 @@ template <class Scalar, int columns>
 /// entries.
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_if_invertible(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-/// Whether A, n × n, is regular to rounding: whether `solve_if_invertible` has a result.
+/// True if A, an n × n matrix, is not singular to rounding, so that `solve_if_invertible` returns a result.
 [[nodiscard]] bool is_invertible(const Eigen::MatrixXd& a);
 
 /// A⁻¹ b by Cholesky's factorisation, or nothing if A is not positive definite. A is n × n and symmetric, and only its
@@ -29,7 +29,7 @@ template <class Scalar, int columns>
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_if_positive_definite(const Eigen::MatrixXd& a,
                                                                         const Eigen::VectorXd& b);
 
-/// Whether A, n × n and symmetric, is positive definite: whether `solve_if_positive_definite` has a result.
+/// True if A, a symmetric n × n matrix, is positive definite, so that `solve_if_positive_definite` returns a result.
 [[nodiscard]] bool is_positive_definite(const Eigen::MatrixXd& a);
 
 }  // namespace dmocbench

@@ -27,7 +27,8 @@ void for_stretches(Eigen::Index size, const Use& use) {
   });
 }
 
-/// The sum, in order, of `part(begin, length)` over stretches.
+/// The sum of `part(begin, length)` over all stretches of a vector of `size` entries. The terms are added in the order of
+/// the stretches, so that the result does not depend on the number of threads.
 template <class Part>
 double sum_of_stretches(Eigen::Index size, const Part& part) {
   if (part_count(static_cast<std::size_t>(size), entries_per_stretch) == 1) return part(Eigen::Index{0}, size);
@@ -38,7 +39,7 @@ double sum_of_stretches(Eigen::Index size, const Part& part) {
   return sum;
 }
 
-/// Largest magnitude, 0 of an empty vector; any number if one of them is not finite.
+/// The largest magnitude of an entry; 0 for an empty vector. The result is arbitrary if an entry is not finite.
 [[nodiscard]] double largest_of(const Eigen::VectorXd& vector);
 /// Σ |x_i|.
 [[nodiscard]] double sum_of_magnitudes(const Eigen::VectorXd& vector);

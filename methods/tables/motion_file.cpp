@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -226,58 +227,68 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
 }
 
 Table constraint_table(const Problem& problem, const Trajectory& trajectory) {
-  PointFunction constraints(problem.configuration_size(), problem.control_size(),
-                            [&](const ControlledState& x) { return problem.path_constraints(x); });
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
+  PointFunction constraints(
+      problem.configuration_size(), problem.control_size(),
+      [&](const ControlledState& x) { return problem.path_constraints(x); }, problem.first_order_size());
   const Eigen::Index count = constraints.output_count();
   if (count == 0) return {};
   Eigen::MatrixXd values(trajectory.node_times.size(), count);
   Eigen::VectorXd at_node(count);
   for (Eigen::Index k = 0; k < trajectory.node_times.size(); ++k) {
     const double t = trajectory.node_times[k];
-    constraints.evaluate(trajectory.q.row(k).transpose(), trajectory.v.row(k).transpose(), control_at(trajectory, t), t,
-                         at_node);
+    MotionPoint node = trajectory.node(k);
+    node.u = control_at(trajectory, t);
+    constraints.evaluate(node, t, at_node);
     values.row(k) = at_node.transpose();
   }
   return series_table("t", trajectory.node_times,
-                      {{"", constraint_names(problem, count), values, "a path constraint, which is not negative"}});
+                      {{"", constraint_names(problem, count), values, "a path constraint"}});
 }
 
 Table quantity_table(const Problem& problem) {
   const ProblemCard card = problem.card();
   const ProblemBounds bounds = problem.bounds();
-  Table table({"kind", "quantity", "unit", "lower", "upper"});
-  table.explain({{"kind", "t, q, u or h, a path constraint"},
-                 {"quantity", "the column with this name in the tables of the motion"},
-                 {"unit", "as the problem states it; empty where it states none"},
-                 {"lower", "its lower bound; empty for none"},
-                 {"upper", "its upper bound; empty for none"}});
-  table.set_key({"kind", "quantity"});
+  Table table({"kind", "quantity", "unit", "lower", "upper", "time"});
+  table.explain(
+      {{"kind", "t, q, u or h, a path constraint"},
+       {"quantity", "the column with this name in the tables of the motion"},
+       {"unit", "as the problem states it; empty where it states none"},
+       {"lower", "its lower bound; empty for none"},
+       {"upper", "its upper bound; empty for none"},
+       {"time", "time at which these bounds hold, as a share of T; empty for bounds along the whole motion"}});
+  table.set_key({"kind", "quantity", "time"});
   for (const char* const text : {"kind", "quantity", "unit"}) table.declare({{text, {FieldKind::text, true}}});
-  for (const char* const number : {"lower", "upper"}) table.declare({{number, {FieldKind::number, true}}});
+  for (const char* const number : {"lower", "upper", "time"}) table.declare({{number, {FieldKind::number, true}}});
   Row time;
   time.set("kind", "t");
   time.set("quantity", "t");
   if (card.time_unit.factor == 1.0) time.set("unit", card.time_unit.name);
   table.append(std::move(time));
   const auto add = [&](const char* kind, const std::vector<std::string>& names, const std::vector<std::string>& units,
-                       const Bounds& of) {
+                       const Bounds& of, std::optional<double> at = std::nullopt) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto entry = static_cast<Eigen::Index>(i);
+      if (at && of.lower.size() == 0) continue;
       Row row;
       row.set("kind", kind);
       row.set("quantity", names[i]);
       row.set("unit", i < units.size() ? units[i] : "");
       if (entry < of.lower.size() && std::isfinite(of.lower[entry])) row.set("lower", of.lower[entry]);
       if (entry < of.upper.size() && std::isfinite(of.upper[entry])) row.set("upper", of.upper[entry]);
+      row.set("time", at);
       table.append(std::move(row));
     }
   };
   add("q", problem.configuration_names(), card.configuration_units, bounds.q);
+  for (const InteriorBounds& at : bounds.interior)
+    add("q", problem.configuration_names(), card.configuration_units, at.q, at.relative_time);
   add("u", problem.control_names(), card.control_units, bounds.u);
-  const PointFunction constraints(problem.configuration_size(), problem.control_size(),
-                                  [&](const ControlledState& x) { return problem.path_constraints(x); });
+  const PointFunction constraints(
+      problem.configuration_size(), problem.control_size(),
+      [&](const ControlledState& x) { return problem.path_constraints(x); }, problem.first_order_size());
   const Eigen::Index count = constraints.output_count();
-  add("h", constraint_names(problem, count), {}, {Eigen::VectorXd::Zero(count), {}});
+  add("h", constraint_names(problem, count), {}, bounds.of_path(count));
   return table;
 }
 

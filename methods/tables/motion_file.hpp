@@ -31,7 +31,8 @@ namespace dmocbench {
 [[nodiscard]] Table constraint_table(const Problem& problem, const Trajectory& trajectory);
 
 /// The contents of a figure of the motion: a row for t and for each q, u and path constraint with `kind` (t, q, u or
-/// h), `quantity` (its column), `unit`, and its bounds `lower` and `upper`, empty where there are none.
+/// h), `quantity` (its column), `unit`, and its bounds `lower` and `upper`, empty where there are none. Bounds of q at
+/// a time between the ends have rows of their own, with `time`, the share of T.
 [[nodiscard]] Table quantity_table(const Problem& problem);
 
 /// Writes a motion: its nodes to X_nodes.csv, the file that is named, and its stages to X_stages.csv next to it. Throws

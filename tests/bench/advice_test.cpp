@@ -55,6 +55,27 @@ TEST(Advice, SuspectsDegreesWhereAnAngleTurnsByAMultipleOf15) {
   EXPECT_FALSE(names(advice(std::make_shared<Moved>(3.14, "rad"), Status::iteration_limit, "auto"), "degrees"));
 }
 
+/// A pendulum, whose unit is not stated, that turns by an angle.
+class Turned final : public tests::SmallProblem {
+ public:
+  explicit Turned(double angle) : SmallProblem("turned", at(0.0, 0.0), at(angle, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] + cos(x.q[0]); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+};
+
+TEST(Advice, DoubtsTheUnitOfASolvedProblemOnlyWhereTheCoordinateIsAnAngle) {
+  EXPECT_TRUE(names(doubt_about_units(Turned(180.0)), "degrees"));
+  EXPECT_EQ(doubt_about_units(Turned(3.14)), "");
+  EXPECT_TRUE(names(doubt_about_units(Moved(180.0, "rad")), "degrees"));
+  EXPECT_EQ(doubt_about_units(Moved(180.0, "")), "");
+  EXPECT_EQ(doubt_about_units(Moved(180.0, "deg")), "");
+}
+
+TEST(Advice, NamesBoundsWhereAFormulaIsNotANumber) {
+  EXPECT_TRUE(names(advice(std::make_shared<Moved>(180.0, "rad"), Status::evaluation_failed, "auto"), "bounds"));
+}
+
 TEST(Advice, NamesUnitsThatAreTenThousandTimesApart) {
   const std::string apart = advice(std::make_shared<MovedInPlane>(4e5, 0.3), Status::step_failed, "ipopt");
   EXPECT_TRUE(names(apart, "units") && names(apart, "q1") && names(apart, "q2")) << apart;

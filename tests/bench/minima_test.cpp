@@ -75,6 +75,25 @@ TEST(DistinctMinima, OfSeveralMethodsAreNoneWhereTheirGridErrorsExplainTheDiffer
   EXPECT_EQ(same.rows()[0].text("is_best"), "yes");
 }
 
+TEST(DistinctMinima, HaveOnEveryGridTheBestOfTheFinest) {
+  Table table({"problem"});
+  const auto on_grid = [](Row row, long long intervals) {
+    row.set("intervals", intervals);
+    return row;
+  };
+  table.append(on_grid(answer("dmoc", 70.0, 0.01, 0.01), 12));  // an answer that only the coarse grid has
+  table.append(on_grid(answer("dmoc", 80.3, 0.01, 0.01), 12));
+  table.append(on_grid(answer("dmoc", 80.0, 0.01, 0.01), 48));
+  table.append(on_grid(answer("dmoc", 90.0, 0.01, 0.01), 48));
+  const Table minima = distinct_minima(table, 0.01);
+  ASSERT_EQ(minima.rows().size(), 4U);
+  for (const Row& row : minima.rows())
+    EXPECT_EQ(row.text("is_best") == "yes", std::abs(row.needed("objective") - 80.0) < 1.0);
+  const Table shares = best_minimum_shares(table, 0.01);
+  ASSERT_EQ(shares.rows().size(), 2U);
+  for (const Row& row : shares.rows()) EXPECT_EQ(row.number("best"), 1.0);
+}
+
 TEST(BestMinimumShares, CountEveryStartOfAMethodSolvedOrNot) {
   const Table shares = best_minimum_shares(answers(), 0.01);
   ASSERT_EQ(shares.rows().size(), 2U);

@@ -1,3 +1,5 @@
+#include <string>
+
 #include <pybind11/pybind11.h>
 
 #include "bench/extensions/python/bindings.hpp"
@@ -19,6 +21,7 @@ void register_errors(py::module_& module) {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The C++ part of dmocbench; import the package dmocbench instead.";
   module.attr("__version__") = DMOCBENCH_VERSION;
+  module.attr("tag_of_python_code") = std::string(dmocbench::python::tag_of_python_code());
   register_errors(module);
   dmocbench::check_environment();
   dmocbench::order_by_one_thread();

@@ -11,8 +11,8 @@ namespace dmocbench {
 /// The optimal feedback near an optimal motion: u = U_i + K ((q, p) - (q_k, p_k)) for stage i of interval k, where
 /// (q, p) is the measured state at node k. To first order this is the optimal control from there on.
 struct FeedbackGains {
-  /// K of stage i of interval k at k s + i, m × 2n. Empty so near to a prescribed end that the remaining controls
-  /// cannot reach it from every neighbouring state.
+  /// Entry k s + i is K for stage i of interval k, an m × 2n matrix. It is empty for the last intervals before a
+  /// prescribed end, from which the remaining controls cannot reach that end from every neighbouring state.
   std::vector<Eigen::MatrixXd> of_stages;
 };
 

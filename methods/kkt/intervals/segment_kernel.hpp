@@ -74,20 +74,22 @@ struct SegmentGroup {
   double* workspace = nullptr;                     ///< SegmentKernel::workspace_size numbers
   bool has_constants = false;  ///< the workspace holds the numbers that all sweeps of the plan share
 
-  // The value of a segment as a function of its first state X and of the multiplier ν of its last one (README.md):
+  // The cost of a segment as a function of the state X at its first node and the multiplier ν of its last node
+  // (README.md, "One interval"):
   // ½XᵀPX + pᵀX + νᵀ(ΦᵀX + γ) - ½νᵀΓν. State x (X, 1, ν) holds P, p, Φ; ν x (1, ν) holds γ, Γ.
   double* value = nullptr;
   double* reachability = nullptr;
 
   double* state = nullptr;       ///< forward: X at the first node
   double* multiplier = nullptr;  ///< forward: ν
-  /// The lanes are eight instances of a program: entry e of lane l of every array, and of every step, stands at
-  /// e * lane_count + l. All have `steps` intervals from 0 on. A lane whose pivots fail stops no other.
+  /// True if the lanes are eight instances of a program and not eight segments of one. Entry e of lane l of every array
+  /// is then at e * lane_count + l, and every lane has `steps` intervals, from 0 on. A lane whose pivots fail does not
+  /// stop the others.
   bool is_interleaved = false;
   std::array<double, lane_count> lane_pivots_hold{};     ///< of interleaved lanes: 1, or -1 where one did not
   std::array<double, lane_count> lane_smallest_ratio{};  ///< of interleaved lanes
 
-  FreePivots pivots = FreePivots::near_zero;  ///< in the last two cases the sweep ended early and left no value
+  FreePivots pivots = FreePivots::near_zero;  ///< after `too_many_negative` and `near_zero` there is no value
   std::array<int, lane_count> negative{};     ///< how many pivots of each segment are negative, if `some_negative`
   double smallest_ratio = 0.0;                ///< smallest pivot of the equalities, relative to the usual one
 };

@@ -41,13 +41,13 @@ class TerminalWeights {
   static constexpr double smallest_curvature = 1e-12;
   /// The diagonal entries of unknowns that the order of elimination leaves free.
   [[nodiscard]] std::vector<Diagonal> free_diagonals() const;
-  /// Takes, after a failure, the next larger multiple, after the largest the smallest; it stays if it succeeds. False
-  /// if none is left for this matrix. The largest is always among those that were tried.
+  /// Chooses the multiple to try after a failure: the next larger one, and after the largest the smallest. A multiple
+  /// that succeeds stays in use. Returns false if all multiples, the largest among them, have failed for this matrix.
   [[nodiscard]] bool next_multiple();
-  /// Takes the largest multiple, which stays; false if it was taken already.
+  /// Chooses the largest multiple, which stays in use; false if it was in use already.
   [[nodiscard]] bool take_largest();
-  /// Begins with the multiple that is neither small nor the largest. For a segment that is the whole horizon: nothing
-  /// is joined, so fewer of the digits that a large weight takes from the reachability are missed.
+  /// Begins with the middle multiple, which suits a segment that is the whole horizon: it is joined to no other segment,
+  /// so the digits of the reachability that a larger weight cancels matter less.
   void prefer_middle() noexcept;
   /// The next matrix begins with a larger multiple, unless this one is the middle one or larger.
   void raise() noexcept;

@@ -29,12 +29,13 @@ class BatchSource {
   BatchSource(BatchSource&&) = delete;
   BatchSource& operator=(BatchSource&&) = delete;
 
-  /// While no thread works; false if there are no more instances.
+  /// Begins the next generation of instances; false if there are no more. It is called while no thread hands out,
+  /// solves or takes instances.
   [[nodiscard]] virtual bool begin_generation() = 0;
-  /// Describes the next instance, in the order of their numbers; false if the generation has no more. One
-  /// thread at a time does this or `fill`.
+  /// Describes the next instance, in the order of their numbers; false if the generation has no more. Only one thread
+  /// at a time is inside `hand_out` or `fill`.
   [[nodiscard]] virtual bool hand_out(Assignment& assignment) = 0;
-  /// The slow part, which changes nothing that threads share, so that all of them do it at once.
+  /// The slow part of the description. It changes no data that threads share, so all threads may search at once.
   virtual void search(Assignment& /*assignment*/) const {}
   /// Completes the work of `hand_out`, in any order.
   virtual void fill(Assignment& /*assignment*/) {}

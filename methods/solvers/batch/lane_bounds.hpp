@@ -56,16 +56,16 @@ struct LaneBound {
   }
 };
 
-/// The bounds of eight barrier problems side by side. Unknowns and, after them, the slacks of inequalities make one
-/// vector, the primal one; z are the multipliers of the bounds, one vector. All instances of a batch have the same
-/// bounds, except entries whose two bounds are equal, which have none here.
+/// The bounds of eight barrier problems side by side. The primal vector has the unknowns, followed by the slacks of the
+/// inequalities; the vector z has the multipliers of the bounds. All instances of a batch share their bounds. Entries
+/// whose two bounds are equal are fixed: they may differ between instances, and have no bounds here.
 class LaneBounds : public interior_point::BoundFormulas<LaneBound> {
  public:
   /// `inequalities`: the constraints that have slacks, in the order of these.
   LaneBounds(const NonlinearProgram& program, const std::vector<Eigen::Index>& inequalities);
 
-  /// Moves a point of one lane away from its bounds, by the share `push` of their size, at most of their distance: the
-  /// entries `begin` .. `end` - 1.
+  /// Moves the entries `begin` .. `end` - 1 of one lane's point away from their bounds: by `push` times the size of the
+  /// bound, or `push` times the distance between both bounds if that is less.
   void push_inside(std::size_t lane, double push, Eigen::Index begin, Eigen::Index end, LaneVector& primal) const;
   /// -Σ ln d
   [[nodiscard]] OfLanes barrier(const LaneVector& primal) const;

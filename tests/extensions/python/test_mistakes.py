@@ -2,6 +2,12 @@
 
 import _thread
 import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
 import threading
 import time
 import traceback
@@ -16,6 +22,21 @@ from pendulum import PendulumSwingUp
 
 def variant(**members):
     return type("PendulumSwingUp", (PendulumSwingUp,), members)
+
+
+class Builds(unittest.TestCase):
+    def test_python_files_of_another_build(self):
+        package = pathlib.Path(db.__file__).parent
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(package, f"{folder}/dmocbench")
+            run = [sys.executable, "-c", "import dmocbench"]
+            environment = {**os.environ, "PYTHONPATH": folder}
+            self.assertEqual(subprocess.run(run, env=environment, check=False).returncode, 0)
+            with open(f"{folder}/dmocbench/points.py", "a", encoding="utf-8") as file:
+                file.write("# changed\n")
+            answer = subprocess.run(run, env=environment, check=False, capture_output=True, text=True)
+            self.assertEqual(answer.returncode, 1)
+            self.assertIn("are from different builds", answer.stderr)
 
 
 class Mistakes(unittest.TestCase):

@@ -22,7 +22,19 @@
     print(db.solve(Pendulum(), method="dmoc", intervals=64))
 """
 
-from ._core import (  # noqa: F401
+import hashlib as _hashlib
+from pathlib import Path as _Path
+
+from . import _core
+
+# Python files and module of different builds would fail later, by an error far from its cause.
+_folder = _Path(__file__).parent
+_sums = "".join(_hashlib.sha256(file.read_bytes()).hexdigest() for file in sorted(_folder.glob("*.py")))
+if _hashlib.sha256(_sums.encode()).hexdigest() != _core.tag_of_python_code:
+    raise ImportError(f"the Python files in {_folder} and the module {_core.__file__} are from different builds; build "
+                      "dmocbench anew, or install both from one build")
+
+from ._core import (  # noqa: E402, F401
     Error,
     Expression,
     Spline,
@@ -52,8 +64,8 @@ from ._core import (  # noqa: F401
     tan,
     tanh,
 )
-from .experiments import Results, Table, convergence, load_library, read_table, register, run  # noqa: F401
-from .problem import (  # noqa: F401
+from .experiments import Results, Table, convergence, load_library, read_table, register, run  # noqa: E402, F401
+from .problem import (  # noqa: E402, F401
     Problem,
     at_rest,
     between,
@@ -66,4 +78,4 @@ from .problem import (  # noqa: F401
     state,
     unknown,
 )
-from .solving import Batch, Solution, problem, solve, solve_batch  # noqa: F401
+from .solving import Batch, Solution, problem, solve, solve_batch  # noqa: E402, F401

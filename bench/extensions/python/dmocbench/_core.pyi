@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+tag_of_python_code: str
+
 class Error(Exception): ...
 
 class Expression:

@@ -119,7 +119,8 @@ class QuadraticIterate {
 
   void make_superbasic(Eigen::Index column) { sets_.make_superbasic(column); }
   void drop_superbasic(Eigen::Index place) { sets_.drop_superbasic(place); }
-  /// `entering` takes the basic place at `position`; `solved` = B⁻¹ (its column). Throws `Breakdown`.
+  /// Replaces the basic column at `position` by the column `entering`; `solved` is B⁻¹ times that column. Throws
+  /// `Breakdown` if the new basis is singular.
   void replace_basic(Eigen::Index position, Eigen::Index entering, const Eigen::VectorXd& solved);
 
   /// Chooses a well-conditioned basis among the basic and superbasic columns; the point stays. Throws `Breakdown`.
