@@ -47,6 +47,16 @@ for (const link of document.querySelectorAll("a.small")) {
   link.title = name;
 }
 
+// --- On narrow screens figures scroll sideways, by keys too.
+const is_narrow = matchMedia("(max-width: 40rem)");
+function let_scroll(figure) {
+  if (is_narrow.matches) figure.tabIndex = 0;
+  else figure.removeAttribute("tabindex");
+}
+function let_all_scroll() { for (const figure of document.querySelectorAll("figure:not(.motion)")) let_scroll(figure); }
+is_narrow.addEventListener("change", let_all_scroll);
+let_all_scroll();
+
 // --- A claim that is opened shows its figures in place.
 function show_figures(claim) {
   if (claim.dataset.shown) return;
@@ -56,6 +66,7 @@ function show_figures(claim) {
     if (!drawn) continue;
     const figure = document.createElement("figure");
     figure.append(drawn.cloneNode(true));
+    let_scroll(figure);
     claim.append(figure);
   }
 }

@@ -46,8 +46,8 @@ class TerminalWeights {
   [[nodiscard]] bool next_multiple();
   /// Chooses the largest multiple, which stays in use; false if it was in use already.
   [[nodiscard]] bool take_largest();
-  /// Begins with the middle multiple, which suits a segment that is the whole horizon: it is joined to no other segment,
-  /// so the digits of the reachability that a larger weight cancels matter less.
+  /// Begins with the middle multiple, which suits a segment that is the whole horizon: it is joined to no other
+  /// segment, so the digits of the reachability that a larger weight cancels matter less.
   void prefer_middle() noexcept;
   /// The next matrix begins with a larger multiple, unless this one is the middle one or larger.
   void raise() noexcept;
