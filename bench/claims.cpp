@@ -26,6 +26,7 @@ int judge_all(CommandLine& line) {
   std::vector<std::string> required;
   line.option("--out", out, "the results folder");
   line.list("--require", required, "claims that must be reproduced; exit code 1 otherwise");
+  line.exit_code_1("a claim of --require is not reproduced");
   line.parse();
   const ResultTables tables = ResultTables::read(out);
   std::vector<JudgedClaim> claims = judge_claims(tables);

@@ -239,6 +239,7 @@ int print_all(CommandLine& line) {
   line.option("--names", kind,
               "only names, one per line: of problem, method, tableau, solver, derivatives or integrator");
   line.example("--problem cart_pole");
+  line.exit_code_1("");
   parse_with_libraries(line);
   if (!kind.empty()) return print_names(kind);
   if (as_gnuplot) return print_families();

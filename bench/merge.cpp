@@ -24,6 +24,7 @@ int merge(CommandLine& line) {
   line.option("--start", options.start, "the start file of the parts, if they used one");
   line.option("--option", options.passed_on, "the same --option that the parts were given; may be repeated");
   add_library_option(line, options.libraries);
+  line.exit_code_1("as for the experiment");
   line.parse();
   require_name(options.name, options.out);
   options.folders.assign(folders.begin(), folders.end());

@@ -100,7 +100,7 @@ int write_problem(CommandLine& line) {
   std::string name;
   line.option("NAME", name, "of the problem, as pendulum_swing_up: also of its header and of its library");
   line.example("pendulum_swing_up");
-  line.exit_code_1("(unused)");
+  line.exit_code_1("");
   line.parse();
   require_name(name);
   const std::array files{std::pair(name + ".hpp", with(header, "CLASS", in_camel_case(name))),

@@ -35,6 +35,7 @@ int write_report(CommandLine& line) {
   line.option("--from", from, "the results folder; default: results");
   line.option("--compare", compared, "two results folders, A B: compare them");
   line.option("--to", to, "the page; default: report.html in the results folder, or comparison.html");
+  line.exit_code_1("");
   parse_with_libraries(line);
   if (!compared.empty() && !from.empty()) throw Error("--from and --compare exclude each other; leave one out");
   if (!compared.empty()) return write_comparison(compared, to);

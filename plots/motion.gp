@@ -41,7 +41,7 @@ do for [described in motions] {
   by_whom = words(members) > 1 ? "" : " by ".method_label(methods).", N = ".counts
   # Why the solve failed, whose last iterate is drawn with open symbols; empty if it did not.
   status = entry(described, "status")
-  failure = status eq "solved" || status eq "solved__control_not_determined" || status eq "too_coarse"\
+  failure = status eq "" || status eq "solved" || status eq "solved__control_not_determined" || status eq "too_coarse"\
       || status eq "violates_between_stages" ? "" : "not solved: ".system("echo '".status."' | tr '_' ' '")
   drawing = plots."/pictures/".problem.".gp"
   if (words(members) > 1 || strlen(failure) > 0 || system("test -f '".drawing."' && echo 1") eq "") {

@@ -1,7 +1,7 @@
 # Lists the figures of motions that the metadata of runs describe, one word each:
 #   figure=NAME,problem=PROBLEM,status=STATUS,members=X+Y,methods=dmoc+tangent,intervals=64+64
 # X is the motion in X_nodes.csv. Answers for one problem in one run are members of one figure; the last iterate of a solve that
-# failed has a figure of its own.
+# failed has a figure of its own. Metadata of version 0.1.0 have no status.
 #   awk -f motions.awk FOLDER/*.json
 function value(line) {
   sub(/^[^:]*: *"?/, "", line)
@@ -9,21 +9,25 @@ function value(line) {
   gsub(/[^A-Za-z0-9_.-]/, "_", line)
   return line
 }
-function exists(file,   line) { return (getline line < file) >= 0 }
-function is_answer(status) { return status ~ /^(solved|solved__control_not_determined|too_coarse|violates_between_stages)$/ }
+function exists(file,   line, found) {
+  found = (getline line < file) >= 0
+  close(file)
+  return found
+}
+function is_answer(status) { return status == "" || status ~ /^(solved|solved__control_not_determined|too_coarse|violates_between_stages)$/ }
 FNR == 1 {
   folder = run = FILENAME
   sub(/[^\/]*$/, "", folder)
   sub(/.*\//, "", run)
   sub(/\.json$/, "", run)
 }
-/^      "nodes": / { name = value($0); sub(/_nodes\.csv$/, "", name) }
+/^      "nodes": / { status = ""; name = value($0); sub(/_nodes\.csv$/, "", name) }
 /^      "problem": / { problem = value($0) }
 /^      "settings": / { settings = value($0) }
 /^      "method": / { method = value($0) }
 /^      "intervals": / { intervals = value($0) }
-/^      "status": / && name != "" {
-  status = value($0)
+/^      "status": / { status = value($0) }
+/^    \}/ && name != "" {
   group = is_answer(status) ? run "_" problem " " settings : name
   known = name in seen || name ~ /^library_motions/ || !exists(folder name "_picture.csv") || !exists(folder name "_stages.csv")
   if (!known) {

@@ -25,10 +25,10 @@ class Sweep final : public ExperimentOf<Instance> {
       : ExperimentOf(
             {.name = "sweep",
              .description =
-                 "Solves a problem with other values of its parameters and end states, a row for each: grids, "
-                 "several of them as their product, or random samples. Instances are independent: all start from one "
-                 "motion of the unchanged problem (--start common), or each from its own guess. An instance that is "
-                 "not solved, or cannot be, keeps its row.",
+                 "Solves a problem for many values of its parameters and end states, one row per instance. The values "
+                 "are a grid, every combination of all --over, or random samples (--samples). All instances start from "
+                 "one motion of the unchanged problem (--start common), or each from its own guess. Instances that are "
+                 "not solved keep their rows.",
              .options = {.problems = {"two_link_manipulator"},
                          .methods = {"dmoc"},
                          .solvers = {"auto"},
@@ -41,18 +41,19 @@ class Sweep final : public ExperimentOf<Instance> {
 
   void add_options(CommandLine& line) override {
     line.option("--over", over_,
-                "NAME=LOWER:UPPER:COUNT, COUNT values of a parameter (`list --problem` shows them) or of an entry of "
-                "an end state (initial_q1, initial_v1, final_q1, final_v2, ...); repeated: every combination");
+                "NAME=LOWER:UPPER:COUNT: COUNT evenly spaced values of a parameter (`list --problem` shows them) or of "
+                "an entry of an end state (initial_q1, initial_v1, final_q1, final_v2, ...); may be repeated for every "
+                "combination");
     line.number("--samples", samples_, 0, most_instances,
-                "instances drawn at random, evenly from each NAME=LOWER:UPPER; 0: grids");
-    line.number("--seed", seed_, 0, 0xffffffffU, "of the samples; the same seed gives the same instances");
+                "number of instances drawn at random, uniformly from each NAME=LOWER:UPPER; 0: a grid");
+    line.number("--seed", seed_, 0, 0xffffffffU, "seed of the samples; the same seed gives the same instances");
   }
   [[nodiscard]] Columns<Instance> columns() const override {
     std::vector<std::string> names;
     for (const std::string& over : over_) names.push_back(over.substr(0, over.find('=')));
     const auto value = [](std::size_t i) { return [i](const Instance& instance) { return instance.values.at(i); }; };
     return Columns<Instance>{{"instance", "", "number of the instance", &Instance::number, in_key}} +
-           column_group<Instance>(names, "", "its value", value);
+           column_group<Instance>(names, "", "value of this quantity", value);
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const std::vector<SweptQuantity> quantities = read_instances();

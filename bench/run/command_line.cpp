@@ -185,10 +185,11 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
 
 std::string CommandLine::end_of_help() const {
   const std::string blank = footer_.empty() ? "" : "\n\n";
+  const std::string code_1 = meaning_of_1_.empty() ? "" : fmt::format(" 1 {};", meaning_of_1_);
   return fmt::format(
-      "{}{}Example:\n  {} {}\n\nExit codes: 0 done; 1 {}; 2 bad input, or a file cannot be read or written; 130 "
+      "{}{}Example:\n  {} {}\n\nExit codes: 0 done;{} 2 bad input, or a file cannot be read or written; 130 "
       "interrupted",
-      footer_, blank, app_.get_name(), example_, meaning_of_1_);
+      footer_, blank, app_.get_name(), example_, code_1);
 }
 
 std::vector<std::string> CommandLine::parse() {

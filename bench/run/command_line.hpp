@@ -45,7 +45,7 @@ class CommandLine {
   void footer(const std::string& text) { footer_ = text; }
   /// The options of a call that `--help` shows as an example; without one it shows the name of the program alone.
   void example(const std::string& options) { example_ = options; }
-  /// The meaning of exit code 1 in `--help`.
+  /// The meaning of exit code 1 in `--help`; empty for a program that does not return it.
   void exit_code_1(const std::string& meaning) { meaning_of_1_ = meaning; }
   /// The values are known from here on; the name of the program and all its arguments. Throws as `check_environment`.
   std::vector<std::string> parse();

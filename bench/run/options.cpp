@@ -252,8 +252,8 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
       "control points of galerkin per interval: Gauss points, 1 for a constant control, or with --controls shared "
       "Lobatto points, for a continuous control; default: s");
   line.list("--integrator", options.integrators,
-            "of shooting: rk4, midpoint, dmoc (its own map as a step); default: rk4");
-  line.list("--substeps", options.substeps, "steps of the integrator per interval, of shooting; default: 1");
+            "integrators of shooting: rk4, midpoint, dmoc (a step of DMOC); default: rk4");
+  line.list("--substeps", options.substeps, "steps of the integrator of shooting per interval; default: 1");
   line.group("Grid");
   line.option("--intervals", options.intervals,
               "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed");
@@ -269,7 +269,7 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.group("Solver");
   line.list("--solver", options.solvers, "solvers, as `list` names them");
   line.list("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them");
-  line.option("--tolerance", options.tolerance, "for the KKT residual of the scaled program");
+  line.option("--tolerance", options.tolerance, "tolerance for the KKT residual of the scaled program");
   line.option("--iterations", options.most_iterations, "largest number of iterations of a solver");
   line.number("--seconds", options.most_seconds, 0.0, 1e6, "time limit of a solve; 0: no limit");
   line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
@@ -283,7 +283,7 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
 
 void add_jobs_option(CommandLine& line, ExperimentOptions& options) {
   line.number("--jobs", options.jobs, 1, 256,
-              "problems, in large batches also methods, worked on at the same time, each in its own process");
+              "number of processes; each solves one problem at a time, in large batches one method of it");
 }
 
 void add_tolerances_option(CommandLine& line, ExperimentOptions& options) {
@@ -292,8 +292,8 @@ void add_tolerances_option(CommandLine& line, ExperimentOptions& options) {
 
 void add_batch_option(CommandLine& line, ExperimentOptions& options) {
   line.flag("--batch,!--no-batch", options.batch,
-            "solves by interior_point that differ in start, parameters or ends side by side, without times; not with "
-            "--seconds, --option, --verbose or --repeats");
+            "solve cases of interior_point that differ only in start, parameters or ends eight at a time, without "
+            "times; not with --seconds, --option, --verbose or --repeats");
 }
 
 void add_part_options(CommandLine& line, ExperimentOptions& options) {

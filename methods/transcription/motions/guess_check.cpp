@@ -88,10 +88,13 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
     magnitudes.largest_configuration = std::max(magnitudes.largest_configuration, q.lpNorm<Eigen::Infinity>());
     magnitudes.largest_mass = std::max(magnitudes.largest_mass, mass.lpNorm<Eigen::Infinity>());
     if (i >= count) continue;  // the ends are only measured
-    const std::string name = nan_in(values, traced);
-    if (!name.empty()) throw Error(place_of(times[i], problem, grid) + name + " is not a number");
-    const std::string undefined = check.undefined_at(points[static_cast<std::size_t>(i)], times[i]);
-    if (!undefined.empty()) throw Error(place_of(times[i], problem, grid) + undefined + " is not a number");
+    std::string undefined = nan_in(values, traced);
+    if (undefined.empty()) undefined = check.undefined_at(points[static_cast<std::size_t>(i)], times[i]);
+    if (!undefined.empty()) {
+      throw Error(place_of(times[i], problem, grid) + undefined +
+                  " is not a number; give a guess that keeps away from the singularity, and bound the coordinates away "
+                  "from it");
+    }
     if (constraints) {
       constraints->evaluate(q);
       if (!is_invertible(saddle_matrix(mass, constraints->jacobian()))) {
