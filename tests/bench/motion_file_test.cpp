@@ -9,6 +9,7 @@
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/wider_problems.hpp"
 
 namespace dmocbench {
 namespace {
@@ -106,6 +107,20 @@ TEST_F(MotionFile, IsRefusedWhereItIsNotAsItsRunWroteIt) {
   EXPECT_NO_THROW(provide());
   write(nodes_text, "t,u\n0.125,4\n0.375,2\n0.625,-2\n0.875,-5\n");
   expect_error_naming({"X_stages.csv", "X.json", "another name"}, [&] { provide(); });
+}
+
+TEST(QuantityTable, HasTheBoundsOfPathConstraintsAndOfTimesBetweenTheEnds) {
+  const Table forces = quantity_table(tests::TwoForces());
+  const Row& path = forces.rows().back();
+  EXPECT_EQ(path.text("kind"), "h");
+  EXPECT_EQ(path.text("lower"), "0");
+  EXPECT_EQ(path.text("upper"), "0");
+  std::vector<double> waypoint;
+  const Table waypoints = quantity_table(*make_problem("waypoints"));
+  for (const Row& row : waypoints.rows()) {
+    if (row.text("quantity") == "x" && !row.text("time").empty()) waypoint.push_back(row.needed("upper"));
+  }
+  EXPECT_EQ(waypoint, (std::vector{4.0, 6.0}));
 }
 
 }  // namespace
