@@ -22,6 +22,24 @@ struct End {
   ExpressionVector y;
 };
 
+/// Hidden constraints are formed with L_vv at rest. Throws `Error` if L_vv is another one in motion.
+void require_quadratic(const Problem& problem, const TracedProblem& traced) {
+  LegendreTransform legendre(traced);
+  const BoundaryState at = problem.initial_state();
+  const auto mass_at = [&](const Eigen::VectorXd& v) { return legendre.mass(at.q, v, 0.0, at.y); };
+  const Eigen::MatrixXd at_rest = mass_at(Eigen::VectorXd::Zero(at.q.size()));
+  for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+    // At the speeds of the guess, each coordinate with another one.
+    const Eigen::VectorXd speed = problem.guess(share * problem.horizon()).v.cwiseAbs().array() + 1.0;
+    const Eigen::VectorXd order = Eigen::VectorXd::LinSpaced(speed.size(), 0.5, 1.0);
+    const double change = (mass_at(share * speed.cwiseProduct(order)) - at_rest).lpNorm<Eigen::Infinity>();
+    if (change <= 1e-9 * at_rest.lpNorm<Eigen::Infinity>()) continue;
+    throw Error(problem.name() +
+                ": hamiltonian takes constraints g(q) = 0 only where L is quadratic in the velocity, and here L_vv "
+                "depends on it; take dmoc or tangent");
+  }
+}
+
 /// The components of an end that are released: independent columns of G, and of G L_vv⁻¹ where p is fixed.
 ReleasedComponents released(const Problem& problem, const TracedProblem& traced, const BoundaryState& state,
                             const EndBounds& end, double t, bool fixes_momentum, const char* name) {
@@ -70,6 +88,7 @@ EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeStat
   rules.last_clamped = is_clamped(bounds.last) && !moves;
   rules.holonomic = traced.holonomic_count();
   if (rules.holonomic == 0) return rules;
+  if (node_state == NodeState::momentum) require_quadratic(problem, traced);
   const BoundaryState first = problem.initial_state();
   const BoundaryState last = problem.final_state();
   if (!rules.first_clamped) {

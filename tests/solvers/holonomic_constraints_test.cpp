@@ -380,5 +380,39 @@ TEST(HolonomicConstraintsRefused, ByTableausThatAreNotOffered) {
       "constraints g(q) = 0 are not offered with --method multiple_shooting_rk4_1; take dmoc, hamiltonian or tangent");
 }
 
+/// A particle on a line whose inertia grows with its speed.
+class FasterIsHeavier final : public Problem {
+ public:
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override { return on_diagonal(q); }
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const Expression squared = x.v.dot(x.v);
+    return 0.5 * squared + 0.01 * squared * squared;
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return ExpressionVector{{x.u[0], 0.0}};
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return BoundaryState::at_rest(Eigen::Vector2d(0.0, 0.0));
+  }
+  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(Eigen::Vector2d(1.0, 1.0)); }
+  [[nodiscard]] double horizon() const override { return 1.0; }
+};
+
+TEST(HolonomicConstraintsRefused, ByHamiltonianCollocationWhereInertiaDependsOnTheVelocity) {
+  const FasterIsHeavier problem;
+  for (const Scheme& scheme : {Scheme{"hamiltonian", 1}, Scheme{"hamiltonian", 2, "lobatto"}}) {
+    EXPECT_EQ(
+        tests::sentence_of_error([&] { static_cast<void>(tests::transcribe(problem, scheme, Grid::uniform(8))); }),
+        "faster_is_heavier: hamiltonian takes constraints g(q) = 0 only where L is quadratic in the velocity, and "
+        "here L_vv depends on it; take dmoc or tangent");
+  }
+  for (const Scheme& scheme : {Scheme{"dmoc", 1}, Scheme{"tangent", 1}}) {
+    solved(problem, scheme, 16, guessed_motion(problem));  // fails where it is not confirmed
+  }
+}
+
 }  // namespace
 }  // namespace dmocbench
