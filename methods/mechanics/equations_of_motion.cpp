@@ -30,19 +30,30 @@ Eigen::VectorXd EquationsOfMotion::acceleration(const Eigen::Ref<const Eigen::Ve
                                                 const Eigen::Ref<const Eigen::VectorXd>& v,
                                                 const Eigen::Ref<const Eigen::VectorXd>& u, double t,
                                                 const Eigen::Ref<const Eigen::VectorXd>& y) {
+  return solved(q, v, u, t, y).head(n_);
+}
+
+Eigen::VectorXd EquationsOfMotion::multipliers(const MotionPoint& point, double t) {
+  return solved(point.q, point.v, point.u, t, point.y).tail(c_);
+}
+
+Eigen::VectorXd EquationsOfMotion::solved(const Eigen::Ref<const Eigen::VectorXd>& q,
+                                          const Eigen::Ref<const Eigen::VectorXd>& v,
+                                          const Eigen::Ref<const Eigen::VectorXd>& u, double t,
+                                          const Eigen::Ref<const Eigen::VectorXd>& y) {
   function_.evaluate(q, v, u, t, values_, y);
   const auto mass = values_.segment(n_ + l_, n_ * n_).reshaped(n_, n_);
-  std::optional<Eigen::VectorXd> acceleration;
+  std::optional<Eigen::VectorXd> result;
   if (c_ == 0) {
-    acceleration = solve_if_invertible(mass, values_.head(n_));
+    result = solve_if_invertible(mass, values_.head(n_));
   } else {
     const auto holonomic = values_.tail(c_ + c_ * n_);
     Eigen::VectorXd right(n_ + c_);
     right << values_.head(n_), holonomic.head(c_);
-    acceleration = solve_if_invertible(saddle_matrix(mass, holonomic.tail(c_ * n_).reshaped(c_, n_)), right);
+    result = solve_if_invertible(saddle_matrix(mass, holonomic.tail(c_ * n_).reshaped(c_, n_)), right);
   }
-  if (!acceleration) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
-  return acceleration->head(n_);
+  if (!result) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+  return *result;
 }
 
 void EquationsOfMotion::write_rate(const std::vector<double>& state, const Eigen::Ref<const Eigen::VectorXd>& u,

@@ -24,6 +24,9 @@ class EquationsOfMotion {
                                              const Eigen::Ref<const Eigen::VectorXd>& u, double t,
                                              const Eigen::Ref<const Eigen::VectorXd>& y = Eigen::VectorXd());
 
+  /// λ of the holonomic constraints there, c entries: -Gᵀλ is the force that they need. Throws as `acceleration`.
+  [[nodiscard]] Eigen::VectorXd multipliers(const MotionPoint& point, double t);
+
   /// The same as a system of first order: the first n entries of `rate` become v, the next n become q̈, then l become ẏ,
   /// at the state whose first entries are (q, v, y). Entries after these are left alone, so that an integrator may
   /// carry more along. Throws as `acceleration`.
@@ -31,6 +34,12 @@ class EquationsOfMotion {
                   std::vector<double>& rate);
 
  private:
+  /// q̈, then λ.
+  [[nodiscard]] Eigen::VectorXd solved(const Eigen::Ref<const Eigen::VectorXd>& q,
+                                       const Eigen::Ref<const Eigen::VectorXd>& v,
+                                       const Eigen::Ref<const Eigen::VectorXd>& u, double t,
+                                       const Eigen::Ref<const Eigen::VectorXd>& y);
+
   Eigen::Index n_;
   Eigen::Index l_;
   Eigen::Index c_;

@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "methods/tables/table_file.hpp"
 
 namespace dmocbench {
@@ -167,6 +169,26 @@ Series priced(const std::string& prefix, const std::vector<std::string>& names, 
           "growth of the least cost per unit of the bound of " + of};
 }
 
+/// λ at the stages, whatever the method; without columns where there are none, or the equations of motion are singular.
+Series multipliers_at_stages(const Problem& problem, const Trajectory& trajectory) {
+  Series series{"lambda_", {}, {}, "multiplier of a constraint g(q) = 0, energy per unit of g"};
+  if (problem.constraints(input_vector(0, problem.configuration_size())).size() == 0) return series;
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
+  const TracedProblem traced(problem);
+  EquationsOfMotion motion(traced);
+  Eigen::MatrixXd values(trajectory.stage_times.size(), traced.holonomic_count());
+  try {
+    for (Eigen::Index row = 0; row < values.rows(); ++row) {
+      values.row(row) = motion.multipliers(trajectory.stage(row), trajectory.stage_times[row]).transpose();
+    }
+  } catch (const Error&) {
+    return series;
+  }
+  for (Eigen::Index a = 1; a <= values.cols(); ++a) series.names.push_back(fmt::format("{}", a));
+  series.values = values;
+  return series;
+}
+
 }  // namespace
 
 Table node_table(const Problem& problem, const Trajectory& trajectory) {
@@ -192,6 +214,7 @@ Table stage_table(const Problem& problem, const Trajectory& trajectory) {
   return series_table(
       "t", trajectory.stage_times,
       {{"", problem.control_names(), trajectory.stage_u, "control u"},
+       multipliers_at_stages(problem, trajectory),
        priced("price_", problem.control_names(), prices.stage_u, "u," + rate),
        priced("price_v_", problem.configuration_names(), prices.stage_v, "a velocity," + rate),
        priced("price_", constraint_names(problem, prices.path.cols()), prices.path, "a path constraint," + rate)});

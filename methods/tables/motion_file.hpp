@@ -17,8 +17,9 @@ namespace dmocbench {
 /// (`BoundPrices`). Units of the problem as solved.
 [[nodiscard]] Table node_table(const Problem& problem, const Trajectory& trajectory);
 
-/// The stages: `t` and the controls by their names; `price_NAME` of their bounds and of path constraints,
-/// `price_v_NAME` of velocities, where there are any.
+/// The stages: `t` and the controls by their names; with constraints g(q) = 0 `lambda_1` to `lambda_c`, the multipliers
+/// of the equations of motion at the stages, so that -Gᵀλ is the force of constraint; `price_NAME` of their bounds and
+/// of path constraints, `price_v_NAME` of velocities, where there are any.
 [[nodiscard]] Table stage_table(const Problem& problem, const Trajectory& trajectory);
 
 /// The data of a picture, at the nodes: `t` in the problem's unit of time, then the quantities of
