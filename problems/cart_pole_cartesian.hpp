@@ -56,7 +56,7 @@ class CartPoleCartesian final : public RedundantStatement<CartPole> {
     return ExpressionVector{{1.0, 1.0, 0.0}};
   }
 
-  [[nodiscard]] ExpressionVector lift(const ExpressionVector& theta) const override {
+  [[nodiscard]] ExpressionVector embedding(const ExpressionVector& theta) const override {
     const Expression l = parameter("length");
     return ExpressionVector{{theta[0], theta[0] + l * sin(theta[1]), -l * cos(theta[1])}};
   }

@@ -91,7 +91,7 @@ class LinkChainMaximal final : public RedundantStatement<LinkChain> {
     return generator;
   }
 
-  [[nodiscard]] ExpressionVector lift(const ExpressionVector& theta) const override {
+  [[nodiscard]] ExpressionVector embedding(const ExpressionVector& theta) const override {
     const Expression half = 0.5 * parameter("length");
     ExpressionVector q(3 * theta.size());
     Expression x = 0.0;  // the end of the rod before

@@ -32,14 +32,12 @@ class RedundantStatement : public Problem {
     return {state.q, state.v, point.u};
   }
 
-  /// Φ(θ), n entries.
-  [[nodiscard]] virtual ExpressionVector lift(const ExpressionVector& theta) const = 0;
   /// (Φ(θ), Φ'(θ) θ̇).
   [[nodiscard]] BoundaryState lifted(const BoundaryState& state) const {
     InputCounter inputs;
     const ExpressionVector theta = inputs.take(state.q.size());
     const ExpressionVector rates = inputs.take(state.v.size());
-    const ExpressionVector q = lift(theta);
+    const ExpressionVector q = embedding(theta);
     const ExpressionVector v = jacobian(q, theta) * rates;
     std::vector<Expression> outputs;
     append(outputs, q);

@@ -52,7 +52,7 @@ class SphericalPendulumCartesian : public RedundantStatement<SphericalPendulum> 
     return ExpressionVector{{-q[1], q[0], 0.0}};
   }
 
-  [[nodiscard]] ExpressionVector lift(const ExpressionVector& theta) const override {
+  [[nodiscard]] ExpressionVector embedding(const ExpressionVector& theta) const override {
     const Expression l = parameter("length");
     return ExpressionVector{{l * sin(theta[0]) * cos(theta[1]), l * sin(theta[0]) * sin(theta[1]), -l * cos(theta[0])}};
   }

@@ -59,7 +59,7 @@ class TwoLinkMaximal final : public RedundantStatement<TwoLinkManipulator> {
     return ExpressionVector{{-q[1], q[0], 1.0, -q[4], q[3], 1.0}};
   }
 
-  [[nodiscard]] ExpressionVector lift(const ExpressionVector& theta) const override {
+  [[nodiscard]] ExpressionVector embedding(const ExpressionVector& theta) const override {
     const Expression half_1 = 0.5 * parameter("length_1");
     const Expression half_2 = 0.5 * parameter("length_2");
     const Expression x = half_1 * cos(theta[0]);

@@ -17,6 +17,7 @@
 #include "bench/run/result_file.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/embedded_problem.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
@@ -225,6 +226,20 @@ std::vector<ChosenScheme> chosen_schemes(const ExperimentOptions& options) {
   return schemes;
 }
 
+/// A problem by each chosen form of its constraints; as it is if it has none.
+std::vector<std::shared_ptr<const Problem>> in_chosen_forms(const std::shared_ptr<const Problem>& problem,
+                                                            const ExperimentOptions& options) {
+  const std::vector<std::string> forms =
+      in_order("form of constraints", options.constraints, {"multipliers", "embedding"});
+  const bool has_constraints = TracedProblem(*problem).holonomic_count() > 0;
+  if (!has_constraints && forms.front() == "multipliers") return {problem};
+  std::vector<std::shared_ptr<const Problem>> result;
+  for (const std::string& form : forms) {
+    result.push_back(form == "multipliers" ? problem : std::make_shared<const EmbeddedProblem>(problem));
+  }
+  return result;
+}
+
 }  // namespace
 
 void add_options(CommandLine& line, ExperimentOptions& options) {
@@ -233,6 +248,10 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
   line.option("--form", options.form,
               "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)");
+  line.list(
+      "--constraints", options.constraints,
+      "how mechanisms keep g(q) = 0: multipliers, or embedding (the coordinates of Problem::embedding at the nodes; "
+      "with dmoc and hamiltonian by one Gauss stage; tables then call the problem NAME_embedded)");
   line.group("Method");
   line.list("--method", options.methods,
             fmt::format("methods: {}", fmt::join(all_families(), ", ")) +
@@ -387,7 +406,11 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const CostForm form = cost_form_named(options.form);
   std::vector<Case> cases;
   const bool all = options.problems == std::vector<std::string>{"all"};
+  std::vector<std::shared_ptr<const Problem>> problems;
   for (const auto& problem : selected_problems(options.problems, options.settings)) {
+    std::ranges::move(in_chosen_forms(problem, options), std::back_inserter(problems));
+  }
+  for (const auto& problem : problems) {
     // Of all problems those with holonomic constraints are left out where a method lacks them; alone they are refused.
     const TracedProblem traced(*problem);
     const auto is_offered = [&](const ChosenScheme& scheme) {

@@ -19,20 +19,21 @@ struct ExperimentOptions {
   std::vector<std::string> integrators = {};                  ///< of shooting; empty: rk4
   std::vector<int> substeps = {};                             ///< of shooting per interval; empty: 1
   std::vector<std::string> tableaus{"gauss"};                 ///< families of Butcher tableaus
-  std::string controls = "stage";                ///< stage, or shared: one control where two intervals meet
-  std::vector<int> stages{1};                    ///< numbers of stages s; of galerkin, degrees
-  std::vector<std::string> quadratures = {};     ///< of galerkin; empty: the tableaus
-  std::vector<int> points = {};                  ///< of its quadratures; empty: s, of Lobatto s + 1
-  std::vector<int> control_nodes = {};           ///< of galerkin; empty: s
-  std::vector<std::string> solvers{"ipopt"};     ///< names of solvers
-  std::vector<std::string> derivatives{"tape"};  ///< names of back ends
-  std::string intervals = {};                    ///< numbers of intervals, as on the command line
-  std::filesystem::path grid_file = {};          ///< relative node times; replaces `intervals`
-  std::vector<std::string> settings = {};        ///< "parameter=value"
-  std::vector<std::string> passed_on = {};       ///< "option=value" for the solver
-  std::string form = "bolza";                    ///< bolza or mayer
-  std::string start = "common";                  ///< common, guess or a file X_nodes.csv
-  double tolerance = SolverOptions{}.tolerance;  ///< for the KKT residual of the scaled program
+  std::string controls = "stage";                       ///< stage, or shared: one control where two intervals meet
+  std::vector<int> stages{1};                           ///< numbers of stages s; of galerkin, degrees
+  std::vector<std::string> quadratures = {};            ///< of galerkin; empty: the tableaus
+  std::vector<int> points = {};                         ///< of its quadratures; empty: s, of Lobatto s + 1
+  std::vector<int> control_nodes = {};                  ///< of galerkin; empty: s
+  std::vector<std::string> solvers{"ipopt"};            ///< names of solvers
+  std::vector<std::string> derivatives{"tape"};         ///< names of back ends
+  std::string intervals = {};                           ///< numbers of intervals, as on the command line
+  std::filesystem::path grid_file = {};                 ///< relative node times; replaces `intervals`
+  std::vector<std::string> settings = {};               ///< "parameter=value"
+  std::vector<std::string> passed_on = {};              ///< "option=value" for the solver
+  std::string form = "bolza";                           ///< bolza or mayer
+  std::vector<std::string> constraints{"multipliers"};  ///< of problems with g(q) = 0: multipliers, embedding
+  std::string start = "common";                         ///< common, guess or a file X_nodes.csv
+  double tolerance = SolverOptions{}.tolerance;         ///< for the KKT residual of the scaled program
   std::vector<std::string> tolerances = {};  ///< several, where an experiment compares them; empty: `tolerance` alone
   int most_iterations = SolverOptions{}.most_iterations;  ///< of a solver
   double most_seconds = 0.0;                              ///< of a solve, and of its set-up; 0 for no limit
@@ -69,8 +70,9 @@ void add_batch_option(CommandLine& line, ExperimentOptions& options);
 /// The options passed to the solver by name. Throws `Error` if one has no "=" or no name.
 [[nodiscard]] NamedOptions named_options(const ExperimentOptions& options);
 
-/// All cases in the order of rows: problem, method, tableau, stages, solver, derivatives, intervals ascending. Problems
-/// of equal name are the same object. Throws `Error` on anything unknown or out of range, before any file is written.
+/// All cases in the order of rows: problem (a mechanism by each chosen form of its constraints), method, tableau,
+/// stages, solver, derivatives, intervals ascending. Problems of equal name are the same object. Throws `Error` on
+/// anything unknown or out of range, before any file is written.
 [[nodiscard]] std::vector<Case> expand_cases(const ExperimentOptions& options);
 
 /// Problems with the settings applied, in the order of the registry; the name "all" stands for every one. A setting

@@ -63,6 +63,9 @@ class RestatedProblem final : public Problem {
     return base_->first_order_rates(x);
   }
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override { return base_->constraints(q); }
+  [[nodiscard]] ExpressionVector embedding(const ExpressionVector& theta) const override {
+    return base_->embedding(theta);
+  }
   [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override { return base_->integrands(x); }
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override {
     return base_->boundary_conditions(first, last);

@@ -18,6 +18,7 @@
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/polish.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/tables/motion_file.hpp"
@@ -220,7 +221,9 @@ class StartProvider::Search {
   [[nodiscard]] std::vector<Candidate> solved_from_guess() {
     std::vector<Candidate> candidates;
     const Motion guess = guessed_motion(*case_.problem);
+    const TracedProblem traced(*case_.problem);
     for (const std::string& method : paper_families()) {
+      if (!takes_constraints(*make_element(method), traced, make_tableau(case_.tableau, case_.stages))) continue;
       for (const long long intervals : guess_intervals) {
         if (must_stop()) return candidates;
         auto trajectory = solve_on(method, intervals, guess);

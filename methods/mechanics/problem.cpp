@@ -134,6 +134,8 @@ ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const {
 
 ExpressionVector Problem::constraints(const ExpressionVector& /*q*/) const { return {}; }
 
+ExpressionVector Problem::embedding(const ExpressionVector& /*theta*/) const { return {}; }
+
 ExpressionVector Problem::integrands(const ControlledState& /*x*/) const { return {}; }
 
 ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }

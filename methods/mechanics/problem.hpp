@@ -104,6 +104,9 @@ class Problem {
   /// there. G = ∂g/∂q needs full rank along the motion, and c < n; L_vv may then be singular as long as
   /// (L_vv, Gᵀ; G, 0) is not. Forces are evaluated off g = 0 too, and have to be smooth there. Default: none.
   [[nodiscard]] virtual ExpressionVector constraints(const ExpressionVector& q) const;
+  /// q = Φ(θ), n entries, of n - c coordinates θ with g(Φ(θ)) = 0: `EmbeddedProblem` takes it in the place of
+  /// multipliers. Default: none.
+  [[nodiscard]] virtual ExpressionVector embedding(const ExpressionVector& theta) const;
   /// c(q, q̇, u, t) of the integral constraints lower <= ∫₀ᵀ c dt <= upper, whose bounds are
   /// `ProblemBounds::integrals`: as many entries as there are. Every method integrates them as it does the cost.
   [[nodiscard]] virtual ExpressionVector integrands(const ControlledState& x) const;

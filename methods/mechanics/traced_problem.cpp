@@ -12,6 +12,7 @@
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/asked.hpp"
 #include "methods/mechanics/column_names.hpp"
+#include "methods/mechanics/embedded_problem.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 
 namespace dmocbench {
@@ -93,6 +94,10 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
   trace_holonomic(problem);
   trace_formulas(problem);
   trace_ends(problem);
+  if (const auto* embedded = dynamic_cast<const EmbeddedProblem*>(&problem); embedded != nullptr) {
+    embedding_ = Schedule(embedded->lifted(input_vector(0, n_)));
+    of_stages_ = std::make_shared<const TracedProblem>(embedded->redundant());
+  }
   parameters.require_unknowns_read();
   require_as_many_names(card.path_constraint_names, path_constraints_, problem, "path_constraint_names");
   require_as_many_names(card.boundary_condition_names, boundary_conditions_, problem, "boundary_condition_names");
@@ -188,7 +193,7 @@ void TracedProblem::trace_holonomic(const Problem& problem) {
 }
 
 void TracedProblem::require_no_constraints(const char* method) const {
-  if (holonomic_count_ == 0) return;
+  if (holonomic_count_ == 0 && !has_embedding()) return;
   throw Error(
       fmt::format("{} does not take constraints g(q) = 0 (Problem::constraints); state the problem in minimal "
                   "coordinates",
@@ -203,6 +208,11 @@ TracedProblem::HolonomicValues TracedProblem::holonomic_at(const ExpressionVecto
   values.jacobian = read.matrix(holonomic_count_, n_);
   values.curvature = read.vector(holonomic_count_);
   return values;
+}
+
+ExpressionVector TracedProblem::in_stages(const ExpressionVector& q) const {
+  if (!has_embedding()) return q;
+  return FormulaReader(embedding_, {&q}, {}).vector(of_stages_->configuration_size());
 }
 
 void TracedProblem::trace_ends(const Problem& problem) {

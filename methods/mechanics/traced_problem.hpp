@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -84,11 +85,17 @@ class TracedProblem {
   [[nodiscard]] Eigen::Index path_constraint_count() const noexcept { return path_constraints_; }
   /// How many entries c has.
   [[nodiscard]] Eigen::Index integral_count() const noexcept { return integrals_; }
-  /// Throws `Error` if there are holonomic constraints, which `method`, "a batch" or "the modified energy", does not
-  /// have.
+  /// Throws `Error` if there are holonomic constraints or an embedding in their place, which `method`, "a batch" or
+  /// "the modified energy", does not have.
   void require_no_constraints(const char* method) const;
   /// How many holonomic constraints there are: c.
   [[nodiscard]] Eigen::Index holonomic_count() const noexcept { return holonomic_count_; }
+  /// True of an `EmbeddedProblem`.
+  [[nodiscard]] bool has_embedding() const noexcept { return of_stages_ != nullptr; }
+  /// The formulas in the coordinates of stages: with an embedding the redundant statement's, otherwise these.
+  [[nodiscard]] const TracedProblem& of_stages() const noexcept { return of_stages_ ? *of_stages_ : *this; }
+  /// The configuration of a node in the coordinates of stages: with an embedding Φ(θ), otherwise q.
+  [[nodiscard]] ExpressionVector in_stages(const ExpressionVector& q) const;
   /// Whether entry i of h reads a control.
   [[nodiscard]] const std::vector<bool>& constraints_read_controls() const noexcept {
     return constraints_read_controls_;
@@ -161,6 +168,8 @@ class TracedProblem {
   Tape tape_;  // of the schedule
   Schedule holonomic_;
   Schedule ends_;
+  Schedule embedding_;
+  std::shared_ptr<const TracedProblem> of_stages_;
 };
 
 }  // namespace dmocbench

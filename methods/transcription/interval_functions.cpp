@@ -1,5 +1,7 @@
 #include "methods/transcription/interval_functions.hpp"
 
+#include "methods/error.hpp"
+
 namespace dmocbench {
 
 namespace {
@@ -41,7 +43,7 @@ ExpressionVector first_order_equations(const TracedProblem& problem, const Unkno
   if (problem.first_order_size() == 0) return {};
   std::vector<ExpressionVector> equations;
   for (std::size_t i = 0; i < trace.stages.size(); ++i) {
-    equations.emplace_back(unknowns.rates_y[i] - problem.at(trace.stages[i]).first_order_rates);
+    equations.emplace_back(unknowns.rates_y[i] - problem.of_stages().at(trace.stages[i]).first_order_rates);
   }
   return stacked(equations);
 }
@@ -51,7 +53,7 @@ ExpressionVector path_rows(const TracedProblem& problem, const std::vector<Contr
   std::vector<ExpressionVector> rows;
   for (const ControlledState& stage : stages) {
     for (const Eigen::Index i : bounded_velocities) rows.emplace_back(ExpressionVector::Constant(1, stage.v[i]));
-    if (problem.path_constraint_count() > 0) rows.push_back(problem.at(stage).path_constraints);
+    if (problem.path_constraint_count() > 0) rows.push_back(problem.of_stages().at(stage).path_constraints);
   }
   return stacked(rows);
 }
@@ -64,9 +66,16 @@ ExpressionVector sum_rows(const TracedProblem& problem, const Unknowns& unknowns
   auto integrals = added.tail(problem.integral_count());
   for (std::size_t i = 0; i < trace.stages.size() && integrals.size() > 0; ++i) {
     const Expression weight = unknowns.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
-    integrals += weight * problem.at(trace.stages[i]).integrands;
+    integrals += weight * problem.of_stages().at(trace.stages[i]).integrands;
   }
   return unknowns.right_sums - unknowns.left_sums - added;
+}
+
+/// The one stage in θ, where nodes carry θ: in the middle of the nodes.
+std::vector<ControlledState> stages_between_nodes(std::vector<ControlledState> stages, const Unknowns& unknowns) {
+  stages[0].q = 0.5 * (unknowns.left_q + unknowns.right_q);
+  stages[0].v = (unknowns.right_q - unknowns.left_q) / unknowns.h;
+  return stages;
 }
 
 Schedule stage_table(const std::vector<ControlledState>& stages, const std::vector<ExpressionVector>& rates_y) {
@@ -96,6 +105,9 @@ LocalFunctions trace_velocity_tie(const TracedProblem& traced, const Element& el
 
 IntervalFunctions trace_interval(const TracedProblem& traced, const Element& element, const Tableau& tableau,
                                  const IntervalRules& rules) {
+  if (traced.has_embedding() && !element.takes_embedding(tableau)) {
+    throw Error("the embedding of constraints is offered with dmoc and hamiltonian by --tableau gauss --stages 1 only");
+  }
   const Unknowns unknowns = make_unknowns(traced, element, tableau, rules);
   const TracedProblem problem = traced.with_open_inputs(unknowns.parameters);
   IntervalTrace trace = element.trace(problem, tableau, unknowns);
@@ -121,7 +133,8 @@ IntervalFunctions trace_interval(const TracedProblem& traced, const Element& ele
   functions.integrals = problem.integral_count();
   functions.multipliers = std::ssize(unknowns.multipliers) * problem.holonomic_count();
   functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum}));
-  functions.stages = stage_table(trace.stages, unknowns.rates_y);
+  const auto stages = problem.has_embedding() ? stages_between_nodes(trace.stages, unknowns) : trace.stages;
+  functions.stages = stage_table(stages, unknowns.rates_y);
   return functions;
 }
 

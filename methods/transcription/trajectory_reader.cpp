@@ -107,7 +107,8 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
     const IntervalFunctions& functions = transcription.functions();
     const bool has_stages = functions.has_stage_unknowns && functions.rates.has_times_of(trajectory.tableau) &&
                             functions.controls.has_times_of(trajectory.tableau);
-    if (has_stages && functions.path_rows == 0 && functions.multipliers == 0) {
+    if (has_stages && functions.path_rows == 0 && functions.multipliers == 0 &&
+        !transcription.traced_problem().has_embedding()) {
       StageCostates stages = stage_costates(transcription, multipliers, trajectory);
       trajectory.stage_psi_q = std::move(stages.psi_q);
       trajectory.stage_psi_p = std::move(stages.psi_p);

@@ -27,7 +27,7 @@ TYPED_TEST_SUITE(RedundantStatements, Statements);
 template <class Redundant>
 std::vector<std::pair<Expression, Expression>> formulas(const Redundant& problem, const ControlledState& x) {
   const auto minimal = problem.minimal();
-  const ExpressionVector q = problem.lift(x.q);
+  const ExpressionVector q = problem.embedding(x.q);
   const ExpressionMatrix by_theta = jacobian(q, x.q);
   const ControlledState lifted{q, by_theta * x.v, x.u, x.t};
   std::vector<std::pair<Expression, Expression>> pairs;

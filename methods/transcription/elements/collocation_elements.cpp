@@ -2,6 +2,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/linear_solve.hpp"
+#include "methods/transcription/elements/dmoc_element.hpp"
 
 namespace dmocbench {
 
@@ -15,6 +16,16 @@ ExpressionVector hidden_constraint(const TracedProblem& problem, const State& at
       solve_symmetric(values.mass, p - values.momentum,
                       "hamiltonian cannot have constraints g(q) = 0 where L_vv is singular; take dmoc");
   return problem.holonomic_at(at.q, none).jacobian * velocity;
+}
+
+/// The same interval with the momenta of its nodes as unknowns.
+IntervalTrace with_momenta(IntervalTrace trace, const IntervalUnknowns& unknowns) {
+  trace.stage_equations =
+      stacked({unknowns.left_second - trace.left_momentum, unknowns.right_second - trace.right_momentum});
+  trace.left_rows = trace.right_rows = {};
+  trace.left_momentum = unknowns.left_second;
+  trace.right_momentum = unknowns.right_second;
+  return trace;
 }
 
 }  // namespace
@@ -31,6 +42,7 @@ Eigen::Index HamiltonianElement::multipliers(const Tableau& tableau) const {
 
 IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tableau& tableau,
                                         const IntervalUnknowns& unknowns) const {
+  if (problem.has_embedding()) return with_momenta(DmocElement().trace(problem, tableau, unknowns), unknowns);
   const Expression& h = unknowns.h;
   const auto rates_q = stage_rates(unknowns.left_q, unknowns.right_q, unknowns.rates_q, tableau.b, h);
   const std::vector<ExpressionVector>& multipliers = unknowns.multipliers;

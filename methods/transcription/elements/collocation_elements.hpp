@@ -16,13 +16,15 @@ namespace dmocbench {
 /// Holonomic constraints, by Gauss with one stage: p_k - (h/2) Gᵀ(q_k) λ⁺ and p_{k+1} + (h/2) Gᵀ(q_{k+1}) λ⁻ stand in
 /// the place of the momenta of the nodes. By Lobatto: the force -Gᵀ(Q_i) λ_i at every stage. Further equations: g = 0
 /// at Q_2 .. Q_s (Gauss: at q_{k+1}) and G H_p(q_{k+1}, p_{k+1}) = 0. L has to be quadratic in the velocity, L_vv needs
-/// nonzero leading minors.
+/// nonzero leading minors. With an embedding in their place (one Gauss stage) the equations are p_k = p_k⁻ and
+/// p_{k+1} = p_{k+1}⁺, DMOC's momenta.
 class HamiltonianElement final : public Element {
  public:
   [[nodiscard]] std::string name() const override { return "hamiltonian"; }
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] NodeState node_state() const override { return NodeState::momentum; }
   [[nodiscard]] Eigen::Index multipliers(const Tableau& tableau) const override;
+  [[nodiscard]] bool takes_embedding(const Tableau& tableau) const override { return tableau.stages() == 1; }
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const override;
 };

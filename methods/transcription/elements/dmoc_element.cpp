@@ -16,8 +16,10 @@ Eigen::Index DmocElement::multipliers(const Tableau& tableau) const {
 
 IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& tableau,
                                  const IntervalUnknowns& unknowns) const {
-  const auto rates = stage_rates(unknowns.left_q, unknowns.right_q, unknowns.rates_q, tableau.b, unknowns.h);
-  const auto configurations = stage_values(unknowns.left_q, rates, tableau.a, unknowns.h);
+  const ExpressionVector left = problem.in_stages(unknowns.left_q);
+  const ExpressionVector right = problem.in_stages(unknowns.right_q);
+  const auto rates = stage_rates(left, right, unknowns.rates_q, tableau.b, unknowns.h);
+  const auto configurations = stage_values(left, rates, tableau.a, unknowns.h);
   return lagrange_d_alembert(problem, tableau, unknowns, {configurations, rates, unknowns.controls}, tableau.b);
 }
 
@@ -34,7 +36,7 @@ IntervalTrace lagrange_d_alembert(const TracedProblem& problem, const Tableau& t
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const Expression time = unknowns.t + Expression(tableau.c[static_cast<Eigen::Index>(i)]) * h;
     trace.stages.push_back({configurations[i], rates[i], controls[i], time, unknowns.stage_y(i)});
-    values.push_back(problem.at(trace.stages.back()));
+    values.push_back(problem.of_stages().at(trace.stages.back()));
     pairs.push_back({{configurations[i], values[i].generalised_force}, {rates[i], values[i].momentum}});
     if (i == 0 || i >= unknowns.multipliers.size()) continue;
     pairs.back().push_back({configurations[i], constraint_force(problem, configurations[i], unknowns.multipliers[i])});

@@ -10,6 +10,8 @@ Eigen::Index Element::multipliers(const Tableau& /*tableau*/) const {
   throw Error("constraints g(q) = 0 are not offered with --method " + name() + "; take dmoc, hamiltonian or tangent");
 }
 
+bool Element::takes_embedding(const Tableau& /*tableau*/) const { return false; }
+
 IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem, const Element& element,
                                const Tableau& tableau) {
   const Eigen::Index n = problem.configuration_size();
@@ -38,6 +40,7 @@ IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& probl
 bool has_stages_at_nodes(const Tableau& tableau) { return tableau.c.minCoeff() == 0.0 && tableau.c.maxCoeff() == 1.0; }
 
 bool takes_constraints(const Element& element, const TracedProblem& problem, const Tableau& tableau) {
+  if (problem.has_embedding()) return element.takes_embedding(tableau);
   if (problem.holonomic_count() == 0) return true;
   try {
     return element.multipliers(tableau) > 0;

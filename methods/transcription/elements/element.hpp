@@ -47,13 +47,15 @@ struct IntervalUnknowns {
 
 /// The formulas of an element for one interval.
 struct IntervalTrace {
-  ExpressionVector left_rows;           ///< added to the equations of node k; n entries or none
-  ExpressionVector right_rows;          ///< added to the equations of node k + 1
-  ExpressionVector stage_equations;     ///< equations of this interval alone, each equal to 0
-  Expression cost;                      ///< h Σ b_i C(Q_i, Q̇_i, U_i)
-  std::vector<ControlledState> stages;  ///< (Q_i, Q̇_i, U_i, t_k + c_i h, Y_i); V_i for tangent-space collocation
-  ExpressionVector left_momentum;       ///< p_k seen from this interval, n entries
-  ExpressionVector right_momentum;      ///< p_{k+1} seen from this interval, n entries
+  ExpressionVector left_rows;        ///< added to the equations of node k; n entries or none
+  ExpressionVector right_rows;       ///< added to the equations of node k + 1
+  ExpressionVector stage_equations;  ///< equations of this interval alone, each equal to 0
+  Expression cost;                   ///< h Σ b_i C(Q_i, Q̇_i, U_i)
+  /// (Q_i, Q̇_i, U_i, t_k + c_i h, Y_i); V_i for tangent-space collocation. In the coordinates of
+  /// `TracedProblem::of_stages`.
+  std::vector<ControlledState> stages;
+  ExpressionVector left_momentum;   ///< p_k seen from this interval, n entries
+  ExpressionVector right_momentum;  ///< p_{k+1} seen from this interval, n entries
 };
 
 /// One interval of a direct transcription, for any Butcher tableau: the part that distinguishes methods.
@@ -115,6 +117,8 @@ class Element {
   /// How many multipliers each holonomic constraint has per interval: as many as its conditions among the stage
   /// equations. Throws `Error` if constraints are not offered with the tableau; default: with none.
   [[nodiscard]] virtual Eigen::Index multipliers(const Tableau& tableau) const;
+  /// Whether nodes may carry θ of an embedding q = Φ(θ) instead (`EmbeddedProblem`); default: no.
+  [[nodiscard]] virtual bool takes_embedding(const Tableau& tableau) const;
   /// The tableau at whose stages rates of q are unknowns, all but the last. Throws `Error` if the element cannot be
   /// used with this tableau.
   [[nodiscard]] virtual Tableau rates(const Tableau& tableau) const { return tableau; }
@@ -142,7 +146,8 @@ class Element {
 /// Whether a tableau has stages at both ends of an interval, as Lobatto's has.
 [[nodiscard]] bool has_stages_at_nodes(const Tableau& tableau);
 
-/// Whether a method has the holonomic constraints of a problem with a tableau; true of problems without.
+/// Whether a method has the holonomic constraints of a problem with a tableau, or takes its embedding; true of problems
+/// without.
 [[nodiscard]] bool takes_constraints(const Element& element, const TracedProblem& problem, const Tableau& tableau);
 
 // Formulas that the families share.
