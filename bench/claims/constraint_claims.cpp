@@ -1,4 +1,5 @@
 // Mechanisms in redundant coordinates: what DMOC and collocation keep there, and the costs of the minimal statements.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -96,6 +97,48 @@ Finding costs_with_constraints(const ResultTables& tables, const std::string& /*
   return found(agree, "relative difference of the optimal costs by three Lobatto stages: {}", fmt::join(words, ", "));
 }
 
+/// A statement of a problem on the grid of `row`, if it was solved.
+const Row& same_grid(const Selection& rows, const std::string& problem, const Row& row) {
+  const Selection same = rows.where("problem", problem).where("intervals", row.text("intervals"));
+  require(same.size() == 1, "forms_constrained.csv needs one solved row of {} with N = {}, and has {}", problem,
+          row.text("intervals"), same.size());
+  return same.front();
+}
+
+Finding embedding_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double rounding = 1e-10;
+  const Selection rows = tables.rows("forms_constrained").usable();
+  bool holds = true;
+  std::vector<std::string> words;
+  for (const auto& [redundant_name, minimal_name] : statements) {
+    const Selection redundant = rows.where("problem", redundant_name).sorted_by("intervals");
+    require(!redundant.empty(), "forms_constrained.csv has no solved row of {}", redundant_name);
+    double difference = 0.0;
+    for (const Row& row : redundant) {
+      const Row& embedded = same_grid(rows, std::string(redundant_name) + "_embedded", row);
+      difference = std::max(difference, std::abs(embedded.needed("objective") / row.needed("objective") - 1.0));
+      holds = holds && embedded.needed("free_variables") < row.needed("free_variables") &&
+              embedded.needed("constraints") < row.needed("constraints");
+    }
+    holds = holds && difference < rounding;
+    const Row& fine = redundant.back();
+    const Row& embedded = same_grid(rows, std::string(redundant_name) + "_embedded", fine);
+    const Row& minimal = same_grid(rows, minimal_name, fine);
+    const auto three = [&](const char* column, const char* format) {
+      return fmt::format("{}, {}, {}", fmt::format(fmt::runtime(format), fine.needed(column)),
+                         fmt::format(fmt::runtime(format), embedded.needed(column)),
+                         fmt::format(fmt::runtime(format), minimal.needed(column)));
+    };
+    words.push_back(fmt::format("{} {:.0e} (N = {}: unknowns {}; rows {}; iterations {}; condition {})", redundant_name,
+                                difference, fine.text("intervals"), three("free_variables", "{:.0f}"),
+                                three("constraints", "{:.0f}"), three("major_iterations", "{:.0f}"),
+                                three("condition", "{:.0e}")));
+  }
+  return found(holds,
+               "largest relative difference of the costs, then multipliers, embedding and minimal coordinates: {}",
+               fmt::join(words, "; "));
+}
+
 }  // namespace
 
 /// Holonomic constraints g(q) = 0 (DMOCC).
@@ -123,7 +166,15 @@ Claims constraint_claims() {
            .whose = Whose::extension,
            .states = "the optimal costs in redundant and in minimal coordinates agree to ten digits",
            .judge = costs_with_constraints,
-           .evidence = {"objective_constrained.csv"}}};
+           .evidence = {"objective_constrained.csv"}},
+          {.id = "embedding",
+           .problems = constrained,
+           .where = "section 1, DMOCC",
+           .whose = Whose::extension,
+           .states = "an embedding q = Φ(θ) at the nodes has the optimal costs of multipliers, with fewer unknowns and "
+                     "rows, by DMOC with one Gauss stage",
+           .judge = embedding_with_constraints,
+           .evidence = {"forms_constrained.csv", "figures/constraint_forms.svg"}}};
 }
 
 }  // namespace dmocbench

@@ -1,8 +1,10 @@
 // The optimal cost over the number of intervals: fig:twolink_obj a) of the paper.
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "bench/experiments/program_condition.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/tables/selection.hpp"
 
@@ -28,15 +30,35 @@ Table finest_costs(const Table& rows) {
   return costs;
 }
 
-class Objective final : public Experiment {
+struct Measured {
+  std::optional<double> condition;
+};
+
+class Objective final : public ExperimentOf<Measured> {
  public:
   Objective()
-      : Experiment({.name = "objective",
-                    .description = "The optimal cost of each method over the number of intervals.",
-                    .options = {.intervals = "16:1024"}}) {}
+      : ExperimentOf({.name = "objective",
+                      .description = "The optimal cost of each method over the number of intervals.",
+                      .options = {.intervals = "16:1024"}}) {}
+  [[nodiscard]] Columns<Measured> columns() const override {
+    return {{"condition", "", "of the KKT matrix at the optimum, rows and columns brought to one size; by --condition",
+             &Measured::condition}};
+  }
+  void add_options(CommandLine& line) override {
+    line.flag("--condition", measures_condition_,
+              "also the condition of the KKT matrix, a dense one; where no bound is active");
+  }
+  void measure(SolvedCase& solved, Measured& measured) override {
+    if (measures_condition_ && is_solved(solved.solution.status)) {
+      measured.condition = kkt_condition(*solved.program, solved.solution);
+    }
+  }
   void finish(Table& table, FurtherOutput& output) override {
     output.findings.show("costs", finest_costs(table), {}, output.prefix.string() + ".csv");
   }
+
+ private:
+  bool measures_condition_ = false;
 };
 
 int run(int argc, char** argv) { return run_experiment(Objective(), argc, argv); }

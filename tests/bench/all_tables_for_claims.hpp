@@ -241,6 +241,30 @@ inline Rows constrained_cost_rows() {
   return rows;
 }
 
+/// Four mechanisms by multipliers, by embedding and in minimal coordinates.
+inline Rows constraint_form_rows() {
+  Rows rows;
+  const auto add = [&](const std::string& problem, long long unknowns, const char* condition) {
+    Row row = solved_row("dmoc", 64);
+    row.set("problem", problem);
+    row.set("objective", 1.0);
+    row.set("free_variables", unknowns);
+    row.set("constraints", unknowns - 64);
+    row.set("major_iterations", 9LL);
+    row.set("condition", condition);
+    rows.push_back(row);
+  };
+  for (const char* problem : {"spherical_pendulum", "cart_pole", "two_link_manipulator", "link_chain"}) {
+    add(problem, 192, "1e4");
+  }
+  for (const std::string problem :
+       {"spherical_pendulum_cartesian", "cart_pole_cartesian", "two_link_maximal", "link_chain_maximal"}) {
+    add(problem, 320, "1e6");
+    add(problem + "_embedded", 192, "1e4");
+  }
+  return rows;
+}
+
 inline Rows symmetric_rows() {
   return rows_on_grids([](Row& row, bool /*tangent*/, double /*h*/) { row.set("costate_momentum_spread", 1e-13); });
 }
@@ -435,6 +459,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["equivalence_constrained_lobatto"] = constrained_rows("lobatto");
   rows["consistency_constrained"] = rows["consistency"];
   rows["objective_constrained"] = constrained_cost_rows();
+  rows["forms_constrained"] = constraint_form_rows();
   rows["convergence_indirect_jumps"] = jump_rows();
   rows["iterations_common_ratios"] = currency_rows();
   rows["coercivity"] = coercivity_rows();

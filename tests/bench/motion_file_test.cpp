@@ -6,6 +6,7 @@
 #include "bench/run/result_file.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/written_tables.hpp"
+#include "problems/cart_pole_cartesian.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -121,6 +122,22 @@ TEST(QuantityTable, HasTheBoundsOfPathConstraintsAndOfTimesBetweenTheEnds) {
     if (row.text("quantity") == "x" && !row.text("time").empty()) waypoint.push_back(row.needed("upper"));
   }
   EXPECT_EQ(waypoint, (std::vector{4.0, 6.0}));
+}
+
+TEST(StageTable, HasTheForceOfTheRodThatCarriesAHangingBob) {
+  const CartPoleCartesian problem;
+  const double length = problem.parameter("length");
+  Trajectory hanging;
+  hanging.tableau = gauss_tableau(1);
+  hanging.stage_times = Eigen::VectorXd::Constant(1, 0.5);
+  hanging.stage_q = Eigen::RowVector3d(0.0, 0.0, -length);
+  hanging.stage_v = Eigen::RowVector3d::Zero();
+  hanging.stage_u = Eigen::MatrixXd::Zero(1, 1);
+  const Table stages = stage_table(problem, hanging);
+  // -Gᵀλ = 2 l λ e_y balances the weight.
+  const double lambda = 0.5 * problem.parameter("bob_mass") * problem.parameter("gravity") / length;
+  EXPECT_NEAR(stages.rows().front().needed("lambda_1"), lambda, 1e-14 * lambda);
+  EXPECT_EQ(std::ranges::count(stage_table(CartPole(), hanging).columns(), "lambda_1"), 0);
 }
 
 }  // namespace

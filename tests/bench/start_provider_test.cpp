@@ -4,6 +4,8 @@
 
 #include "bench/run/process_pool.hpp"
 #include "methods/diagnostics/replay_error.hpp"
+#include "methods/mechanics/embedded_problem.hpp"
+#include "problems/spherical_pendulum_cartesian.hpp"
 #include "tests/robustness/chain_on_cart.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -64,6 +66,15 @@ TEST_F(StartProviders, FindTheCommonStartOfAnUnstableSystemThatAReplayOfItsHoriz
   ASSERT_TRUE(is_solved(solved.solution.status)) << solved.solution.message;
   EXPECT_LT(solved.accuracy->relative_jump, 1e-2);
   EXPECT_GT(replay_error(*chain.problem, *solved.trajectory).norm(), 1.0);
+}
+
+TEST_F(StartProviders, FindTheCommonStartByTheMethodsThatTakeAStatement) {
+  Case sphere = with("dmoc");
+  sphere.problem = std::make_shared<EmbeddedProblem>(std::make_shared<SphericalPendulumCartesian>());
+  StartProvider source = provider({});
+  const Start start = source.start_for(sphere);  // without tangent-space collocation, which takes no embedding
+  EXPECT_TRUE(start.note.empty()) << start.note;
+  EXPECT_TRUE(start.branch);
 }
 
 TEST_F(StartProviders, GiveUpWhenTheirTimeHasPassed) {
