@@ -3,7 +3,7 @@
 #   gnuplot -e "results='results'" plots/constraint_forms.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
-name = "forms_constrained"
+name = "objective_forms"
 eval require(name, "problem,method,tableau,stages,status,branch,intervals,condition,seconds,major_iterations")
 
 mechanisms = "spherical_pendulum_cartesian cart_pole_cartesian two_link_maximal link_chain_maximal"
@@ -16,8 +16,8 @@ do for [i = 1:words(mechanisms)] { if (strlen(distinct(name, "problem", statemen
 do for [kind in kinds] {
   eval begin_figure(kind, "constraint_forms", 120 + 230 * words(drawn))
   figure_title = title_text("Mechanisms by multipliers, by embedding and in minimal coordinates",\
-      "DMOC with one Gauss stage. ".timed_conditions(name).".",\
-      "Left: condition of the KKT matrix at the optimum, rows and columns brought to one size. Right: time of an iteration.")
+      "DMOC with one Gauss stage, interior point. ".number_of_solves(told(name, "repeats")).".",\
+      "Left: condition of the KKT matrix, rows and columns of one size. Right: time of an iteration.")
   eval panels(words(drawn), 2, 80, 15, 95, 90, 45)
   do for [place in drawn] {
     i = int(place)
@@ -26,7 +26,7 @@ do for [kind in kinds] {
       eval intervals_axis
       eval power_axis("y")
       set autoscale
-      set xrange [14:72]
+      set xrange [28:146]
       if (!last) { set xlabel ""; set format x "" }
       set ylabel (panel == 1 ? "condition" : "seconds per iteration") offset inwards
       if (panel == 1) { set title problem_label(word(minimal, i)) offset 0, -0.5 } else { unset title }

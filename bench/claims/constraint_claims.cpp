@@ -100,19 +100,19 @@ Finding costs_with_constraints(const ResultTables& tables, const std::string& /*
 /// A statement of a problem on the grid of `row`, if it was solved.
 const Row& same_grid(const Selection& rows, const std::string& problem, const Row& row) {
   const Selection same = rows.where("problem", problem).where("intervals", row.text("intervals"));
-  require(same.size() == 1, "forms_constrained.csv needs one solved row of {} with N = {}, and has {}", problem,
+  require(same.size() == 1, "objective_forms.csv needs one solved row of {} with N = {}, and has {}", problem,
           row.text("intervals"), same.size());
   return same.front();
 }
 
 Finding embedding_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
   constexpr double rounding = 1e-10;
-  const Selection rows = tables.rows("forms_constrained").usable();
+  const Selection rows = tables.rows("objective_forms").usable();
   bool holds = true;
   std::vector<std::string> words;
   for (const auto& [redundant_name, minimal_name] : statements) {
     const Selection redundant = rows.where("problem", redundant_name).sorted_by("intervals");
-    require(!redundant.empty(), "forms_constrained.csv has no solved row of {}", redundant_name);
+    require(!redundant.empty(), "objective_forms.csv has no solved row of {}", redundant_name);
     double difference = 0.0;
     for (const Row& row : redundant) {
       const Row& embedded = same_grid(rows, std::string(redundant_name) + "_embedded", row);
@@ -174,7 +174,7 @@ Claims constraint_claims() {
            .states = "an embedding q = Φ(θ) at the nodes has the optimal costs of multipliers, with fewer unknowns and "
                      "rows, by DMOC with one Gauss stage",
            .judge = embedding_with_constraints,
-           .evidence = {"forms_constrained.csv", "figures/constraint_forms.svg"}}};
+           .evidence = {"objective_forms.csv", "figures/constraint_forms.svg"}}};
 }
 
 }  // namespace dmocbench

@@ -459,7 +459,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["equivalence_constrained_lobatto"] = constrained_rows("lobatto");
   rows["consistency_constrained"] = rows["consistency"];
   rows["objective_constrained"] = constrained_cost_rows();
-  rows["forms_constrained"] = constraint_form_rows();
+  rows["objective_forms"] = constraint_form_rows();
   rows["convergence_indirect_jumps"] = jump_rows();
   rows["iterations_common_ratios"] = currency_rows();
   rows["coercivity"] = coercivity_rows();
