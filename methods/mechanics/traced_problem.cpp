@@ -194,10 +194,9 @@ void TracedProblem::trace_holonomic(const Problem& problem) {
 
 void TracedProblem::require_no_constraints(const char* method) const {
   if (holonomic_count_ == 0 && !has_embedding()) return;
-  throw Error(
-      fmt::format("{} does not take constraints g(q) = 0 (Problem::constraints); state the problem in minimal "
-                  "coordinates",
-                  method));
+  throw Error(fmt::format("{} does not take {} g(q) = 0 ({}); state the problem in minimal coordinates", method,
+                          has_embedding() ? "the embedding of constraints" : "constraints",
+                          has_embedding() ? "EmbeddedProblem" : "Problem::constraints"));
 }
 
 TracedProblem::HolonomicValues TracedProblem::holonomic_at(const ExpressionVector& q, const ExpressionVector& v) const {
