@@ -21,6 +21,7 @@ using Values = std::map<std::string, std::vector<std::string>>;
 /// What an option takes beyond its defaults and the names of `list`. No path leads out of the folder of a try.
 const Values& known_values() {
   static const Values values = {
+      {"--constraints", {"multipliers", "embedding", "multipliers,embedding"}},
       {"--controls", {"stage", "shared"}},
       {"--compare", {"results", "folder", "none", "file"}},
       {"--crash", {"none", "all", "boundary"}},
