@@ -18,6 +18,7 @@
 #include "problems/double_oscillator.hpp"
 #include "problems/eccentric_transfer.hpp"
 #include "problems/forced_oscillator.hpp"
+#include "problems/formation.hpp"
 #include "problems/goddard_rocket.hpp"
 #include "problems/hang_glider.hpp"
 #include "problems/hanging_chain.hpp"
@@ -102,6 +103,7 @@ Registry problems_of_the_suite() {
   registry.add<LinkChainMaximal>();
   registry.add<SatelliteDirectors>();
   registry.add<Waypoints>();
+  registry.add<Formation>();
   return registry;
 }
 
