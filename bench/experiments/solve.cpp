@@ -184,17 +184,26 @@ class Solve final : public ExperimentOf<Measured> {
   static void say_found(const SolvedCase& solved, Findings& findings) {
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& motion = *solved.trajectory;
+    const std::string label = solved.the_case.label();
     const std::vector<std::size_t> unknowns = problem.unknowns();
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
       const Parameter& parameter = problem.parameters()[unknowns[i]];
-      findings.say(fmt::format("{}: {} = {:.10g}{}{}", solved.the_case.label(), parameter.name,
-                               motion.unknowns[static_cast<Eigen::Index>(i)], parameter.unit.empty() ? "" : " ",
-                               parameter.unit));
+      const auto entry = static_cast<Eigen::Index>(i);
+      findings.say(fmt::format("{}: {} = {:.10g}{}{}{}", label, parameter.name, motion.unknowns[entry],
+                               parameter.unit.empty() ? "" : " ", parameter.unit,
+                               motion.has_costates() ? price_of("range", motion.prices.unknowns[entry]) : ""));
+    }
+    if (motion.has_costates() && problem.bounds().horizon.is_free()) {
+      findings.say(fmt::format("{}: T = {:.10g}{}", label, motion.node_times[motion.intervals()],
+                               price_of("bounds", motion.prices.horizon)));
     }
     for (Eigen::Index i = 0; i < motion.integral_prices.size(); ++i) {
-      findings.say(fmt::format("{}: integrands[{}]: the integral is {:.10g}, the price of its bound {:.6g}",
-                               solved.the_case.label(), i, motion.integrals[i], motion.integral_prices[i]));
+      findings.say(fmt::format("{}: integrands[{}]: the integral is {:.10g}{}", label, i, motion.integrals[i],
+                               price_of("bounds", motion.integral_prices[i])));
     }
+  }
+  static std::string price_of(const char* limits, double price) {
+    return fmt::format(", the price of its {} {:.6g}", limits, price);
   }
 
  private:

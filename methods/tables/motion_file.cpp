@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -162,6 +163,12 @@ std::vector<std::string> constraint_names(const Problem& problem, Eigen::Index c
   return names;
 }
 
+/// The path constraints as a function of a point.
+PointFunction path_function(const Problem& problem) {
+  return {problem.configuration_size(), problem.control_size(),
+          [&](const ControlledState& x) { return problem.path_constraints(x); }, problem.first_order_size()};
+}
+
 /// Prices of the bounds of these quantities; no columns where they have none.
 Series priced(const std::string& prefix, const std::vector<std::string>& names, const Eigen::MatrixXd& prices,
               const std::string& of) {
@@ -189,23 +196,40 @@ Series multipliers_at_stages(const Problem& problem, const Trajectory& trajector
   return series;
 }
 
+/// The constants of a motion and the prices of their bounds, in every row of a table: unknown parameters, integrals, T.
+std::vector<Series> constants(const Problem& problem, const Trajectory& trajectory) {
+  const auto repeated = [&](const Eigen::VectorXd& values) -> Eigen::MatrixXd {
+    return values.transpose().replicate(trajectory.node_times.size(), 1);
+  };
+  const BoundPrices& prices = trajectory.prices;
+  std::vector<std::string> integrals;
+  for (Eigen::Index i = 1; i <= trajectory.integrals.size(); ++i) integrals.push_back(fmt::format("integral_{}", i));
+  std::vector<Series> all{{"", unknown_names(problem), repeated(trajectory.unknowns), "unknown parameter"},
+                          priced("price_", unknown_names(problem), repeated(prices.unknowns), "an unknown parameter"),
+                          {"", integrals, repeated(trajectory.integrals), "integral over the motion"},
+                          priced("price_", integrals, repeated(trajectory.integral_prices), "an integral")};
+  if (trajectory.has_costates() && problem.bounds().horizon.is_free()) {
+    all.push_back(priced("price_", {"horizon"}, repeated(Eigen::VectorXd::Constant(1, prices.horizon)), "T"));
+  }
+  return all;
+}
+
 }  // namespace
 
 Table node_table(const Problem& problem, const Trajectory& trajectory) {
   const std::vector<std::string> names = problem.configuration_names();
-  const Eigen::MatrixXd unknowns = trajectory.unknowns.transpose().replicate(trajectory.node_times.size(), 1);
-  return series_table("t", trajectory.node_times,
-                      {{"", names, trajectory.q, "configuration q"},
-                       {"v_", names, trajectory.v, "its velocity"},
-                       {"p_", names, trajectory.p, "its momentum p = L_v"},
-                       {"psi_q_", names, trajectory.psi_q, "costate of q"},
-                       {"psi_p_", names, trajectory.psi_p, "costate of p"},
-                       {"", problem.first_order_names(), trajectory.y, "first-order state"},
-                       {"psi_", problem.first_order_names(), trajectory.psi_y, "costate of a first-order state"},
-                       {"", unknown_names(problem), unknowns, "unknown parameter"},
-                       priced("price_", names, trajectory.prices.q, "q"),
-                       priced("price_v_", names, trajectory.prices.v, "its velocity"),
-                       priced("price_", problem.first_order_names(), trajectory.prices.y, "a first-order state")});
+  std::vector<Series> all{{"", names, trajectory.q, "configuration q"},
+                          {"v_", names, trajectory.v, "its velocity"},
+                          {"p_", names, trajectory.p, "its momentum p = L_v"},
+                          {"psi_q_", names, trajectory.psi_q, "costate of q"},
+                          {"psi_p_", names, trajectory.psi_p, "costate of p"},
+                          {"", problem.first_order_names(), trajectory.y, "first-order state"},
+                          {"psi_", problem.first_order_names(), trajectory.psi_y, "costate of a first-order state"},
+                          priced("price_", names, trajectory.prices.q, "q"),
+                          priced("price_v_", names, trajectory.prices.v, "its velocity"),
+                          priced("price_", problem.first_order_names(), trajectory.prices.y, "a first-order state")};
+  std::ranges::move(constants(problem, trajectory), std::back_inserter(all));
+  return series_table("t", trajectory.node_times, all);
 }
 
 Table stage_table(const Problem& problem, const Trajectory& trajectory) {
@@ -251,9 +275,7 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
 
 Table constraint_table(const Problem& problem, const Trajectory& trajectory) {
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
-  PointFunction constraints(
-      problem.configuration_size(), problem.control_size(),
-      [&](const ControlledState& x) { return problem.path_constraints(x); }, problem.first_order_size());
+  PointFunction constraints = path_function(problem);
   const Eigen::Index count = constraints.output_count();
   if (count == 0) return {};
   Eigen::MatrixXd values(trajectory.node_times.size(), count);
@@ -307,10 +329,7 @@ Table quantity_table(const Problem& problem) {
   for (const InteriorBounds& at : bounds.interior)
     add("q", problem.configuration_names(), card.configuration_units, at.q, at.relative_time);
   add("u", problem.control_names(), card.control_units, bounds.u);
-  const PointFunction constraints(
-      problem.configuration_size(), problem.control_size(),
-      [&](const ControlledState& x) { return problem.path_constraints(x); }, problem.first_order_size());
-  const Eigen::Index count = constraints.output_count();
+  const Eigen::Index count = path_function(problem).output_count();
   add("h", constraint_names(problem, count), {}, bounds.of_path(count));
   return table;
 }

@@ -75,6 +75,42 @@ class Prices {
   Eigen::VectorXd gradient_;  // of ℓ
 };
 
+/// Whether bounds leave an end open.
+bool is_open(const Bounds& end) { return end.any() && !end.all_fixed(); }
+
+/// Tables of zeros for all that is bounded, of the right sizes.
+BoundPrices tables_for(const Transcription& program) {
+  const ProblemBounds& bounds = program.bounds();
+  const LayoutShape& shape = program.layout().shape();
+  const auto intervals = static_cast<Eigen::Index>(shape.intervals);
+  const Eigen::Index stages = intervals * shape.stages;
+  const auto at_node = [&](Bounds EndBounds::*end, Bounds InteriorBounds::*interior) {
+    return is_open(bounds.first.*end) || is_open(bounds.last.*end) ||
+           std::ranges::any_of(bounds.interior, [&](const InteriorBounds& at) { return (at.*interior).any(); });
+  };
+  const auto bounded_velocities = std::ssize(bounds.bounded_velocities());
+  BoundPrices tables;
+  if (bounds.q.any() || at_node(&EndBounds::q, &InteriorBounds::q)) {
+    tables.q.setZero(intervals + 1, shape.configuration_size);
+  }
+  if (at_node(&EndBounds::v, &InteriorBounds::v)) tables.v.setZero(intervals + 1, shape.configuration_size);
+  if (bounds.y.any() || at_node(&EndBounds::y, &InteriorBounds::y)) {
+    tables.y.setZero(intervals + 1, shape.first_order_size);
+  }
+  const bool has_controls_at_stages = program.functions().controls.has_times_of(program.tableau());
+  if (bounds.u.any() && has_controls_at_stages) tables.stage_u.setZero(stages, shape.control_size);
+  if (bounded_velocities > 0) tables.stage_v.setZero(stages, shape.configuration_size);
+  tables.path.setZero(stages, shape.path_rows / shape.stages - bounded_velocities);
+  tables.unknowns.setZero(shape.unknown_parameters);
+  return tables;
+}
+
+bool has_entries(const BoundPrices& tables) {
+  return tables.q.size() + tables.v.size() + tables.y.size() + tables.stage_v.size() + tables.stage_u.size() +
+             tables.path.size() + tables.unknowns.size() >
+         0;
+}
+
 /// Of bounds of q̇ at the ends and between them.
 void write_velocities(const Prices& prices, const Layout& layout, Eigen::MatrixXd& v) {
   const LayoutShape& shape = layout.shape();
@@ -90,43 +126,18 @@ void write_velocities(const Prices& prices, const Layout& layout, Eigen::MatrixX
   }
 }
 
-/// Whether bounds leave an end open.
-bool is_open(const Bounds& end) { return end.any() && !end.all_fixed(); }
-
-void write_nodes(const Prices& prices, const Layout& layout, const ProblemBounds& bounds, BoundPrices& result) {
-  const LayoutShape& shape = layout.shape();
-  const auto nodes = static_cast<Eigen::Index>(layout.intervals()) + 1;
-  const auto has_interior = [&](Bounds InteriorBounds::*part) {
-    return std::ranges::any_of(bounds.interior, [&](const InteriorBounds& at) { return (at.*part).any(); });
-  };
-  if (bounds.q.any() || has_interior(&InteriorBounds::q) || is_open(bounds.first.q) || is_open(bounds.last.q)) {
-    result.q.setZero(nodes, shape.configuration_size);
-    for (Eigen::Index i = 0; i < result.q.cols(); ++i) {
-      prices.write_nodes(layout.configuration_head(i), result.q.col(i));
-    }
-  }
-  if (has_interior(&InteriorBounds::v) || is_open(bounds.first.v) || is_open(bounds.last.v)) {
-    result.v.setZero(nodes, shape.configuration_size);
-    write_velocities(prices, layout, result.v);
-  }
-  if (!bounds.y.any() && !has_interior(&InteriorBounds::y) && !is_open(bounds.first.y) && !is_open(bounds.last.y))
-    return;
-  result.y.setZero(nodes, shape.first_order_size);
+void write_nodes(const Prices& prices, const Layout& layout, BoundPrices& result) {
+  for (Eigen::Index i = 0; i < result.q.cols(); ++i) prices.write_nodes(layout.configuration_head(i), result.q.col(i));
+  write_velocities(prices, layout, result.v);
   for (Eigen::Index i = 0; i < result.y.cols(); ++i) prices.write_nodes(layout.first_order_head(i), result.y.col(i));
 }
 
-void write_stages(const Prices& prices, const Layout& layout, const ProblemBounds& bounds, bool has_controls_at_stages,
+void write_stages(const Prices& prices, const Layout& layout, const std::vector<Eigen::Index>& velocities,
                   BoundPrices& result) {
-  const LayoutShape& shape = layout.shape();
-  const Eigen::Index s = shape.stages;
-  const auto intervals = static_cast<Eigen::Index>(layout.intervals());
-  const std::vector<Eigen::Index> velocities = bounds.bounded_velocities();
+  const Eigen::Index s = layout.stages();
   const auto bounded = std::ssize(velocities);
-  if (bounds.u.any() && has_controls_at_stages) result.stage_u.setZero(intervals * s, shape.control_size);
-  if (bounded > 0) result.stage_v.setZero(intervals * s, shape.configuration_size);
-  result.path.setZero(intervals * s, shape.path_rows / s - bounded);
   for (Eigen::Index stage = 0; stage < s; ++stage) {
-    const auto rows = Eigen::seqN(stage, intervals, s);
+    const auto rows = Eigen::seqN(stage, static_cast<Eigen::Index>(layout.intervals()), s);
     for (Eigen::Index i = 0; i < result.stage_u.cols(); ++i) result.stage_u(rows, i) = prices.of_control(stage, i);
     for (Eigen::Index i = 0; i < bounded; ++i) {
       result.stage_v(rows, velocities[static_cast<std::size_t>(i)]) = prices.of_path_row(stage, i);
@@ -141,11 +152,11 @@ void write_stages(const Prices& prices, const Layout& layout, const ProblemBound
 
 BoundPrices bound_prices(Transcription& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
   const Layout& layout = program.layout();
+  BoundPrices result = tables_for(program);
+  if (!has_entries(result) && !program.has_free_horizon()) return result;
   const Prices prices(program, primal, multipliers);
-  BoundPrices result;
-  write_nodes(prices, layout, program.bounds(), result);
-  write_stages(prices, layout, program.bounds(), program.functions().controls.has_times_of(program.tableau()), result);
-  result.unknowns.resize(layout.shape().unknown_parameters);
+  write_nodes(prices, layout, result);
+  write_stages(prices, layout, program.bounds().bounded_velocities(), result);
   for (Eigen::Index i = 0; i < result.unknowns.size(); ++i) {
     result.unknowns[i] = prices.of_unknown(layout.unknown_parameter(i));
   }

@@ -121,6 +121,14 @@ class MultiplierWriter {
     const auto head = static_cast<Eigen::Index>(layout_.sum_row_head(0));
     multipliers_.segment(head, static_cast<Eigen::Index>(layout_.intervals())).setConstant(value);
   }
+  /// So does that of every integral, at the price of its bound.
+  void write_integrals(const Eigen::VectorXd& prices) {
+    const LayoutShape& shape = layout_.shape();
+    for (Eigen::Index i = 0; i < prices.size(); ++i) {
+      const auto head = static_cast<Eigen::Index>(layout_.sum_row_head(shape.sums() - shape.integrals + i));
+      multipliers_.segment(head, static_cast<Eigen::Index>(layout_.intervals())).setConstant(prices[i]);
+    }
+  }
   /// The rows p - L_v(q, v) of the ends that have them: stationarity in p.
   void write_ties(const Eigen::VectorXd& first, const Eigen::VectorXd& last) {
     std::size_t row = 0;
@@ -214,6 +222,7 @@ Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& tra
     write_stage(sampled, at_point, family, row, times[k] + rates.c[i] * widths[k], s, widths[k] * rates.b[i], writer);
   }
   if (layout.shape().mayer) writer.write_costs(-1.0 / program.cost_scale());  // z is the scaled cost
+  if (trajectory.integral_prices.size() == layout.shape().integrals) writer.write_integrals(trajectory.integral_prices);
   if (family == NodeState::momentum) {
     writer.write_ties(sampled.at(0.0).psi_p, sampled.at(horizon).psi_p);
   }

@@ -8,7 +8,9 @@
 #include "bench/run/written_tables.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
+#include "tests/support/solving.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/wider_problems.hpp"
 
@@ -138,6 +140,66 @@ TEST(StageTable, HasTheForceOfTheRodThatCarriesAHangingBob) {
   const double lambda = 0.5 * problem.parameter("bob_mass") * problem.parameter("gravity") / length;
   EXPECT_NEAR(stages.rows().front().needed("lambda_1"), lambda, 1e-14 * lambda);
   EXPECT_EQ(std::ranges::count(stage_table(CartPole(), hanging).columns(), "lambda_1"), 0);
+}
+
+/// With an unknown, an integral, a free T, and a path constraint that reads a first-order state.
+class Loaded final : public tests::SmallProblem {
+ public:
+  Loaded()
+      : SmallProblem("loaded", with_charge(0.0), with_charge(1.0), 1.0, 1,
+                     {{"mass", 2.0, "kg", "", 0.1, 10.0, false, true}}) {}
+  [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"charge"}; }
+  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * varying("mass") * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+  [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
+    return one(varying("mass") * x.y[0]);
+  }
+  [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override { return one(x.q[0]); }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    bounds.path = Bounds::all(1, -3.0, 5.0);
+    bounds.integrals = Bounds::all(1, 0.0, 40.0);
+    bounds.horizon = {0.5, 2.0};
+    return bounds;
+  }
+
+ private:
+  static BoundaryState with_charge(double q) {
+    BoundaryState state = at(q, 0.0);
+    state.y = Eigen::VectorXd::Constant(1, q);
+    return state;
+  }
+};
+
+TEST(MotionTables, HaveConstantsTheirPricesAndBothBoundsOfPathConstraints) {
+  const Loaded problem;
+  const auto program = tests::transcribe(problem, {"dmoc", 2}, Grid::uniform(4));
+  const auto rows = static_cast<Eigen::Index>(program->constraint_count());
+  const Eigen::VectorXd start = sample(*program, guessed_motion(problem));
+  const Trajectory motion = read_trajectory(*program, start, Eigen::VectorXd::Ones(rows));
+  const Row node = node_table(problem, motion).rows().back();
+  EXPECT_EQ(node.number("mass"), 2.0);
+  EXPECT_EQ(node.number("price_mass"), motion.prices.unknowns[0]);
+  EXPECT_EQ(node.number("integral_1"), motion.integrals[0]);
+  EXPECT_EQ(node.number("price_integral_1"), motion.integral_prices[0]);
+  EXPECT_EQ(node.number("price_horizon"), motion.prices.horizon);
+  EXPECT_EQ(constraint_table(problem, motion).rows().back().number("h_1"), 2.0);  // mass times charge
+  const Row constraint = quantity_table(problem).rows().back();
+  EXPECT_EQ(constraint.number("lower"), -3.0);
+  EXPECT_EQ(constraint.number("upper"), 5.0);
+}
+
+TEST(MotionTables, HaveNoPricesWhereNothingIsBounded) {
+  const tests::DoubleIntegrator problem;
+  const auto program = tests::transcribe(problem, {"dmoc", 2}, Grid::uniform(4));
+  const auto rows = static_cast<Eigen::Index>(program->constraint_count());
+  const Eigen::VectorXd start = sample(*program, guessed_motion(problem));
+  const Trajectory motion = read_trajectory(*program, start, Eigen::VectorXd::Ones(rows));
+  for (const Table& table : {node_table(problem, motion), stage_table(problem, motion)}) {
+    for (const std::string& column : table.columns()) EXPECT_FALSE(column.starts_with("price_")) << column;
+  }
 }
 
 }  // namespace

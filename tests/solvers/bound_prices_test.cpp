@@ -1,4 +1,6 @@
 // What bounds cost: the prices of a motion against differences of re-solved optima.
+#include "methods/transcription/bound_prices.hpp"
+
 #include <cmath>
 #include <functional>
 #include <string>
@@ -32,10 +34,8 @@ class BoundPricesOf : public testing::TestWithParam<Scheme> {
   static constexpr Eigen::Index intervals = 12;
   static constexpr double step = 1e-3;
 
-  /// The double integrator on steps that differ, with bounds as `state` states them.
-  static Trajectory solved(const std::function<void(Statement&)>& state) {
-    const tests::DoubleIntegrator base;
-    const Restated problem(base, state);
+  /// A problem on steps that differ.
+  static Trajectory solved(const Problem& problem) {
     const auto program = tests::transcribe(problem, GetParam(), tests::graded_grid(intervals));
     SolverOptions options;
     options.tolerance = 1e-11;
@@ -44,10 +44,18 @@ class BoundPricesOf : public testing::TestWithParam<Scheme> {
     EXPECT_EQ(solution.status, Status::solved) << solution.message;
     return read_trajectory(*program, solution.primal, solution.multipliers);
   }
-  /// d least cost / d bound, of bounds that `state` states for the value of a number.
+  /// The double integrator with bounds as `state` states them.
+  static Trajectory solved(const std::function<void(Statement&)>& state) {
+    const tests::DoubleIntegrator base;
+    return solved(Restated(base, state));
+  }
+  /// d least cost / d bound.
+  static double slope(const std::function<Trajectory(double)>& solved_with, double at) {
+    return (solved_with(at + step).cost - solved_with(at - step).cost) / (2.0 * step);
+  }
+  /// The same of bounds that `state` states for the value of a number.
   static double slope(const std::function<void(Statement&, double)>& state, double at) {
-    const auto cost = [&](double value) { return solved([&](Statement& s) { state(s, value); }).cost; };
-    return (cost(at + step) - cost(at - step)) / (2.0 * step);
+    return slope([&](double value) { return solved([&](Statement& s) { state(s, value); }); }, at);
   }
   /// Σ h b_i price_i: the price of moving a bound all along.
   static double total(const Trajectory& motion, const Eigen::MatrixXd& prices) {
@@ -99,6 +107,36 @@ TEST_P(BoundPricesOf, ConfigurationsAtTheNodesAndAtFreeEnds) {
   expect_price(solved([&](Statement& s) { end(s, 0.8); }).prices.q(intervals, 0), slope(end, 0.8), 1.0);
   const auto rest = [](Statement& s, double most) { s.last.v = Bounds::all(1, -tests::infinity, most); };
   expect_price(solved([&](Statement& s) { rest(s, 0.5); }).prices.v(intervals, 0), slope(rest, 0.5), -1.0);
+}
+
+TEST_P(BoundPricesOf, RangesOfUnknownParameters) {
+  const auto at_most = [](double mass) { return solved(tests::UnknownMass(0.1, mass)); };
+  expect_price(at_most(0.3).prices.unknowns[0], slope(at_most, 0.3), -1.0);
+  const auto at_least = [](double mass) { return solved(tests::UnknownMass(mass, 10.0)); };
+  expect_price(at_least(0.6).prices.unknowns[0], slope(at_least, 0.6), 1.0);
+  EXPECT_NEAR(solved(tests::UnknownMass()).prices.unknowns[0], 0.0, 1e-7);
+}
+
+TEST_P(BoundPricesOf, TheHorizon) {
+  const auto longest = [](Statement& s, double most) { s.horizon = {0.5, most}; };
+  expect_price(solved([&](Statement& s) { longest(s, 1.1); }).prices.horizon, slope(longest, 1.1), -1.0);
+  const auto shortest = [](Statement& s, double least) {
+    s.running_cost = [](const ControlledState& x) { return 0.5 * x.u[0] * x.u[0] + 40.0; };
+    s.horizon = {least, 2.0};
+  };
+  expect_price(solved([&](Statement& s) { shortest(s, 0.95); }).prices.horizon, slope(shortest, 0.95), 1.0);
+}
+
+TEST_P(BoundPricesOf, NothingNeedNoEvaluation) {
+  const tests::DoubleIntegrator problem;
+  const auto program = tests::transcribe(problem, GetParam(), Grid::uniform(intervals));
+  const BoundPrices prices = bound_prices(*program, Eigen::VectorXd(), Eigen::VectorXd());  // at no point
+  for (const Eigen::MatrixXd* table :
+       {&prices.q, &prices.v, &prices.y, &prices.stage_v, &prices.stage_u, &prices.path}) {
+    EXPECT_EQ(table->size(), 0);
+  }
+  EXPECT_EQ(prices.unknowns.size(), 0);
+  EXPECT_EQ(prices.horizon, 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BoundPricesOf, testing::ValuesIn(every_scheme()), [](const auto& instance) {

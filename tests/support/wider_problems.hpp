@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "methods/mechanics/problem.hpp"
@@ -10,7 +11,8 @@ namespace dmocbench::tests {
 /// C = ½u², Φ = (m - 3)². For a given m, q = t + 3t² - 2t³ and J = 6m² + (m - 3)²; hence m = 3/7 and J = 54/7.
 class UnknownMass final : public Problem {
  public:
-  UnknownMass() : Problem({{"mass", 1.0, "kg", "of the particle", 0.1, 10.0, false, true}}) {}
+  explicit UnknownMass(double least = 0.1, double most = 10.0)
+      : Problem({{"mass", std::clamp(1.0, least, most), "kg", "of the particle", least, most, false, true}}) {}
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }

@@ -1,3 +1,4 @@
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -185,16 +186,14 @@ void bind_options(py::module_& module) {
       .def_readwrite("refinement", &Asked::refinement);
 }
 
-/// The unknown parameters that were found, by their names.
-std::map<std::string, double> unknowns_of(const SolvedCase& solved) {
-  std::map<std::string, double> values;
-  if (!solved.trajectory) return values;
+/// Values of the unknown parameters by their names; none where the motion has no values.
+std::map<std::string, double> by_unknown(const SolvedCase& solved, const Eigen::VectorXd& values) {
+  std::map<std::string, double> named;
   const Problem& problem = *solved.the_case.problem;
-  for (const std::size_t number : problem.unknowns()) {
-    const auto i = static_cast<Eigen::Index>(values.size());
-    values[problem.parameters()[number].name] = solved.trajectory->unknowns[i];
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    named[problem.parameters()[problem.unknowns()[static_cast<std::size_t>(i)]].name] = values[i];
   }
-  return values;
+  return named;
 }
 
 void bind_numbers(py::class_<Answer>& answer) {
@@ -224,7 +223,16 @@ void bind_numbers(py::class_<Answer>& answer) {
   number("coordinates", [](const SolvedCase& solved) { return solved.the_case.problem->configuration_names(); });
   number("controls", [](const SolvedCase& solved) { return solved.the_case.problem->control_names(); });
   number("first_order_states", [](const SolvedCase& solved) { return solved.the_case.problem->first_order_names(); });
-  number("unknowns", &unknowns_of);
+  number("unknowns", [](const SolvedCase& solved) {
+    return by_unknown(solved, solved.trajectory ? solved.trajectory->unknowns : Eigen::VectorXd());
+  });
+  number("price_unknowns", [](const SolvedCase& solved) {
+    return by_unknown(solved, solved.trajectory ? solved.trajectory->prices.unknowns : Eigen::VectorXd());
+  });
+  number("price_horizon", [](const SolvedCase& solved) {
+    const bool has_price = solved.trajectory && solved.trajectory->has_costates();
+    return has_price ? std::optional(solved.trajectory->prices.horizon) : std::nullopt;
+  });
 }
 
 /// Arrays of a motion are views: they keep the answer.
@@ -232,8 +240,8 @@ void bind_arrays(py::class_<Answer>& answer) {
   const auto array = [&](const char* name, auto member) {
     answer.def_property_readonly(name, [member](const py::object& self) -> py::object {
       const std::optional<Trajectory>& motion = self.cast<const Answer&>().solved.trajectory;
-      if (!motion || ((*motion).*member).size() == 0) return py::none();
-      const auto& values = (*motion).*member;
+      if (!motion || std::invoke(member, *motion).size() == 0) return py::none();
+      const auto& values = std::invoke(member, *motion);
       using Values = std::remove_cvref_t<decltype(values)>;
       const auto size = static_cast<py::ssize_t>(sizeof(double));
       py::array_t<double> view =
@@ -262,6 +270,15 @@ void bind_arrays(py::class_<Answer>& answer) {
   array("stage_y", &Trajectory::stage_y);
   array("stage_psi_q", &Trajectory::stage_psi_q);
   array("stage_psi_p", &Trajectory::stage_psi_p);
+  const auto prices = [&](const char* name, Eigen::MatrixXd BoundPrices::*member) {
+    array(name, [member](const Trajectory& motion) -> const Eigen::MatrixXd& { return motion.prices.*member; });
+  };
+  prices("price_q", &BoundPrices::q);
+  prices("price_v", &BoundPrices::v);
+  prices("price_y", &BoundPrices::y);
+  prices("price_stage_v", &BoundPrices::stage_v);
+  prices("price_stage_u", &BoundPrices::stage_u);
+  prices("price_path", &BoundPrices::path);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 """Solves of problems stated in Python: the same as those of C++, for every method, tableau and solver."""
 
+import math
 import os
 import sys
 import threading
@@ -195,6 +196,37 @@ class RestatedProblems(unittest.TestCase):
         self.assertAlmostEqual((u + v).max(), 5.0, places=6)
         self.assertAlmostEqual((u + v).min(), -5.0, places=6)
         self.assertAlmostEqual(u.max(), 4.5, places=6)
+
+    def test_report_the_prices_of_bounds(self):
+        """Against differences of solves with other bounds."""
+        def changed(base, **members):
+            return type(base.__name__, (base,), members)()
+
+        def slope(problem_of, at):
+            more, less = (db.solve(problem_of(at + step), intervals=32, stages=2, tolerance=1e-11) for step in (1e-3, -1e-3))
+            return (more.cost - less.cost) / 2e-3
+
+        def in_band(upper):
+            return changed(restated.PushedInABand, bounds={"path": ([-5.0, -math.inf], [upper, 4.5])})
+        prices = db.solve(in_band(5.0), intervals=32, stages=2).prices
+        acting = np.minimum(prices.path[:, 0], 0.0).sum() * (0.5 / 32)  # h b_i
+        self.assertLess(acting, -0.01)
+        self.assertAlmostEqual(acting, slope(in_band, 5.0), places=4)
+        self.assertIsNone(prices.q)
+        self.assertEqual((prices.unknowns, prices.horizon), ({}, 0.0))
+
+        def at_most(radius):
+            return changed(restated.CannonballOfUnknownRadius,
+                           radius=db.unknown(0.03, "m", "of the ball", 0.01, radius))
+        price = db.solve(at_most(0.035), intervals=32, stages=2).prices.unknowns["radius"]
+        self.assertLess(price, 0.0)
+        self.assertLess(abs(price / slope(at_most, 0.035) - 1.0), 0.01)
+
+        def within(longest):
+            return changed(restated.DoubleIntegrator, horizon=db.between(0.5, longest, guess=1.0))
+        self.assertAlmostEqual(db.solve(within(1.2), intervals=32, stages=2).prices.horizon, -18.0 / 1.2**4, places=5)
+        with self.assertRaisesRegex(AttributeError, "prices have no weight; they have q, v"):
+            db.solve(within(1.2), intervals=32).prices.weight
 
     def test_of_textbooks_have_the_published_costs(self):
         for cls, cost, places, options in (

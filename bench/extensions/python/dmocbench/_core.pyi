@@ -156,6 +156,14 @@ class Answer:
     stage_y: Array | None
     stage_psi_q: Array | None
     stage_psi_p: Array | None
+    price_q: Array | None
+    price_v: Array | None
+    price_y: Array | None
+    price_stage_v: Array | None
+    price_stage_u: Array | None
+    price_path: Array | None
+    price_unknowns: dict[str, float]
+    price_horizon: float | None
     def estimated_error(self) -> float: ...
 
 __version__: str

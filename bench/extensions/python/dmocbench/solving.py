@@ -86,6 +86,34 @@ class Stages:
         raise AttributeError(f"stages have no {name}; they have {', '.join(type(self).__annotations__)}")
 
 
+class Prices:
+    """By how much the least cost grows per unit of the bound that acts: positive for a lower bound, negative for an upper
+    one, 0 where none acts. None where nothing of the kind is bounded, or the solve ended without multipliers.
+
+    q, v, y: of bounds at the nodes, a row each. stage_v, stage_u, path: of bounds of velocities, controls and path
+    constraints at the stages, per unit of time: moving the bound by e(t) changes the least cost by the sum of
+    h b_i price_i e(t_i). unknowns: a dict, of the ranges of parameters that the solve chose. horizon: of the bounds of T, 0
+    where it is given. Integrals have theirs in `Solution.integral_prices`; values that are given at the ends have costates.
+    """
+
+    q: np.ndarray | None
+    v: np.ndarray | None
+    y: np.ndarray | None
+    stage_v: np.ndarray | None
+    stage_u: np.ndarray | None
+    path: np.ndarray | None
+    unknowns: dict[str, float]
+    horizon: float | None
+
+    def __init__(self, answer: _core.Answer):
+        self._answer = answer
+
+    def __getattr__(self, name: str) -> Any:
+        if name in type(self).__annotations__:
+            return getattr(self._answer, "price_" + name)
+        raise AttributeError(f"prices have no {name}; they have {', '.join(type(self).__annotations__)}")
+
+
 class Solution:
     """An answer: numbers, and arrays of the motion with a row per node (a row per stage in `stages`).
 
@@ -93,8 +121,8 @@ class Solution:
     relative_jump, replay_error (distance from the end when the controls are replayed), largest_violation (of bounds and
     path constraints anywhere on the motion); t, q, v, p, psi_q, psi_p, psi = (psi_q, psi_p); stages.t, .q, .v, .u, .p.
     With first-order states y, psi_y and stages.y; unknowns: a dict of the parameters that the solve chose; integrals, and
-    integral_prices: by how much the least cost grows per unit of the bound that acts. None where the solve ended without
-    it. Arrays are views of C++ results; they may outlive the solution.
+    integral_prices: by how much the least cost grows per unit of the bound that acts; prices: of all other bounds (`Prices`).
+    None where the solve ended without it. Arrays are views of C++ results; they may outlive the solution.
     """
 
     problem: str
@@ -141,7 +169,8 @@ class Solution:
             raise AttributeError("a Solution has no u; controls act at stages: write solution.stages.u, at solution.stages.t")
         if name in self.coordinates + self.first_order_states + self.controls:
             raise AttributeError(f"a Solution has no {name}; write solution.column(\"{name}\")")
-        raise AttributeError(f"a Solution has no {name}; it has {', '.join(type(self).__annotations__)}, stages, psi, message")
+        raise AttributeError(f"a Solution has no {name}; it has {', '.join(type(self).__annotations__)}, stages, prices, psi, "
+                             "message")
 
     @property
     def message(self) -> str:
@@ -161,6 +190,11 @@ class Solution:
     def stages(self) -> Stages:
         """Values at the stages."""
         return Stages(self._answer)
+
+    @property
+    def prices(self) -> Prices:
+        """What bounds cost."""
+        return Prices(self._answer)
 
     @property
     def psi(self) -> np.ndarray | None:
