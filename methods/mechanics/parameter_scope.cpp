@@ -59,7 +59,12 @@ ParameterTrace::ParameterTrace(const Problem& problem, const std::vector<std::st
       throw Error(
           fmt::format("{}: the parameter {} is a whole number, which cannot be kept open", problem.name(), name));
     }
-    if (std::ranges::find(open_, number) != open_.end()) {
+    const bool is_open = std::ranges::find(open_, number) != open_.end();
+    if (is_open && problem.parameters()[number].is_unknown) {
+      throw Error(fmt::format("{}: a solve chooses the unknown {}, which therefore takes no values from outside",
+                              problem.name(), name));
+    }
+    if (is_open) {
       throw Error(fmt::format("{}: the parameter {} is to be kept open twice", problem.name(), name));
     }
     open_.push_back(number);

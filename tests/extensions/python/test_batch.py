@@ -37,6 +37,10 @@ class Batches(unittest.TestCase):
         batch = db.solve_batch("cart_pole", parameters={"length": [0.45, 0.5, 0.55]}, intervals=48)
         self.assertAlmostEqual(batch.cost[1], db.solve("cart_pole", intervals=48).cost, places=6)
 
+    def test_refuse_values_of_what_a_solve_chooses(self):
+        with self.assertRaisesRegex(db.Error, "^cannonball: a solve chooses the unknown radius, which therefore takes no values"):
+            db.solve_batch("cannonball", parameters={"radius": [0.04, 0.05]})
+
 
 if __name__ == "__main__":
     unittest.main()
