@@ -78,6 +78,7 @@ class AdaptiveRun {
     answer_.program =
         std::make_unique<Transcription>(*task_.problem, *element_, make_tableau(task_.tableau, stages_), grid_);
     Transcription& program = *answer_.program;
+    grid_ = program.grid();  // with nodes at the times of bounds, which later grids share
     answer_.solution = solve(program);
     const Solution& solution = answer_.solution;
     const Eigen::VectorXd steps = program.guessed_horizon() * grid_.relative_widths();

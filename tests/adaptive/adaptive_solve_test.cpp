@@ -95,6 +95,19 @@ TEST(AdaptiveSolve, SaysWhereAnAccuracyIsMoreThanDoublesCanGive) {
   EXPECT_NE(answer.message.find("more than doubles can give"), std::string::npos) << answer.message;
 }
 
+// Every grid has the nodes of the one before, those at the times of the points among them.
+TEST(AdaptiveSolve, ReachesTheAccuracyAskedForWithEveryKindOfStatement) {
+  for (const char* name : {"waypoints", "two_link_with_motors", "hanging_chain", "spring_arm"}) {
+    const auto problem = make_problem(name);
+    AdaptiveOptions options;
+    options.accuracy = 1e-4;
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 32), options);
+    ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << name << ": " << answer.message;
+    const double least = tests::value_of(problem->card().reference).objective;
+    EXPECT_NEAR(answer.trajectory.cost, least, 1e-4 * least) << name;
+  }
+}
+
 /// The horizon of the fastest slide is free; its least value is known.
 TEST(AdaptiveSolve, ReachesTheAccuracyAskedForWithAFreeHorizonToo) {
   const auto problem = make_problem("brachistochrone");
