@@ -185,25 +185,35 @@ class Solve final : public ExperimentOf<Measured> {
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& motion = *solved.trajectory;
     const std::string label = solved.the_case.label();
+    const auto say_price = [&](const std::string& value, const char* limits, double price) {
+      findings.say(fmt::format("{}: {}, the price of its {} {:.6g}", label, value, limits, price));
+    };
+    // Solvers leave less than this share of the cost where no bound acts.
+    const auto acts = [&](double price, double value) {
+      return std::abs(price * value) > 1e-6 * std::abs(motion.cost);
+    };
     const std::vector<std::size_t> unknowns = problem.unknowns();
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
       const Parameter& parameter = problem.parameters()[unknowns[i]];
       const auto entry = static_cast<Eigen::Index>(i);
-      findings.say(fmt::format("{}: {} = {:.10g}{}{}{}", label, parameter.name, motion.unknowns[entry],
-                               parameter.unit.empty() ? "" : " ", parameter.unit,
-                               motion.has_costates() ? price_of("range", motion.prices.unknowns[entry]) : ""));
+      const double value = motion.unknowns[entry];
+      const double price = motion.has_costates() ? motion.prices.unknowns[entry] : 0.0;
+      const std::string found =
+          fmt::format("{} = {:.10g}{}{}", parameter.name, value, parameter.unit.empty() ? "" : " ", parameter.unit);
+      if (acts(price, value)) {
+        say_price(found, "range", price);
+      } else {
+        findings.say(label + ": " + found);
+      }
     }
-    if (motion.has_costates() && problem.bounds().horizon.is_free()) {
-      findings.say(fmt::format("{}: T = {:.10g}{}", label, motion.node_times[motion.intervals()],
-                               price_of("bounds", motion.prices.horizon)));
+    const double horizon = motion.node_times[motion.intervals()];
+    if (acts(motion.prices.horizon, horizon)) {
+      say_price(fmt::format("T = {:.10g}", horizon), "bounds", motion.prices.horizon);
     }
     for (Eigen::Index i = 0; i < motion.integral_prices.size(); ++i) {
-      findings.say(fmt::format("{}: integrands[{}]: the integral is {:.10g}{}", label, i, motion.integrals[i],
-                               price_of("bounds", motion.integral_prices[i])));
+      say_price(fmt::format("integrands[{}]: the integral is {:.10g}", i, motion.integrals[i]), "bounds",
+                motion.integral_prices[i]);
     }
-  }
-  static std::string price_of(const char* limits, double price) {
-    return fmt::format(", the price of its {} {:.6g}", limits, price);
   }
 
  private:
