@@ -1,4 +1,5 @@
 // First-order states: orders at the nodes, costates, momenta of a changing mass, and what does not change without them.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -10,6 +11,7 @@
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/replay_error.hpp"
+#include "methods/indirect/control_from_costate.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
@@ -77,6 +79,58 @@ TEST_P(OrdersOfFirstOrderStates, AreThoseOfTheTableauAtTheNodes) {
     EXPECT_GT(slope, order - 0.2) << names[i] << ": errors " << coarse[i] << ", " << fine[i];
     if (names[i] == "cost") continue;  // where terms cancel, it may converge faster
     EXPECT_NEAR(slope, order, 0.2) << names[i] << ": errors " << coarse[i] << ", " << fine[i];
+  }
+}
+
+/// The polynomial through the twelve nodes of a reference around t, for a table of its nodes.
+class NodesAround {
+ public:
+  NodesAround(const Eigen::VectorXd& times, double t) {
+    const auto after = std::upper_bound(times.begin(), times.end(), t) - times.begin();
+    first_ = std::clamp<Eigen::Index>(after - count / 2, 0, times.size() - count);
+    weights_.setOnes(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index j = 0; j < count; ++j) {
+        if (i != j) weights_[i] *= (t - times[first_ + j]) / (times[first_ + i] - times[first_ + j]);
+      }
+    }
+  }
+  [[nodiscard]] Eigen::VectorXd of(const Eigen::MatrixXd& table) const {
+    return table.middleRows(first_, count).transpose() * weights_;
+  }
+
+ private:
+  static constexpr Eigen::Index count = 12;
+  Eigen::Index first_;
+  Eigen::VectorXd weights_;
+};
+
+// Exact controls at the stages are those of the maximum principle at the reference's state and costate there.
+TEST_P(OrdersOfFirstOrderStates, AreLowerForControlsAtTheStages) {
+  const auto& [name, scheme] = GetParam();
+  const ReferenceMotion& reference = reference_of(name);
+  const ControlFromCostate principle(*reference.problem);
+  const auto error = [&](Eigen::Index intervals) {
+    const Trajectory motion = solved_tightly(*reference.problem, scheme, intervals, reference.near).motion;
+    double largest = 0.0;
+    for (Eigen::Index row = 0; row < motion.stage_times.size(); ++row) {
+      const double t = motion.stage_times[row];
+      const NodesAround at(reference.motion.node_times, t);
+      const Eigen::VectorXd u = motion.stage_u.row(row);
+      const Eigen::VectorXd exact =
+          principle.control(at.of(reference.motion.q), at.of(reference.motion.v), at.of(reference.motion.psi_p), t, u,
+                            at.of(reference.motion.y), at.of(reference.motion.psi_y));
+      largest = std::max(largest, (u - exact).norm());
+    }
+    return largest;
+  };
+  const int order = scheme.family == "gauss" ? scheme.stages + 1 : scheme.stages - 1;
+  const Eigen::Index finest = name == "arm" ? 1024 : 128;
+  const double slope = std::log2(error(finest / 2) / error(finest));
+  EXPECT_GT(slope, order - 0.2);
+  // On the orbit, terms of higher order are larger on all grids above rounding.
+  if (name == "arm") {
+    EXPECT_LT(slope, order + 0.2);
   }
 }
 
