@@ -121,7 +121,7 @@ class MultiplierWriter {
     const auto head = static_cast<Eigen::Index>(layout_.sum_row_head(0));
     multipliers_.segment(head, static_cast<Eigen::Index>(layout_.intervals())).setConstant(value);
   }
-  /// So does that of every integral, at the price of its bound.
+  /// Every integral is carried alike; its multipliers are the price of its bound.
   void write_integrals(const Eigen::VectorXd& prices) {
     const LayoutShape& shape = layout_.shape();
     for (Eigen::Index i = 0; i < prices.size(); ++i) {
