@@ -72,6 +72,21 @@ TEST(SampleMultipliers, OfFirstOrderStatesAreTheProgramsOwn) {
   }
 }
 
+TEST(SampleMultipliers, OfIntegralsAreTheirPrices) {
+  const tests::DoubleIntegrator base;
+  const tests::Restated problem(base, [](tests::Restated::Statement& s) {
+    s.integrands = [](const ControlledState& x) { return ExpressionVector::Constant(1, x.q[0] * x.q[0]); };
+    s.integrals = Bounds::all(1, 0.5, 0.5);
+  });
+  for (const Scheme& scheme : tests::all_schemes(3)) {
+    SCOPED_TRACE(scheme.label());
+    const Solved solved = tests::solve(problem, scheme, tests::graded_grid(16), guessed_motion(problem));
+    const Eigen::VectorXd sampled = sample_multipliers(*solved.transcription, solved.trajectory);
+    EXPECT_LT(distance(sampled, solved.solution.multipliers), 1e-9 * largest_multiplier(solved.solution.multipliers));
+    EXPECT_GT(std::abs(solved.trajectory.integral_prices[0]), 1.0);
+  }
+}
+
 // th:equi: one discrete optimum in two sets of unknowns, and so in two sets of multipliers.
 TEST(SampleMultipliers, OfDmocAreThoseOfHamiltonianCollocationAndTheOtherWayRound) {
   const Grid grid = tests::graded_grid(16);
