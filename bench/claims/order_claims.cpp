@@ -195,9 +195,9 @@ Finding order_eight(const ResultTables& tables, const std::string& problem) {
 
 /// Every fitted order of some quantities is the one of `expected`, and each quantity has one by every tableau that the
 /// table has; otherwise the claim is not judged.
-Finding first_order_orders(const ResultTables& tables, const std::string& problem,
+Finding first_order_orders(const ResultTables& tables, const std::string& table, const std::string& problem,
                            const std::vector<std::string>& quantities, double (*expected)(const Row&)) {
-  const Selection all = tables.rows("convergence_first_order_slopes", problem).where([&](const Row& row) {
+  const Selection all = tables.rows(table, problem).where([&](const Row& row) {
     return std::ranges::find(quantities, row.text("quantity")) != quantities.end();
   });
   const Selection fitted = all.where([](const Row& row) { return row.text("verdict") == "slope"; });
@@ -207,8 +207,8 @@ Finding first_order_orders(const ResultTables& tables, const std::string& proble
     double highest = -lowest;
     for (const std::string& quantity : quantities) {
       const Selection of_quantity = fitted.matching(scheme.front(), {"tableau", "stages"}).where("quantity", quantity);
-      require(!of_quantity.empty(), "convergence_first_order_slopes.csv has no fitted order of {} for {}, {} {}",
-              quantity, problem, scheme.front().text("tableau"), scheme.front().text("stages"));
+      require(!of_quantity.empty(), "{}.csv has no fitted order of {} for {}, {} {}", table, quantity, problem,
+              scheme.front().text("tableau"), scheme.front().text("stages"));
       lowest = std::min(lowest, of_quantity.min("slope"));
       highest = std::max(highest, of_quantity.max("slope"));
     }
@@ -216,7 +216,7 @@ Finding first_order_orders(const ResultTables& tables, const std::string& proble
         fmt::format("{}{} {}: {:.2f} to {:.2f} (order {:g})", words.empty() ? "" : "; ", scheme.front().text("tableau"),
                     scheme.front().text("stages"), lowest, highest, expected(scheme.front()));
   }
-  require(!words.empty(), "convergence_first_order_slopes.csv has no order for {}", problem);
+  require(!words.empty(), "{}.csv has no order for {}", table, problem);
   const auto verdict_of = [&](const Row& row) { return verdict_on_order(row, expected(row)); };
   return found(verdict_on_all(fitted, verdict_of), "lowest and highest slope of all methods: {}{}", words,
                left_out(all, fitted, "without a fit, in favour of the claim:"));
@@ -224,8 +224,14 @@ Finding first_order_orders(const ResultTables& tables, const std::string& proble
 
 Finding orders_with_first_order_states(const ResultTables& tables, const std::string& problem) {
   return first_order_orders(
-      tables, problem, {"state", "momentum", "costate", "first_order", "first_order_costate", "control_from_costate"},
-      expected_order);
+      tables, "convergence_first_order_slopes", problem,
+      {"state", "momentum", "costate", "first_order", "first_order_costate", "control_from_costate"}, expected_order);
+}
+
+Finding stage_controls_of_first_order_states(const ResultTables& tables, const std::string& problem) {
+  return first_order_orders(tables, "convergence_stage_controls_slopes", problem, {"control"}, [](const Row& row) {
+    return row.needed("stages") + (row.text("tableau") == "gauss" ? 1.0 : -1.0);
+  });
 }
 
 }  // namespace
@@ -285,7 +291,15 @@ Claims stage_control_claims() {
            .whose = Whose::paper,
            .states = "the estimate holds for u(x_k, psi_k), not for the controls u_k of the stages",
            .judge = order_of_stage_controls,
-           .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}}};
+           .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}},
+          {.id = "stage_controls_of_first_order_states",
+           .problems = {"two_link_with_motors"},
+           .where = "section 3.6, remark after main_theorem",
+           .states = "stage controls that drive first-order states have order s + 1 (Gauss) and s - 1 (Lobatto)",
+           .judge = stage_controls_of_first_order_states,
+           .condition = "H_u contains the costate of y, which the other half of the tableau carries",
+           .evidence = {"convergence_stage_controls_slopes.csv", "convergence_stage_controls.csv"},
+           .needs = "convergence_stage_controls_slopes"}};
 }
 
 }  // namespace dmocbench

@@ -388,6 +388,7 @@ inline std::map<std::string, Rows> all_rows() {
   add_rows_of(rows["convergence_indirect_slopes"], two_link,
               [](const Row& row) { return row.text("method") == "dmoc" && row.text("quantity") == "control"; });
   rows["convergence_first_order_slopes"] = first_order_rows();
+  rows["convergence_stage_controls_slopes"] = rows["convergence_first_order_slopes"];
   for (Row& row : rows["equivalence"]) {
     if (row.text("method") == "tangent") row.set("adjoint_residual", 1e-12);
   }
