@@ -59,12 +59,11 @@ TEST_P(Evaluations, AllocateNothing) {
 }
 
 // The drivers of ADOL-C allocate; all else does not.
-INSTANTIATE_TEST_SUITE_P(All, Evaluations,
-                         testing::Combine(testing::ValuesIn(paper_families()),
-                                          testing::Values("tape", "finite_differences", "forward_differences")),
-                         [](const auto& instance) {
-                           return std::get<0>(instance.param) + "_" + std::get<1>(instance.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, Evaluations,
+    testing::Combine(testing::ValuesIn(paper_families()),
+                     testing::Values("tape", "finite_differences", "forward_differences", "dense_differences")),
+    [](const auto& instance) { return std::get<0>(instance.param) + "_" + std::get<1>(instance.param); });
 
 }  // namespace
 }  // namespace dmocbench

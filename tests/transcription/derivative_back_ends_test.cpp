@@ -90,12 +90,15 @@ class BackEnds : public testing::TestWithParam<std::tuple<std::string, std::stri
   Grid grid_ = tests::graded_grid(7);
 };
 
-TEST_P(BackEnds, AdolcAgreesToRounding) {
+TEST_P(BackEnds, AdolcAgreesToRoundingIntervalByIntervalAndAsAWhole) {
   if (!offers("adolc")) GTEST_SKIP() << "ADOL-C is not in this build";
-  const Differences found = from_exact("adolc");
-  EXPECT_LT(found.gradient, 1e-13);
-  EXPECT_LT(found.jacobian, 1e-13);
-  EXPECT_LT(found.hessian, 1e-13);
+  for (const char* const back_end : {"adolc", "adolc_whole"}) {
+    SCOPED_TRACE(back_end);
+    const Differences found = from_exact(back_end);
+    EXPECT_LT(found.gradient, 1e-13);
+    EXPECT_LT(found.jacobian, 1e-13);
+    EXPECT_LT(found.hessian, 1e-13);
+  }
 }
 
 TEST_P(BackEnds, CentralDifferencesHaveTwoThirdsOfTheDigitsAndHalfOfThemInTheHessian) {
@@ -105,11 +108,15 @@ TEST_P(BackEnds, CentralDifferencesHaveTwoThirdsOfTheDigitsAndHalfOfThemInTheHes
   EXPECT_LT(found.hessian, 1e-6);
 }
 
-TEST_P(BackEnds, ForwardDifferencesHaveHalfOfTheDigitsAndAThirdInTheHessian) {
-  const Differences found = from_exact("forward_differences");
-  EXPECT_LT(found.gradient, 1e-6);
-  EXPECT_LT(found.jacobian, 1e-6);
-  EXPECT_LT(found.hessian, 1e-3);
+TEST_P(BackEnds, ForwardDifferencesHaveHalfOfTheDigitsAndAThirdInTheHessianDenseOrNot) {
+  for (const char* const back_end : {"forward_differences", "dense_differences"}) {
+    SCOPED_TRACE(back_end);
+    const Differences found = from_exact(back_end);
+    EXPECT_LT(found.gradient, 1e-6);
+    EXPECT_GT(found.jacobian, 1e-10);
+    EXPECT_LT(found.jacobian, 1e-6);
+    EXPECT_LT(found.hessian, 1e-3);
+  }
 }
 
 TEST_P(BackEnds, ForwardDifferencesAreWorseThanCentralOnes) {
@@ -148,7 +155,8 @@ TEST(BackEndRegistry, RefusesAnUnknownNameAndListsThoseThereAre) {
   const auto with = [&](const std::string& name) {
     Transcription(*problem, *make_element("dmoc"), gauss_tableau(1), Grid::uniform(8), name);
   };
-  tests::expect_error_naming({"magic", "tape", "finite_differences", "forward_differences"}, [&] { with("magic"); });
+  tests::expect_error_naming({"magic", "tape", "finite_differences", "forward_differences", "dense_differences"},
+                             [&] { with("magic"); });
   if (!offers("adolc")) tests::expect_error_naming({"adolc", "install", "tape"}, [&] { with("adolc"); });
 }
 
@@ -192,10 +200,13 @@ TEST_P(BackEndsOfTheLibrary, AdolcAgreesToRounding) {
   const Scheme scheme{"dmoc", 1};
   const Grid grid = Grid::uniform(16);
   const auto by = [&](const std::string& name) { return derivatives_by(name, *problem, scheme, grid, 0.01); };
-  const Differences found = by("adolc") - by("tape");
-  EXPECT_LT(found.gradient, 1e-12);
-  EXPECT_LT(found.jacobian, 1e-12);
-  EXPECT_LT(found.hessian, 1e-12);
+  for (const char* const back_end : {"adolc", "adolc_whole"}) {
+    SCOPED_TRACE(back_end);
+    const Differences found = by(back_end) - by("tape");
+    EXPECT_LT(found.gradient, 1e-12);
+    EXPECT_LT(found.jacobian, 1e-12);
+    EXPECT_LT(found.hessian, 1e-12);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BackEndsOfTheLibrary, testing::ValuesIn(problem_names()),

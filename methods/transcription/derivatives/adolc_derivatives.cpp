@@ -1,13 +1,8 @@
 #include <algorithm>
 #include <memory>
-#include <mutex>
-#include <set>
-#include <utility>
 
-#include <adolc/adolc.h>
-
-#include "methods/error.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/transcription/derivatives/adolc_recording.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "methods/transcription/derivatives/recorded_number.hpp"
 
@@ -15,43 +10,12 @@ namespace dmocbench {
 
 namespace {
 
-/// The numbers under which ADOL-C keeps our recordings, far from those that a user would choose.
-class Tags {
- public:
-  static short take() {
-    const std::lock_guard lock(mutex());
-    short tag = first;
-    while (used().contains(tag)) ++tag;
-    used().insert(tag);
-    return tag;
-  }
-  static void give_back(short tag) {
-    const std::lock_guard lock(mutex());
-    used().erase(tag);
-  }
-
- private:
-  static constexpr short first = 16384;
-  static std::mutex& mutex() {
-    static std::mutex instance;
-    return instance;
-  }
-  static std::set<short>& used() {
-    static std::set<short> instance;
-    return instance;
-  }
-};
-
-void require_success(int status, const char* driver) {
-  if (status < 0) throw Error(std::string("ADOL-C's ") + driver + " failed on the formulas of an interval");
-}
-
 /// Formulas that ADOL-C has recorded under their own number.
 class Recording {
  public:
   explicit Recording(const Schedule& schedule)
-      : tag_(Tags::take()), output_count_(static_cast<int>(schedule.outputs().size())), point_(schedule.input_count()) {
-    trace_on(tag_);
+      : output_count_(static_cast<int>(schedule.outputs().size())), point_(schedule.input_count()) {
+    trace_on(tag());
     {
       std::vector<RecordedNumber> inputs;
       for (std::size_t i = 0; i < point_.size(); ++i) {
@@ -67,16 +31,8 @@ class Recording {
     }
     trace_off();
   }
-  ~Recording() {
-    removeTape(tag_, ADOLC_REMOVE_COMPLETELY);
-    Tags::give_back(tag_);
-  }
-  Recording(const Recording&) = delete;
-  Recording& operator=(const Recording&) = delete;
-  Recording(Recording&&) = delete;
-  Recording& operator=(Recording&&) = delete;
 
-  [[nodiscard]] short tag() const noexcept { return tag_; }
+  [[nodiscard]] short tag() const noexcept { return tag_.number(); }
   [[nodiscard]] int input_count() const noexcept { return static_cast<int>(point_.size()); }
   [[nodiscard]] int output_count() const noexcept { return output_count_; }
   /// The inputs of one interval, one after the other.
@@ -86,26 +42,9 @@ class Recording {
   }
 
  private:
-  short tag_;
+  AdolcTag tag_;
   int output_count_;
   std::vector<double> point_;
-};
-
-/// A dense matrix in ADOL-C's format, an array of rows.
-class Dense {
- public:
-  Dense(int rows, int columns)
-      : entries_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns)),
-        rows_(static_cast<std::size_t>(rows)) {
-    double* next = entries_.data();
-    for (double*& row : rows_) row = std::exchange(next, next + columns);
-  }
-  [[nodiscard]] double** rows() { return rows_.data(); }
-  [[nodiscard]] double& operator()(std::size_t i, std::size_t j) { return rows_[i][j]; }
-
- private:
-  std::vector<double> entries_;
-  std::vector<double*> rows_;
 };
 
 /// Exact derivatives by ADOL-C, which differentiates the values of an interval (cost, constraints, ℓ).
@@ -147,8 +86,8 @@ class AdolcDerivatives final : public DerivativeBackEnd {
   void gradient(Inputs inputs, VectorOut result) override {
     const auto columns = gradient_.open(result);
     for (std::size_t k = 0; k < gradient_.intervals() && !columns.empty(); ++k) {
-      require_success(::gradient(cost_.tag(), cost_.input_count(), cost_.point(inputs, k), cost_gradient_.data()),
-                      "gradient");
+      require_adolc(::gradient(cost_.tag(), cost_.input_count(), cost_.point(inputs, k), cost_gradient_.data()),
+                    "gradient");
       for (std::size_t e = 0; e < columns.size(); ++e) columns[e][k] = cost_gradient_[gradient_unknowns_[e]];
     }
     gradient_.close(result);
@@ -157,9 +96,9 @@ class AdolcDerivatives final : public DerivativeBackEnd {
   void jacobian(Inputs inputs, VectorOut values) override {
     const auto columns = jacobian_.open(values);
     for (std::size_t k = 0; k < jacobian_.intervals() && !columns.empty(); ++k) {
-      require_success(::jacobian(rows_.tag(), rows_.output_count(), rows_.input_count(), rows_.point(inputs, k),
-                                 rows_jacobian_.rows()),
-                      "jacobian");
+      require_adolc(::jacobian(rows_.tag(), rows_.output_count(), rows_.input_count(), rows_.point(inputs, k),
+                               rows_jacobian_.rows()),
+                    "jacobian");
       for (std::size_t e = 0; e < columns.size(); ++e) {
         columns[e][k] = rows_jacobian_(jacobian_outputs_[e], jacobian_columns_[e]);
       }
@@ -170,9 +109,9 @@ class AdolcDerivatives final : public DerivativeBackEnd {
   void hessian(Inputs inputs, VectorOut values) override {
     const auto columns = hessian_.open(values);
     for (std::size_t k = 0; k < hessian_.intervals() && !columns.empty(); ++k) {
-      require_success(hess_mat(lagrangian_.tag(), lagrangian_.input_count(), directions_, lagrangian_.point(inputs, k),
-                               seeds_.rows(), seeded_hessian_.rows()),
-                      "hess_mat");
+      require_adolc(hess_mat(lagrangian_.tag(), lagrangian_.input_count(), directions_, lagrangian_.point(inputs, k),
+                             seeds_.rows(), seeded_hessian_.rows()),
+                    "hess_mat");
       for (std::size_t e = 0; e < columns.size(); ++e) {
         columns[e][k] = seeded_hessian_(hessian_rows_[e], hessian_columns_[e]);
       }
@@ -199,10 +138,10 @@ class AdolcDerivatives final : public DerivativeBackEnd {
   SeriesAssembly jacobian_;
   SeriesAssembly hessian_;
   std::vector<double> cost_gradient_;
-  Dense rows_jacobian_;
+  AdolcMatrix rows_jacobian_;
   int directions_;
-  Dense seeds_;
-  Dense seeded_hessian_;
+  AdolcMatrix seeds_;
+  AdolcMatrix seeded_hessian_;
 };
 
 }  // namespace

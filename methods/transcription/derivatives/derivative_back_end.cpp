@@ -3,6 +3,7 @@
 #include <array>
 
 #include "methods/choose.hpp"
+#include "methods/transcription/derivatives/dense_differences.hpp"
 #include "methods/transcription/derivatives/finite_differences.hpp"
 
 namespace dmocbench {
@@ -10,6 +11,8 @@ namespace dmocbench {
 #ifdef DMOCBENCH_WITH_ADOLC
 std::unique_ptr<DerivativeBackEnd> make_adolc_derivatives(const LocalFunctions& functions,
                                                           const DerivativePlaces& places);  // adolc_derivatives.cpp
+std::unique_ptr<DerivativeBackEnd> make_adolc_whole_derivatives(
+    const LocalFunctions& functions, const DerivativePlaces& places);  // adolc_whole_derivatives.cpp
 #endif
 
 namespace {
@@ -55,11 +58,15 @@ constexpr auto back_ends = std::to_array<Entry>({
 #ifdef DMOCBENCH_WITH_ADOLC
     {"adolc", "exact: ADOL-C's drivers on the formulas of one interval, interval after interval",
      make_adolc_derivatives},
+    {"adolc_whole", "exact: ADOL-C's drivers on the whole program recorded once, columns compressed by colours",
+     make_adolc_whole_derivatives},
 #endif
     {"finite_differences", "central differences of values, a local unknown of all intervals at once",
      make_differences<DifferenceKind::central>},
     {"forward_differences", "one-sided differences of values, half the evaluations and half the digits",
      make_differences<DifferenceKind::forward>},
+    {"dense_differences", "one-sided differences of the values of the whole program, an unknown after the other",
+     make_dense_differences},
 });
 
 constexpr auto back_end_name = [](const Entry& entry) { return entry.name; };
@@ -67,7 +74,8 @@ constexpr auto back_end_name = [](const Entry& entry) { return entry.name; };
 const Entry& entry_named(std::string_view name) {
   std::string refusal = "there are no derivatives by";
 #ifndef DMOCBENCH_WITH_ADOLC
-  if (name == "adolc") refusal = "this build has no ADOL-C (install it and configure again), hence no derivatives by";
+  if (name.starts_with("adolc"))
+    refusal = "this build has no ADOL-C (install it and configure again), hence no derivatives by";
 #endif
   return one_of(back_ends, back_end_name, name, refusal);
 }

@@ -17,9 +17,11 @@ namespace dmocbench {
 /// Where the derivatives of a part stand in the program's arrays, entries in the order of `LocalFunctions::gradient`,
 /// `jacobian` and `hessian`. All three have the same intervals and the same mode.
 struct DerivativePlaces {
-  AssemblyPlan gradient;  ///< where its entries go
-  AssemblyPlan jacobian;  ///< where its entries go
-  AssemblyPlan hessian;   ///< where its entries go
+  std::vector<SeriesPlace> unknowns;  ///< where unknowns lie in the program's vectors
+  std::vector<SeriesPlace> rows;      ///< all local rows
+  AssemblyPlan gradient;              ///< where its entries go
+  AssemblyPlan jacobian;              ///< where its entries go
+  AssemblyPlan hessian;               ///< where its entries go
 };
 
 /// A way to differentiate the formulas of a part of a program for all its intervals.
@@ -48,8 +50,8 @@ class DerivativeBackEnd {
   DerivativeBackEnd() = default;
 };
 
-/// Names of the available back ends, the default (`tape`) first: tape, adolc (if ADOL-C was found when this was built),
-/// finite_differences, forward_differences.
+/// Names of the available back ends, the default (`tape`) first: tape, adolc and adolc_whole (if ADOL-C was found when
+/// this was built), finite_differences, forward_differences, dense_differences.
 [[nodiscard]] std::vector<std::string> derivative_back_end_names();
 
 /// One line. Throws `Error` as `make_derivative_back_end` does.

@@ -33,10 +33,10 @@ PartPlaces part_places(const LocalFunctions& functions, const std::vector<Series
   const auto plan = [&](std::vector<SeriesPlace> places, std::size_t size) {
     return AssemblyPlan{.places = std::move(places), .size = size, .intervals = intervals, .mode = mode};
   };
-  return {.unknowns = unknowns,
-          .rows = rows,
-          .constraints = plan(picked(rows, functions.rows.places), arrays.constraints),
-          .derivatives = {.gradient = plan(picked(unknowns, functions.gradient.places), arrays.variables),
+  return {.constraints = plan(picked(rows, functions.rows.places), arrays.constraints),
+          .derivatives = {.unknowns = unknowns,
+                          .rows = rows,
+                          .gradient = plan(picked(unknowns, functions.gradient.places), arrays.variables),
                           .jacobian = plan(jacobian, arrays.jacobian),
                           .hessian = plan(hessian, arrays.hessian)}};
 }

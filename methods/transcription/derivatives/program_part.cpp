@@ -1,14 +1,12 @@
 #include "methods/transcription/derivatives/program_part.hpp"
 
-#include <utility>
-
 namespace dmocbench {
 
 ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,
                          const Eigen::VectorXd& times, const Eigen::VectorXd& parameters, std::string_view derivatives)
     : numbers_(functions.inputs),
-      unknown_places_(std::move(places.unknowns)),
-      row_places_(std::move(places.rows)),
+      unknown_places_(places.derivatives.unknowns),
+      row_places_(places.derivatives.rows),
       inputs_(functions.inputs.count()),
       cost_(functions.cost, {{0}, places.constraints.intervals, places.constraints.intervals}),
       rows_(functions.rows.schedule, places.constraints),

@@ -14,13 +14,10 @@
 
 namespace dmocbench {
 
-/// Where the unknowns and constraints (rows) of a part stand in the program's vectors, and how its values and
-/// derivatives make up the program's arrays.
+/// How the values and derivatives of a part make up the program's arrays.
 struct PartPlaces {
-  std::vector<SeriesPlace> unknowns;  ///< where unknowns lie in the program's vectors
-  std::vector<SeriesPlace> rows;      ///< all local rows
-  AssemblyPlan constraints;           ///< entries in the order of `LocalFunctions::rows`
-  DerivativePlaces derivatives;       ///< where derivatives go
+  AssemblyPlan constraints;      ///< entries in the order of `LocalFunctions::rows`
+  DerivativePlaces derivatives;  ///< where unknowns and rows lie, and derivatives go
 };
 
 /// A part of a program on numbers: the functions of an interval for all intervals, or of the ends. Its inputs are
