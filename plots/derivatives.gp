@@ -6,19 +6,24 @@ load plots."/style.gp"
 eval require("derivatives",\
     "problem,method,tableau,stages,solver,derivatives,hessian,status,branch,intervals,seconds,kkt_residual")
 
-# One style per back end; filled and joined where solved, open and alone where not.
-names = "tape adolc finite_differences forward_differences"
-colour(i) = i == 1 ? blue : i == 2 ? vermilion : i == 3 ? green : i == 4 ? purple : i == 5 ? orange : sky
-filled(i) = word("7 5 9 11 13 15", i) + 0
+# One colour per back end, dashed with a quasi-Newton Hessian; filled and joined where solved, open and alone where not.
+names = "tape adolc adolc_whole finite_differences forward_differences dense_differences tape adolc_whole\
+ forward_differences dense_differences"
+curves = 10
+backend(i) = i < 7 ? i : i == 7 ? 1 : i == 8 ? 3 : i - 4
+colour(i) = backend(i) == 1 ? blue : backend(i) == 2 ? vermilion : backend(i) == 3 ? orange : backend(i) == 4 ? green\
+    : backend(i) == 5 ? purple : sky
+filled(i) = word("7 5 9 11 13 15", backend(i)) + 0
 open(i) = filled(i) - 1
-label_of(i) = i == 1 ? "tape (exact, ours)" : i == 2 ? "ADOL-C (exact)" : i == 3 ? "central differences"\
-    : i == 4 ? "forward differences" : i == 5 ? "tape, quasi-Newton Hessian" : "forward differences, quasi-Newton Hessian"
-dashes(i) = i > 4 ? 2 : 1  # of a quasi-Newton Hessian
-curve_of(i) = i == 5 ? "derivatives=tape,hessian=limited_memory"\
-    : i == 6 ? "derivatives=forward_differences,hessian=limited_memory"\
-    : "derivatives=".word(names, i).",hessian=exact"
+back_end_label(i) = i == 1 ? "tape" : i == 2 ? "ADOL-C by interval" : i == 3 ? "ADOL-C once" : i == 4 ? "central differences"\
+    : i == 5 ? "forward differences" : "dense differences"
+label_of(i) = back_end_label(backend(i)).(i > 6 ? ", dashed" : "")
+dashes(i) = i > 6 ? 2 : 1
 
 further = exists_table("derivatives_quasi_newton") ? "derivatives_quasi_newton" : ""
+# Several tolerances would be several points on a grid.
+loosest = strlen(further) == 0 ? "" : word(system(rows_awk("-v take=all -v distinct=tolerance", further)), 1)
+curve_of(i) = "derivatives=".word(names, i).(i > 6 ? ",hessian=limited_memory,".loosest : ",hessian=exact")
 picked(take, where, need, name) = rows_awk("-v take=".take." -v where='".where."' -v need=".need, name)
 taken_by(take, where, need) = picked(take, where, need, "derivatives")\
     .(strlen(further) == 0 ? "" : "; ".picked(take, where, need, further)." | tail -n +2")
@@ -35,24 +40,24 @@ do for [problem_word in problems] {
       "derivatives")), 1)
   everything = problem_word.",".scheme
   shown = ""
-  do for [i = 1:6] {
+  do for [i = 1:curves] {
     if (counted("all", everything.",".curve_of(i), "seconds") > 0) { shown = shown." ".i }
   }
   columns_of_panels = words(methods)
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_derivatives", 900)
+    eval begin_figure(kind, problem."_derivatives", 930)
     figure_title = title_text(problem_label(problem)\
         .": solves by exact derivatives and by differences, ".solver_label(entry(scheme, "solver")),\
         "Paper: “Automatic Differentiation”, section 4.1. ".timed_conditions("derivatives").".",\
-        "Bars: quartiles of the rounds".(strlen(further) > 0 ? " (quasi-Newton: one solve)" : "")\
-        .". Open markers: not solved to that tolerance; the time spent and the residual reached.")
-    eval panels(2, columns_of_panels, 95, 15, 155, 12, 25)
+        "Bars: quartiles of the rounds.".(strlen(further) > 0 ? " Dashed: quasi-Newton Hessian, tolerance ".entry(loosest, "tolerance")."." : "")\
+        ." Open markers: not solved to that tolerance; the time spent and the residual reached.")
+    eval panels(2, columns_of_panels, 95, 15, 185, 12, 25)
     do for [q = 1:2] {
       quantity = word(quantities, q)
       do for [m = 1:columns_of_panels] {
         where = everything.",".word(methods, m)
         solved = ""; unsolved = ""; with_bars = ""
-        do for [i = 1:6] {
+        do for [i = 1:curves] {
           if (counted("''", where.",".curve_of(i), quantity) > 0) { solved = solved." ".i }
           if (counted("unsolved", where.",".curve_of(i), quantity) > 0) { unsolved = unsolved." ".i }
           if (q == 1 && counted("''", where.",".curve_of(i), "seconds_lower_quartile") > 0) { with_bars = with_bars." ".i }
@@ -69,7 +74,7 @@ do for [problem_word in problems] {
         if (q == 1) { set format x "" }
         set ylabel (m > 1 ? "" : q == 1 ? "time of the solver [s]" : "KKT residual, exact derivatives") offset inwards
         if (q == 1 && m == 1) {
-          set key at screen 0.5, screen 0.008 center bottom vertical maxrows 3 width -3 font ",12" samplen 2.5
+          set key at screen 0.5, screen 0.008 center bottom vertical maxrows 4 width -3 font ",12" samplen 2.5
         } else { unset key }
         plot for [i in shown] keyentry with linespoints linecolor rgb colour(number_in(i)) linewidth 1.5 dashtype dashes(number_in(i))\
                  pointtype filled(number_in(i)) pointsize 0.75 title label_of(number_in(i)),\

@@ -108,6 +108,44 @@ Finding symplectic(const ResultTables& tables, const std::string& /*problem*/) {
                structured, tangent);
 }
 
+/// Of the continuous flow, to what its integration allows.
+Finding continuous_noether(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double within_tolerance = 1000.0;  // an integration keeps its tolerance in each of many steps
+  const Selection rows = tables.rows("structure_flow_momentum");
+  const Selection along = rows.where("force", "along");
+  const Selection orthogonal = rows.where("force", "orthogonal");
+  require(!along.empty() && !orthogonal.empty(),
+          "structure_flow_momentum.csv has {} motions with forces along the group action and {} with orthogonal ones",
+          along.size(), orthogonal.size());
+  const auto miss = [](const Row& row) { return std::abs(row.needed("momentum_change") - row.needed("work")); };
+  const auto in_tolerances = [&](const Row& row) {
+    require(row.needed("tolerance") > 0.0, "{}, column tolerance: it has to be above zero", row.place());
+    return miss(row) / row.needed("tolerance");
+  };
+  const double least_work = -along.max([](const Row& row) { return -std::abs(row.needed("work")); });
+  const double change = orthogonal.max([](const Row& row) { return std::abs(row.needed("momentum_change")); });
+  return found(
+      rows.max(in_tolerances) < within_tolerance && least_work > some_work,
+      "{} motions under smooth controls: change of momentum less the integral of the force at most {:.1e}, the "
+      "integral at least {:.1e} along the group action; with orthogonal forces the momentum changes by at "
+      "most {:.1e}",
+      rows.size(), rows.max(miss), least_work, change);
+}
+
+Finding lagrangian_form(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double within_rounding = 100.0;
+  const Selection rows = tables.rows("structure_flow_symplecticity");
+  const auto defect = [](const Row& row) {
+    require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
+    return row.needed("defect") / row.needed("rounding");
+  };
+  return found(rows.max(defect) < within_rounding,
+               "D'ΩD - Ω over T = {:g} on {} systems: at most {:.1e}, {:.1f} in units of rounding; of the form as "
+               "printed, whose dv^dv vanishes, up to {:.1e}",
+               rows.front().needed("horizon"), rows.size(), rows.max("defect"), rows.max(defect),
+               rows.max("printed_change"));
+}
+
 Finding energy_oscillates(const ResultTables& tables, const std::string& /*problem*/) {
   const Selection rows = tables.rows("structure_energy_behaviour").where("periods", "10000");
   const auto is_dmoc = [](const Row& row) { return row.text("method") == "dmoc"; };
@@ -166,6 +204,24 @@ Claims flow_claims() {
        .states = "the unforced discrete flow is symplectic",
        .judge = symplectic,
        .evidence = {"structure_symplecticity.csv"}},
+      {.id = "continuous_forced_noether_theorem",
+       .problems = simulated,
+       .where = "section 2.1, eq:noether_force",
+       .whose = Whose::paper,
+       .states = "along the continuous flow the momentum changes by the integral of the force along the group action, "
+                 "and not at all if the force is orthogonal to it",
+       .judge = continuous_noether,
+       .condition = "motions integrated as replays are, by an adaptive method of order 7(8)",
+       .evidence = {"structure_flow_momentum.csv"}},
+      {.id = "lagrangian_form_preserved",
+       .problems = simulated,
+       .where = "section 2.1, Omega_L",
+       .whose = Whose::paper,
+       .states = "the unforced Lagrangian flow preserves the symplectic form Omega_L on TQ",
+       .judge = lagrangian_form,
+       .condition = "with dv^dq in the second term of Omega_L, where dv^dv is printed; the derivative of the flow is "
+                    "the solution of the variational equations in long double",
+       .evidence = {"structure_flow_symplecticity.csv"}},
       {.id = "energy_does_not_drift",
        .problems = simulated,
        .where = "section 3.3, Conservation of a Modified Energy",

@@ -269,7 +269,7 @@ Claims order_claims() {
                  "grid is refined",
        .judge = stability_constant,
        .condition = "it bounds the constant of (abstract_result) from below, in this direction of errors alone; the "
-                    "midpoint rule",
+                    "midpoint rule, and fixed ends, since the indirect method, the reference, has no others",
        .evidence = {"convergence_indirect_jumps.csv"}},
       {.id = "order_with_first_order_states",
        .problems = with_first_order_states,

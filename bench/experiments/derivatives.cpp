@@ -18,6 +18,9 @@ const std::string limited_memory = "limited_memory";
 /// exact derivatives take two or three iterations from the common start and a few dozen from the guess.
 constexpr int most_iterations = 150;
 
+/// Every unknown of a program costs dense differences an evaluation of all intervals, so that they take O(N²).
+constexpr std::size_t most_dense_intervals = 64;
+
 /// Multipliers around 1 of either sign, the same on every run.
 Eigen::VectorXd fixed_multipliers(std::size_t constraints) {
   std::mt19937 engine(20090101U);
@@ -43,6 +46,8 @@ auto over_residual(double EvaluationTimes::*evaluation) {
 
 bool has_exact_hessian(const Case& the_case) { return the_case.variant.label.empty(); }
 
+bool has_differences(const Case& the_case) { return the_case.derivatives.ends_with("differences"); }
+
 class Derivatives final : public ExperimentOf<Measured> {
  public:
   Derivatives()
@@ -51,8 +56,8 @@ class Derivatives final : public ExperimentOf<Measured> {
              .description =
                  "Back ends of derivatives: error of Jacobian and Hessian against long double, time relative to one "
                  "residual, and cost and accuracy of a solve with them. Column hessian: exact is the back end's "
-                 "Hessian, limited_memory Ipopt's quasi-Newton one, with first derivatives by tape and by forward "
-                 "differences. All solves except by tape and adolc end after 150 iterations.",
+                 "Hessian, limited_memory Ipopt's quasi-Newton one, not by central differences. Dense differences are "
+                 "for N up to 64. Solves by differences or without an exact Hessian end after 150 iterations.",
              .options = {.derivatives = derivative_back_end_names(), .intervals = "16:1024"},
              .takes_turns = true,
              .compares_tolerances = true}) {}
@@ -74,15 +79,15 @@ class Derivatives final : public ExperimentOf<Measured> {
 
   void add_options(CommandLine& line) override {
     line.list("--hessian", hessians_,
-              "exact: the back end's; limited_memory: Ipopt's quasi-Newton one, by tape and forward differences");
+              "exact: the back end's; limited_memory: Ipopt's quasi-Newton one, not by finite_differences");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const std::vector<std::string> hessians = chosen_of("--hessian", {"exact", limited_memory}, hessians_);
     std::vector<Case> cases = vary(chosen, [&](const Case& c) {
-      const bool has_limited_memory =
-          c.solver == "ipopt" && (c.derivatives == "tape" || c.derivatives == "forward_differences");
+      const bool has_limited_memory = c.solver == "ipopt" && c.derivatives != "finite_differences";
       std::vector<std::string> labels;
+      if (c.derivatives == "dense_differences" && c.grid.intervals() > most_dense_intervals) return labels;
       for (const std::string& hessian : hessians) {
         if (hessian == "exact") labels.emplace_back();
         if (hessian == limited_memory && has_limited_memory) labels.push_back(hessian);
@@ -90,14 +95,15 @@ class Derivatives final : public ExperimentOf<Measured> {
       return labels;
     });
     if (!cases.empty()) return cases;
-    throw Error("--hessian limited_memory is for --solver ipopt with --derivatives tape or forward_differences");
+    throw Error(
+        "no case is left: --hessian limited_memory is for --solver ipopt and not for finite_differences, "
+        "dense_differences for at most 64 intervals");
   }
 
   [[nodiscard]] SolvedCase solve(SolveTask task) override {
     const Case& the_case = task.the_case;
     if (!has_exact_hessian(the_case)) task.named_options.emplace("hessian_approximation", "limited-memory");
-    const bool is_exact = the_case.derivatives == "tape" || the_case.derivatives == "adolc";
-    if (!is_exact || !has_exact_hessian(the_case)) {
+    if (has_differences(the_case) || !has_exact_hessian(the_case)) {
       task.options.most_iterations = std::min(task.options.most_iterations, most_iterations);
     }
     return Experiment::solve(std::move(task));

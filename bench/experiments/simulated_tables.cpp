@@ -22,26 +22,6 @@ namespace dmocbench {
 
 namespace {
 
-struct Invariant {
-  std::shared_ptr<const Problem> problem;
-  bool orthogonal;
-  double amplitude;  ///< of the controls
-  BoundaryState start;
-  double step;
-};
-
-/// Systems whose L is invariant under ξ; ξ is constant for all of them.
-std::vector<Invariant> invariant_systems() {
-  const auto radial = std::make_shared<RadialThrust>();
-  const auto pendulum = std::make_shared<MeridianPendulum>();
-  std::shared_ptr<Problem> links = make_problem("two_link_manipulator");
-  links->set_parameter("gravity", 0.0);
-  return {{radial, true, 0.3, radial->initial_state(), 0.05},
-          {pendulum, true, 0.5, pendulum->initial_state(), 0.05},
-          {make_problem("orbital_transfer"), false, 0.1, radial->initial_state(), 0.05},
-          {links, false, 1.0, bent_links(), 0.02}};
-}
-
 /// Neither smooth nor random: the theorem makes no assumption on the controls.
 Eigen::MatrixXd arbitrary_controls(Eigen::Index stages, Eigen::Index m, int step, double amplitude) {
   return Eigen::MatrixXd::NullaryExpr(stages, m, [=](Eigen::Index i, Eigen::Index j) {
@@ -74,7 +54,7 @@ struct Forced {
 
 /// Simulates a motion in numbers of type Scalar. `defect_in_long_double` is left to the caller.
 template <class Scalar>
-Forced simulate(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
+Forced simulate(const InvariantSystem& system, const Element& element, const Tableau& tableau, int steps) {
   using Vector = typename OneStepMap<Scalar>::Vector;
   const Problem& problem = *system.problem;
   const TracedProblem traced(problem);
@@ -175,6 +155,17 @@ std::vector<BoundaryState> states_around(const BoundaryState& centre) {
 
 }  // namespace
 
+std::vector<InvariantSystem> invariant_systems() {
+  const auto radial = std::make_shared<RadialThrust>();
+  const auto pendulum = std::make_shared<MeridianPendulum>();
+  std::shared_ptr<Problem> links = make_problem("two_link_manipulator");
+  links->set_parameter("gravity", 0.0);
+  return {{radial, true, 0.3, radial->initial_state(), 0.05},
+          {pendulum, true, 0.5, pendulum->initial_state(), 0.05},
+          {make_problem("orbital_transfer"), false, 0.1, radial->initial_state(), 0.05},
+          {links, false, 1.0, bent_links(), 0.02}};
+}
+
 std::vector<MappedStates> example_states() {
   const auto kepler = std::make_shared<Kepler>();
   return {{kepler, states_around(kepler->initial_state()), 0.1},
@@ -193,7 +184,7 @@ MappedStates states_along(const std::shared_ptr<const Problem>& problem, const T
 
 Table noether_table(int steps) {
   std::vector<Forced> rows;
-  for (const Invariant& system : invariant_systems()) {
+  for (const InvariantSystem& system : invariant_systems()) {
     for_all_maps([&](const Element& element, const Tableau& tableau) {
       rows.push_back(simulate<double>(system, element, tableau, steps));
       rows.back().defect_in_long_double = simulate<long double>(system, element, tableau, steps).defect;

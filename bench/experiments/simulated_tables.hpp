@@ -10,6 +10,17 @@
 
 namespace dmocbench {
 
+/// A system whose L is invariant under a constant generator ξ, with a motion under controls.
+struct InvariantSystem {
+  std::shared_ptr<const Problem> problem;
+  bool orthogonal;      ///< whether f·ξ = 0
+  double amplitude;     ///< of the controls
+  BoundaryState start;  ///< of the motion
+  double step;          ///< of a discrete motion
+};
+/// Two systems with orthogonal forces, two with forces along ξ.
+[[nodiscard]] std::vector<InvariantSystem> invariant_systems();
+
 /// The forced discrete Noether theorem (th:discforcNoe, eq:noether_force_d): `steps` steps of the one-step map under
 /// arbitrary stage controls. A row per system with a symmetry, method and tableau; the columns are declared in the
 /// source.

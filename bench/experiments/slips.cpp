@@ -3,6 +3,7 @@
 #include <numbers>
 #include <optional>
 
+#include "bench/experiments/continuous_flow.hpp"
 #include "bench/run/restated_problem.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
@@ -214,6 +215,21 @@ Misprint figure_of_iterations() {
           .required = 1.5};
 }
 
+/// Θ_L = L_v dq gives Ω_L = L_vq dq∧dq + L_vv dv∧dq. The form as printed is dq∧dq alone, since L_vv is symmetric.
+Misprint lagrangian_form(const std::shared_ptr<const Problem>& problem) {
+  const BoundaryState& first = problem->initial_state();
+  const Table changes = flow_symplecticity_table({{problem, {first}, 0.0}});
+  return {.problem = problem->name(),
+          .name = "lagrangian_form",
+          .where = "section 2.1, Omega_L",
+          .printed = "Omega_L = L_vq dq^dq + L_vv dv^dv",
+          .meant = "L_vq dq^dq + L_vv dv^dq",
+          .quantity = "largest change of the form along the unforced flow, which preserves it",
+          .as_printed = changes.rows().front().needed("printed_change"),
+          .as_meant = changes.rows().front().needed("defect"),
+          .required = 0.0};
+}
+
 const Columns<Misprint> columns{
     {"problem", "", "name of the problem", &Misprint::problem, in_key},
     {"slip", "", "short name of the statement", &Misprint::name, in_key},
@@ -232,10 +248,10 @@ int evaluate_misprints(CommandLine& line) {
   StartProvider starts({}, TableRun::solver_options());
   const Trajectory motion = starts.solve(
       {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
-  const std::vector<Misprint> misprints{potential_without_sine(),       swapped_momenta(*orbit, motion),
-                                        mayer_gradient(*orbit, motion), force_in_lemma(*orbit),
-                                        transversality(starts),         saddle_point(),
-                                        final_momentum(*orbit, motion), figure_of_iterations()};
+  const std::vector<Misprint> misprints{
+      potential_without_sine(),       swapped_momenta(*orbit, motion), mayer_gradient(*orbit, motion),
+      force_in_lemma(*orbit),         transversality(starts),          saddle_point(),
+      final_momentum(*orbit, motion), figure_of_iterations(),          lagrangian_form(orbit)};
   run.add("slips", columns, misprints);
   return run.write();
 }

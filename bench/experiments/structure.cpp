@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/experiments/continuous_flow.hpp"
 #include "bench/experiments/energy_columns.hpp"
 #include "bench/experiments/energy_tables.hpp"
 #include "bench/experiments/example_systems.hpp"
@@ -169,6 +170,10 @@ void add_examples(TableRun& run, const StructureOptions& options) {
     });
   };
   stage("momentum against the work of forces", [&] { run.add("structure_momentum", noether_table(options.steps)); });
+  stage("the continuous flow", [&] {
+    run.add("structure_flow_momentum", flow_momentum_table());
+    run.add("structure_flow_symplecticity", flow_symplecticity_table(example_states()));
+  });
   stage("momentum along motions with orthogonal forces",
         [&] { run.add("structure_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options())); });
   stage("rotations", [&] { run.add("structure_rotations", rotations_table(options.steps)); });
@@ -225,7 +230,8 @@ int run(int argc, char** argv) {
       "Invariants of the discretisation: momentum against the work of arbitrary forces (structure_momentum.csv), "
       "the same for rotations about three axes (structure_rotations.csv), the momentum along optimal motions whose "
       "forces are orthogonal to the symmetry (structure_orthogonal_forces.csv), the symplectic form "
-      "(structure_symplecticity.csv), the energy of an eccentric orbit over many periods (structure_energy.csv, "
+      "(structure_symplecticity.csv), both along the continuous flow (structure_flow_momentum.csv, "
+      "structure_flow_symplecticity.csv), the energy of an eccentric orbit over many periods (structure_energy.csv, "
       "structure_energy_behaviour.csv), the modified energy of the midpoint rule along free motions "
       "(structure_modified_energy.csv), and both against the work of the forces along the optimal motions of the "
       "paper's problems (structure_energy_work.csv, structure_modified_work.csv). With --problem no examples, but of "

@@ -402,11 +402,19 @@ class Run {
   }
 
   /// Solves some cases once, then in turn, round after round, each round beginning with another case; the first solves
-  /// find memory and caches cold and count where there are no others. If it is interrupted, no case gets a row.
+  /// find memory and caches cold and count where there are no others. If it is interrupted, no case gets a row. Without
+  /// other rounds a case gets its row at once, so that its program does not stay in memory.
   void solve_rounds(const std::vector<std::size_t>& numbers) {
     std::vector<SolvedCase> first;
     std::vector<std::vector<Solution>> rounds(numbers.size());
     const int rounds_after_first = options_.repeats > 1 ? options_.repeats : 0;
+    for (std::size_t i = 0; i < numbers.size() && rounds_after_first == 0; ++i) {
+      SolvedCase solved = solve(numbers[i], 1);
+      if (interrupt_requested()) return;
+      set_times(solved, {solved.solution});
+      keep(completed(solved), numbers[i]);
+    }
+    if (rounds_after_first == 0) return;
     for (std::size_t round = 0; std::cmp_less_equal(round, rounds_after_first); ++round) {
       for (std::size_t turn = 0; turn < numbers.size(); ++turn) {
         const std::size_t i = (turn + round) % numbers.size();

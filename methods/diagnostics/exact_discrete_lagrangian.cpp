@@ -111,6 +111,9 @@ ExactInterval ExactDiscreteLagrangian::along(const LongVector& q_0, const LongVe
   const auto equations = [this](const PhaseVector& at, PhaseVector& rate, long double t) { derivative(at, rate, t); };
   if (!integrate(equations, state, 0.0L, h, h / 4.0L, tolerance)) throw Error("the exact motion's step size vanished");
   interval.q_1 = x.q;
+  interval.v_1 = x.v;
+  interval.derivative.resize(2 * n_, 2 * n_);
+  interval.derivative << x.q_variation, x.v_variation;
   interval.right_by_velocity = x.q_variation.rightCols(n_);
   interval.objects.right_momentum = momentum(h);
   interval.objects.lagrangian = x.action;

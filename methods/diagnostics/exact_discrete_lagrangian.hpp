@@ -13,8 +13,10 @@ struct ExactInterval {
   LongVector q_0;                ///< q(0), n entries
   LongVector v_0;                ///< q̇(0)
   LongVector q_1;                ///< q(h)
+  LongVector v_1;                ///< q̇(h)
   DiscreteObjects objects;       ///< L_d^E, f_d^{E±} with p_0 = L_v(0), p_1 = L_v(h)
   LongMatrix right_by_velocity;  ///< ∂q(h)/∂q̇(0) at fixed q(0), n × n
+  LongMatrix derivative;         ///< of the flow, ∂(q, q̇)(h)/∂(q, q̇)(0), 2n × 2n
 };
 
 /// The exact discrete Lagrangian and forces, (eq:varmech_exactL), (eq:varmech_exactf+) and (eq:varmech_exactf-), for a

@@ -45,6 +45,17 @@ inline Rows symplecticity_rows() {
   return rows;
 }
 
+inline Rows flow_momentum_rows() {
+  const ColumnNames columns{"problem", "force", "horizon", "tolerance", "momentum_change", "work"};
+  return rows_of_texts(columns, {{"radial_thrust", "orthogonal", "10", "1e-12", "1e-13", "0"},
+                                 {orbit, "along", "10", "1e-12", "0.5", "0.5"}});
+}
+
+inline Rows flow_symplecticity_rows() {
+  return rows_of_texts({"problem", "horizon", "defect", "rounding", "printed_change"},
+                       {{"kepler", "1", "2e-15", "1e-15", "0"}, {orbit, "1", "3e-15", "1e-15", "0.4"}});
+}
+
 inline Rows energy_rows() {
   Rows rows;
   for (const std::string method : {"dmoc", "explicit_midpoint", "runge_kutta_4"}) {
@@ -140,16 +151,19 @@ inline Rows smoothness_rows() {
 
 inline Rows coercivity_rows() {
   Rows rows;
-  const auto append = [&](const char* problem, const char* intervals, const char* curvature) {
-    rows.push_back(row_of_texts({"problem", "method", "tableau", "stages", "status", "intervals", "smallest_curvature"},
-                                {problem, "dmoc", "gauss", "1", "solved", intervals, curvature}));
+  const auto append = [&](const char* problem, const char* end, const char* intervals, const char* curvature) {
+    rows.push_back(
+        row_of_texts({"problem", "method", "tableau", "stages", "end", "status", "intervals", "smallest_curvature"},
+                     {problem, "dmoc", "gauss", "1", end, "solved", intervals, curvature}));
   };
-  append(orbit, "16", "1.99");
-  append(orbit, "64", "1.998");
-  append(orbit, "256", "1.999");
-  append("brachistochrone", "16", "1e-2");
-  append("brachistochrone", "64", "1e-3");
-  append("brachistochrone", "256", "1e-4");
+  for (const char* end : {"stated", "free"}) {
+    append(orbit, end, "16", "1.99");
+    append(orbit, end, "64", "1.998");
+    append(orbit, end, "256", "1.999");
+  }
+  append("brachistochrone", "stated", "16", "1e-2");
+  append("brachistochrone", "stated", "64", "1e-3");
+  append("brachistochrone", "stated", "256", "1e-4");
   return rows;
 }
 
@@ -320,6 +334,20 @@ inline Rows profile_rows() {
   return rows;
 }
 
+/// One problem where DMOC's steps are shortened, one where they are not.
+inline Rows three_stages_rows() {
+  const ColumnNames columns{"problem",     "method",      "tableau",         "stages", "solver",
+                            "derivatives", "intervals",   "status",          "branch", "variables",
+                            "objective",   "evaluations", "major_iterations"};
+  const auto row = [&](const char* problem, const char* method, const char* variables, const char* evaluations,
+                       const char* iterations) {
+    return row_of_texts(columns, {problem, method, "gauss", "3", "interior_point", "tape", "128", "solved", "same",
+                                  variables, "1.5", evaluations, iterations});
+  };
+  return {row("cart_pole", "dmoc", "100", "300", "30"), row("cart_pole", "hamiltonian", "160", "60", "10"),
+          row("beam", "dmoc", "100", "60", "10"), row("beam", "hamiltonian", "150", "60", "10")};
+}
+
 /// Programs of one and two stages as (rem:savings) counts them.
 inline Rows stages_rows() {
   Rows rows;
@@ -426,6 +454,8 @@ inline std::map<std::string, Rows> all_rows() {
   }
   rows["structure_momentum"] = momentum_rows();
   rows["structure_symplecticity"] = symplecticity_rows();
+  rows["structure_flow_momentum"] = flow_momentum_rows();
+  rows["structure_flow_symplecticity"] = flow_symplecticity_rows();
   rows["structure_energy_behaviour"] = energy_rows();
   rows["consistency_order_slopes"] = consistency_order_rows();
   rows["structure_modified_energy_slopes"] = drift_rows();
@@ -483,6 +513,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["cold_start_shooting_shares"] = shooting_cold_rows();
   rows["structure_advantage_shooting"] = shooting_cost_rows();
   rows["profile"] = profile_rows();
+  rows["profile_three_stages"] = three_stages_rows();
   return rows;
 }
 

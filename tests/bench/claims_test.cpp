@@ -221,7 +221,9 @@ TEST(Claims, RobustnessIsJudgedBySolvesOfTheSameProgram) {
   const auto one = [](const Row& row) { return is(row, "dmoc") && row.text("intervals") == "16"; };
   EXPECT_EQ(robustness("forward_differences", none), ClaimVerdict::reproduced);
   EXPECT_EQ(robustness("forward_differences", all), ClaimVerdict::undecided) << "as robust";
+  EXPECT_EQ(robustness("dense_differences", all), ClaimVerdict::undecided) << "as robust";
   EXPECT_EQ(robustness("tape", one), ClaimVerdict::differs);
+  EXPECT_EQ(robustness("adolc_whole", one), ClaimVerdict::differs);
   EXPECT_EQ(robustness("finite_differences", all), ClaimVerdict::reproduced)
       << "central differences are not the paper's";
 }

@@ -132,6 +132,12 @@ std::vector<Mistake> mistakes_about_flows() {
        "simulations/momentum_preserved"},
       {"a flow that is not symplectic", "structure_symplecticity", set(has("method", "hamiltonian"), "defect", 1e-9),
        "simulations/symplectic"},
+      {"a continuous momentum that changes by less than the work", "structure_flow_momentum",
+       set(has("force", "along"), "momentum_change", 0.5 - 1e-8), "simulations/continuous_forced_noether_theorem"},
+      {"a continuous momentum that an orthogonal force changes", "structure_flow_momentum",
+       set(has("force", "orthogonal"), "momentum_change", 1e-8), "simulations/continuous_forced_noether_theorem"},
+      {"a continuous flow that is not symplectic", "structure_flow_symplecticity", set(every_row, "defect", 1e-9),
+       "simulations/lagrangian_form_preserved"},
       {"an energy that drifts", "structure_energy_behaviour", set(has("method", "dmoc"), "range", 0.5),
        "simulations/energy_does_not_drift"},
   };

@@ -37,6 +37,7 @@ TEST(TheoryClaims, DifferByOneFalseNumberOfTheirTables) {
       {"smoothness_slopes", has("stages", "2"), "slope", 4.0, "examples/kinks_leave_order_2"},
       {"smoothness_slopes", has("quantity", "costate_q"), "slope", 2.0, "examples/order_within_a_state_bound"},
       {"coercivity", has("intervals", "256"), "smallest_curvature", 0.5, on_orbit + "coercive"},
+      {"coercivity", has("end", "free"), "smallest_curvature", 0.0, on_orbit + "coercive_with_a_free_end"},
       {"coercivity", has("intervals", "256"), "smallest_curvature", 1e-3, "examples/brachistochrone_not_coercive"},
   };
   tests::expect_to_differ(all);

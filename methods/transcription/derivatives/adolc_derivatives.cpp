@@ -14,7 +14,9 @@ namespace {
 class Recording {
  public:
   explicit Recording(const Schedule& schedule)
-      : output_count_(static_cast<int>(schedule.outputs().size())), point_(schedule.input_count()) {
+      : tag_(schedule.input_count() > 0),
+        output_count_(static_cast<int>(schedule.outputs().size())),
+        point_(schedule.input_count()) {
     trace_on(tag());
     {
       std::vector<RecordedNumber> inputs;

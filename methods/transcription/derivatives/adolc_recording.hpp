@@ -17,15 +17,24 @@ namespace dmocbench {
 /// lives as long as this object.
 class AdolcTag {
  public:
-  /// Takes the first free number.
-  AdolcTag() {
+  /// Takes the first free number. Throws `Error` where too many recordings are swept in reverse: ADOL-C keeps a buffer
+  /// for each until it is removed, and one more than 32 (its TBUFNUM) would end the program.
+  explicit AdolcTag(bool is_swept_in_reverse) : is_swept_in_reverse_(is_swept_in_reverse) {
+    constexpr int most = 32;
     const std::lock_guard lock(mutex());
+    if (is_swept_in_reverse_ && swept_in_reverse() == most) {
+      throw Error(
+          "ADOL-C differentiates 32 recordings in reverse, two or three per program: have fewer programs at a time, or "
+          "take another back end of derivatives");
+    }
+    swept_in_reverse() += is_swept_in_reverse_ ? 1 : 0;
     while (used().contains(number_)) ++number_;
     used().insert(number_);
   }
   ~AdolcTag() {
     removeTape(number_, ADOLC_REMOVE_COMPLETELY);
     const std::lock_guard lock(mutex());
+    swept_in_reverse() -= is_swept_in_reverse_ ? 1 : 0;
     used().erase(number_);
   }
   AdolcTag(const AdolcTag&) = delete;
@@ -45,7 +54,12 @@ class AdolcTag {
     static std::set<short> instance;
     return instance;
   }
+  static int& swept_in_reverse() {
+    static int count = 0;
+    return count;
+  }
   short number_ = 16384;
+  bool is_swept_in_reverse_;
 };
 
 /// Throws `Error` if a driver of ADOL-C returned a failure.

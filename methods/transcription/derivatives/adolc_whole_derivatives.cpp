@@ -17,7 +17,11 @@ class WholeRecording {
   template <class OutputOf>
   WholeRecording(const Schedule& schedule, const LocalInputs& numbers, const WholePart& part, std::size_t outputs,
                  const OutputOf& output_of)
-      : input_count_(schedule.input_count()), intervals_(part.intervals), output_count_(outputs) {
+      // One output has a gradient, of which ADOL-C's reverse sweeps are the way; many are swept forward.
+      : tag_(outputs == 1 && schedule.input_count() > 0),
+        input_count_(schedule.input_count()),
+        intervals_(part.intervals),
+        output_count_(outputs) {
     number_inputs(numbers, part);
     // Larger than any interval needs, so that ADOL-C keeps everything in memory; untouched memory costs nothing.
     const auto entries = static_cast<unsigned>(65536 + 4 * intervals_ * (schedule.steps().size() + 16));
