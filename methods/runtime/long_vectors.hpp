@@ -27,8 +27,8 @@ void for_stretches(Eigen::Index size, const Use& use) {
   });
 }
 
-/// The sum of `part(begin, length)` over all stretches of a vector of `size` entries. The terms are added in the order of
-/// the stretches, so that the result does not depend on the number of threads.
+/// The sum of `part(begin, length)` over all stretches of a vector of `size` entries. The terms are added in the order
+/// of the stretches, so that the result does not depend on the number of threads.
 template <class Part>
 double sum_of_stretches(Eigen::Index size, const Part& part) {
   if (part_count(static_cast<std::size_t>(size), entries_per_stretch) == 1) return part(Eigen::Index{0}, size);
