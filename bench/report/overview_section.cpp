@@ -134,11 +134,14 @@ std::string times_in_words(const ResultsFolder& results) {
 std::string comparison_html(const ResultsFolder& results) {
   std::size_t rows = 0;
   for (const ReportedTable& table : results.tables) rows += table.table.rows().size();
-  std::set<std::string> methods;
-  for (const std::string& method : fields_of(results, "method")) methods.insert(method_in_words(method));
+  std::set<std::string> methods;  // families, without the integrators and points of their methods
+  for (const std::string& method : fields_of(results, "method")) {
+    const std::string words = method_in_words(method);
+    methods.insert(words.substr(0, words.find(',')));
+  }
   return fmt::format("<p>{} by the methods {}: {} in {}, {}, {}.</p>\n",
                      counted(fields_of(results, "problem").size(), "problem"),
-                     escaped(fmt::format("{}", fmt::join(methods, "; "))), counted(rows, "row"),
+                     escaped(fmt::format("{}", fmt::join(methods, ", "))), counted(rows, "row"),
                      counted(results.tables.size(), "table"), counted(results.figures.size(), "figure"),
                      counted(results.claims.rows().size(), "claim"));
 }
