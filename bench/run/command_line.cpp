@@ -241,7 +241,7 @@ std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& 
   for (const CLI::Option* known : app.get_options()) {
     for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
   }
-  // The letters of formulas, which are no misspellings of an option.
+  // The letters of formulas, which no option resembles.
   constexpr std::array letters{std::pair("N", "--intervals"), std::pair("n", "--intervals"), std::pair("s", "--stages"),
                                std::pair("T", "--set")};
   std::string meant = option.starts_with("--") ? likely_meant(option, names) : "";

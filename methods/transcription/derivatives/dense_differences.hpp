@@ -6,7 +6,7 @@
 
 namespace dmocbench {
 
-/// Forward differences as a solver takes them that knows a program by its values alone: one unknown of the whole
+/// Forward differences as a solver takes them that has only the values of a program: one unknown of the whole
 /// program is moved at a time, and cost, rows or ℓ of all intervals are evaluated again.
 ///
 /// With n unknowns a gradient or a Jacobian takes n + 1 evaluations of the whole program. Of the Hessian only entries
