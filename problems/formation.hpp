@@ -73,24 +73,25 @@ class Formation final : public Problem {
     return squared_distances(x.q).array() - varying("distance") * varying("distance");
   }
 
-  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(line(0.0)); }
-  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(line(std::numbers::pi)); }
+  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(line(1.0, 0.0)); }
+  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(line(-1.0, 0.0)); }
   [[nodiscard]] double horizon() const override { return 3.0; }
   [[nodiscard]] MotionPoint guess(double t) const override {
     const double rate = std::numbers::pi / horizon();
-    return {.q = line(rate * t),
-            .v = rate * line(rate * t + 0.5 * std::numbers::pi),
+    const double angle = rate * t;
+    return {.q = line(std::cos(angle), std::sin(angle)),
+            .v = rate * line(-std::sin(angle), std::cos(angle)),
             .u = Eigen::VectorXd::Zero(2 * count())};
   }
 
  private:
   [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(parameter("satellites")); }
-  /// Positions in a line through the middle, from y = -1 to 1 at first, turned by an angle.
-  [[nodiscard]] Eigen::VectorXd line(double angle) const {
+  /// Positions in a line through the middle, from (-across, -along) to (across, along).
+  [[nodiscard]] Eigen::VectorXd line(double along, double across) const {
     Eigen::VectorXd q(2 * count());
     for (Eigen::Index i = 0; i < count(); ++i) {
       const double at = 2.0 * static_cast<double>(i) / static_cast<double>(count() - 1) - 1.0;
-      q.segment(2 * i, 2) << at * std::sin(angle), at * std::cos(angle);
+      q.segment(2 * i, 2) << at * across + 0.0, at * along + 0.0;  // no -0
     }
     return q;
   }
