@@ -203,7 +203,7 @@ class Solve final : public ExperimentOf<Measured> {
       if (acts(price, value)) {
         say_price(found, "range", price);
       } else {
-        findings.say(label + ": " + found);
+        findings.say(fmt::format("{}: {}", label, found));
       }
     }
     const double horizon = motion.node_times[motion.intervals()];
