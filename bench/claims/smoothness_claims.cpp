@@ -148,7 +148,7 @@ Claims coercivity_claims() {
            .states = states,
            .judge = at_end("free"),
            .condition = "the same on the space of the paper, which leaves the final state free: the distance to it is "
-                        "part of the cost, with the weight 100",
+                        "part of the cost, with a weight of 100 over the scale of the cost",
            .evidence = {"coercivity.csv"}}};
 }
 

@@ -88,6 +88,7 @@ void register_factors() {
     for (const Way& way : ways) add(problem, 1024, "tape", tolerance, way);
     for (const Way& way : {interior_point, Way{"two_threads", {}, 2}}) add(problem, 65536, "tape", tolerance, way);
     for (const std::string& derivatives : derivative_back_end_names()) {
+      if (derivatives == "dense_differences") continue;  // minutes of evaluations, whatever the solver
       for (const Way& way : {ipopt, interior_point}) add(problem, 128, derivatives, of_differences, way);
     }
   }

@@ -48,6 +48,9 @@ class WholeRecording {
       }
     }
     trace_off();
+    // Recordings made afterwards would carry the memory of as many variables through each of their sweeps.
+    setStoreManagerType(ADOLC_LOCATION_SINGLETONS);
+    setStoreManagerType(ADOLC_LOCATION_BLOCKS);
   }
 
   [[nodiscard]] short tag() const noexcept { return tag_.number(); }
