@@ -1,5 +1,6 @@
 // The value of exact derivatives compared with differences: section 4.1, "Automatic Differentiation", of the paper.
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <random>
 #include <utility>
@@ -84,10 +85,13 @@ class Derivatives final : public ExperimentOf<Measured> {
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const std::vector<std::string> hessians = chosen_of("--hessian", {"exact", limited_memory}, hessians_);
-    std::vector<Case> cases = vary(chosen, [&](const Case& c) {
+    std::vector<Case> within;
+    std::ranges::copy_if(chosen, std::back_inserter(within), [](const Case& c) {
+      return c.derivatives != "dense_differences" || c.grid.intervals() <= most_dense_intervals;
+    });
+    std::vector<Case> cases = vary(within, [&](const Case& c) {
       const bool has_limited_memory = c.solver == "ipopt" && c.derivatives != "finite_differences";
       std::vector<std::string> labels;
-      if (c.derivatives == "dense_differences" && c.grid.intervals() > most_dense_intervals) return labels;
       for (const std::string& hessian : hessians) {
         if (hessian == "exact") labels.emplace_back();
         if (hessian == limited_memory && has_limited_memory) labels.push_back(hessian);
