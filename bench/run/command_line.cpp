@@ -246,7 +246,7 @@ std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& 
                                std::pair("T", "--set")};
   std::string meant = option.starts_with("--") ? likely_meant(option, names) : "";
   for (const auto& [letter, name] : letters) {
-    const bool is_letter = option.substr(option.find_first_not_of('-')) == letter;
+    const bool is_letter = option == fmt::format("-{}", letter) || option == fmt::format("--{}", letter);
     if (is_letter && std::ranges::find(names, name) != names.end()) meant = name;
   }
   return meant.empty() ? error.what() : fmt::format("there is no option {} (did you mean {}?)", option, meant);
