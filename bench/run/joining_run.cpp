@@ -29,7 +29,8 @@ constexpr std::string_view harmless_options =
     "--solver --derivatives --intervals --set --form --start-seconds --tolerance --tolerances --iterations --seconds "
     "--repeats --verbose --jobs --batch --no-batch --reference --polish --no-polish --fit --routes --no-indirect "
     "--starts --library-starts --other-starts --indirect-starts --other-library-starts --seed --amplitude --plane "
-    "--objective-tolerance --hessian --crash --factorisation --over --samples --fresh --quiet --json ";
+    "--objective-tolerance --hessian --crash --factorisation --over --samples --constraints --condition --fresh "
+    "--quiet --json ";
 
 /// Options that `merge` sets itself.
 constexpr std::string_view set_by_merge = " --part --out --name ";

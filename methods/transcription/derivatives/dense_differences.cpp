@@ -28,6 +28,7 @@ class DenseDifferences final : public DerivativeBackEnd {
         row_tape_(functions.rows.schedule, {picked(places.rows, functions.rows.places),
                                             static_cast<std::size_t>(rows_.size()), part_.intervals}) {
     for (const WholePart::Entry& entry : part_.jacobian) by_column_[entry.column].push_back(entry);
+    original_ = x_;
   }
 
   void gradient(Inputs inputs, VectorOut result) override {
