@@ -23,8 +23,10 @@ class WholeRecording {
         intervals_(part.intervals),
         output_count_(outputs) {
     number_inputs(numbers, part);
-    // Larger than any interval needs, so that ADOL-C keeps everything in memory; untouched memory costs nothing.
-    const auto entries = static_cast<unsigned>(65536 + 4 * intervals_ * (schedule.steps().size() + 16));
+    // More than it needs, so that ADOL-C keeps all of it in memory and not in files; untouched memory costs nothing.
+    constexpr std::size_t most_entries = std::size_t{1} << 26U;
+    const auto entries =
+        static_cast<unsigned>(std::min(most_entries, 65536 + 4 * intervals_ * (schedule.steps().size() + 16)));
     trace_on(tag(), 0, entries, 4 * entries, entries, 16 * entries);
     {
       std::vector<RecordedNumber> independents;
