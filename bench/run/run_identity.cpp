@@ -59,10 +59,8 @@ Json parameters_of(const std::vector<Case>& cases) {
   return parameters;
 }
 
-}  // namespace
-
-Json identity_of(const std::string& experiment, const Json& metadata,
-                 const std::vector<std::pair<std::string, std::string>>& options) {
+/// The program and what it was built with.
+Json program_of(const std::string& experiment, const Json& metadata) {
   Json identity{{"experiment", experiment}};
   for (const char* const key : {"dmocbench", "compiler", "flags", "instruction_set", "libraries", "solvers"}) {
     identity[key] = metadata.at(key);
@@ -70,17 +68,31 @@ Json identity_of(const std::string& experiment, const Json& metadata,
   // Not the commit: a tree that was changed has several programs under one, and one program outlives many.
   identity["program"] = fmt::format("{:08x}", crc_32(read_file("/proc/self/exe")));
   if (metadata.contains("problem_libraries")) identity["problem_libraries"] = checksums_of(metadata);
-  identity["options"] = Json::object();
+  return identity;
+}
+
+Json options_of_run(const std::vector<std::pair<std::string, std::string>>& options) {
+  Json result = Json::object();
   for (const auto& [name, value] : options) {
-    if (!is_about_the_machine(name)) identity["options"][name] = value;
+    if (!is_about_the_machine(name)) result[name] = value;
   }
+  return result;
+}
+
+}  // namespace
+
+Json identity_of(const std::string& experiment, const Json& metadata,
+                 const std::vector<std::pair<std::string, std::string>>& options) {
+  Json identity = program_of(experiment, metadata);
+  identity["options"] = options_of_run(options);
   return identity;
 }
 
 Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, const Json& metadata,
                  const std::vector<std::pair<std::string, std::string>>& options) {
-  Json identity = identity_of(card.name, metadata, options);
-  identity["parameters"] = parameters_of(cases);
+  Json identity = program_of(card.name, metadata);
+  identity["parameters"] = parameters_of(cases);  // before the options: a difference is reported by its first entry
+  identity["options"] = options_of_run(options);
   const std::string& start = card.options.start;
   std::error_code none;  // a start that is not a file is rejected where it is read
   if (start != "common" && start != "guess" && std::filesystem::is_regular_file(start, none))

@@ -103,7 +103,8 @@ TEST(AdaptiveSolve, ReachesTheAccuracyAskedForWithEveryKindOfStatement) {
     options.accuracy = 1e-4;
     const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 32), options);
     ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << name << ": " << answer.message;
-    const double least = tests::value_of(problem->card().reference).objective;
+    if (!problem->card().reference) continue;  // of the spring arm, for which no optimum is certified
+    const double least = problem->card().reference->objective;
     EXPECT_NEAR(answer.trajectory.cost, least, 1e-4 * least) << name;
   }
 }
