@@ -1,9 +1,11 @@
 # Mechanisms by DMOC with multipliers, by their embedding and in minimal coordinates: condition of the KKT matrix and time of
-# an iteration over the number of intervals, a row of panels per mechanism.
+# an iteration over the number of intervals, a row of panels per mechanism. Draws nothing without objective_forms.csv, which
+# bench/reproduce --all writes.
 #   gnuplot -e "results='results'" plots/constraint_forms.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 name = "objective_forms"
+if (!exists_table(name)) { exit }
 eval require(name, "problem,method,tableau,stages,status,branch,intervals,condition,seconds,major_iterations")
 
 mechanisms = "spherical_pendulum_cartesian cart_pole_cartesian two_link_maximal link_chain_maximal"
