@@ -314,8 +314,7 @@ TEST(HolonomicConstraintsWithoutInertia, AreRefusedByOtherMethods) {
 /// A particle on a line, stated with constraints that may be wrong.
 class Misstated final : public Problem {
  public:
-  Misstated(ExpressionVector (*constraints)(const ExpressionVector&), double last_y)
-      : constraints_(constraints), last_y_(last_y) {}
+  Misstated(ExpressionVector (*g)(const ExpressionVector&), double last_y) : constraints_(g), last_y_(last_y) {}
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override { return constraints_(q); }
