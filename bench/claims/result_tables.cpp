@@ -101,8 +101,8 @@ nlohmann::ordered_json metadata_of_whole_run(const std::filesystem::path& folder
   return metadata;
 }
 
-/// Throws `Error` unless the run that wrote the table came to its end, wrote this content, and the content is as the
-/// agrees with the JSON Schema next to it.
+/// Throws `Error` unless the run that wrote the table came to its end, wrote this content, and the content agrees
+/// with the JSON Schema next to it.
 void check_run(const std::filesystem::path& folder, const std::string& name, const Table& table,
                const std::string& content) {
   const std::string run = run_of(folder, name, ".json");

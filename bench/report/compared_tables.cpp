@@ -1,12 +1,10 @@
 #include "bench/report/compared_tables.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <iterator>
 #include <map>
-#include <string_view>
 
 #include "methods/runtime/parsed.hpp"
 
@@ -14,26 +12,15 @@ namespace dmocbench {
 
 namespace {
 
-/// Columns that identify a row, as opposed to results.
-constexpr std::array<std::string_view, 26> identity_columns{
-    "problem",   "method", "tableau",    "stages",      "solver",   "derivatives",   "intervals",
-    "tolerance", "form",   "crash",      "start",       "sequence", "step",          "quantity",
-    "currency",  "error",  "measure",    "budget",      "system",   "factorisation", "integrator",
-    "substeps",  "order",  "truncation", "revolutions", "minimum"};
-
-bool is_identity(const std::string& column) {
-  return std::ranges::find(identity_columns, column) != identity_columns.end();
-}
-
 /// Whole numbers that no run repeats, or that rounding decides.
 bool is_no_count(const std::string& column) {
   return column.find("seconds") != std::string::npos || column == "jump_interval" || column == "message";
 }
 
-std::string about(const Row& row, const std::vector<std::string>& columns) {
+std::string about(const Row& row, const std::vector<std::string>& key) {
   std::string words;
-  for (const std::string& column : columns) {
-    if (!is_identity(column) || row.text(column).empty()) continue;
+  for (const std::string& column : key) {
+    if (row.text(column).empty()) continue;
     words += (words.empty() ? "" : " ") + row.text(column);
   }
   return words;
@@ -41,11 +28,11 @@ std::string about(const Row& row, const std::vector<std::string>& columns) {
 
 /// The rows by their identity, and by their number among several of it.
 std::map<std::pair<std::string, std::size_t>, const Row*> rows_by_key(const Table& table,
-                                                                      const std::vector<std::string>& columns) {
+                                                                      const std::vector<std::string>& key) {
   std::map<std::pair<std::string, std::size_t>, const Row*> rows;
   std::map<std::string, std::size_t> counts;
   for (const Row& row : table.rows()) {
-    const std::string words = about(row, columns);
+    const std::string words = about(row, key);
     rows[{words, counts[words]++}] = &row;
   }
   return rows;
@@ -65,15 +52,15 @@ std::vector<double> times_in(const Row& row) {
 }  // namespace
 
 PairedRows paired_rows(const Table& first, const Table& second) {
-  std::vector<std::string> columns;  // a column that only one of them has cannot identify rows
-  std::ranges::copy_if(first.columns(), std::back_inserter(columns), [&second](const std::string& column) {
+  std::vector<std::string> key;  // a column that only one of them has cannot identify rows
+  std::ranges::copy_if(first.key(), std::back_inserter(key), [&second](const std::string& column) {
     return std::ranges::count(second.columns(), column) > 0;
   });
-  const auto others = rows_by_key(second, columns);
+  const auto others = rows_by_key(second, key);
   PairedRows result;
-  for (const auto& [key, row] : rows_by_key(first, columns)) {
-    const auto other = others.find(key);
-    if (other != others.end()) result.pairs.push_back({key.first, row, other->second});
+  for (const auto& [identity, row] : rows_by_key(first, key)) {
+    const auto other = others.find(identity);
+    if (other != others.end()) result.pairs.push_back({identity.first, row, other->second});
   }
   result.alone = first.rows().size() + second.rows().size() - 2 * result.pairs.size();
   return result;
@@ -82,7 +69,9 @@ PairedRows paired_rows(const Table& first, const Table& second) {
 std::vector<ChangedField> changed_fields(const Table& first, const Table& second, const PairedRows& rows) {
   std::vector<ChangedField> changes;
   for (const std::string& column : first.columns()) {
-    if (is_identity(column) || is_no_count(column) || std::ranges::count(second.columns(), column) == 0) continue;
+    if (std::ranges::count(first.key(), column) > 0 || is_no_count(column) ||
+        std::ranges::count(second.columns(), column) == 0)
+      continue;
     for (const RowPair& pair : rows.pairs) {
       const std::string& before = pair.first->text(column);
       const std::string& after = pair.second->text(column);

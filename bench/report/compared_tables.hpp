@@ -17,8 +17,8 @@ struct RowPair {
   const Row* second = nullptr;
 };
 
-/// The rows of two tables that are about the same problem, method, grid and so on; where several of a table are, the
-/// first belongs to the first, the second to the second. `alone` counts the rows without a partner.
+/// The rows of two tables with the same fields in the key of the first one; where several of a table have the same, or
+/// there is no key, the first belongs to the first, the second to the second. `alone` counts the rows without a partner.
 struct PairedRows {
   std::vector<RowPair> pairs;
   std::size_t alone = 0;

@@ -104,6 +104,16 @@ std::string run_of(const std::string& file, const std::vector<ReportedRun>& runs
   return "";
 }
 
+/// The key of a table in a run's metadata; empty if they do not name it.
+std::vector<std::string> key_of(const std::string& file, const Json* metadata) {
+  try {
+    if (metadata != nullptr)
+      return JsonPlace(*metadata, "").at("tables").at(file).at("schema").at("primaryKey").texts();
+  } catch (const Error&) {  // by an earlier version, or damaged
+  }
+  return {};
+}
+
 void read_tables(const std::filesystem::path& folder, ResultsFolder& results) {
   const std::set<std::string> of_motions = files_of_motions(results.runs);
   for (const std::filesystem::path& file : files_in(folder, ".csv")) {
@@ -115,7 +125,9 @@ void read_tables(const std::filesystem::path& folder, ResultsFolder& results) {
       } else if (name == "claims_rows.csv") {
         results.claim_rows = std::move(table);
       } else if (!of_motions.contains(name)) {
-        results.tables.push_back({name, run_of(name, results.runs), std::move(table)});
+        const std::string run = run_of(name, results.runs);
+        table.set_key(key_of(name, results.metadata_of(run)));
+        results.tables.push_back({name, run, std::move(table)});
       }
     } catch (const Error& error) {
       results.faults.push_back(fmt::format("{}: {}", name, error.what()));

@@ -129,28 +129,17 @@ std::string objective_html(const StatedProblem& stated) {
   return "<p>Minimise " + math(sum) + "</p>\n";
 }
 
-}  // namespace
-
-std::string statement_html(const Problem& problem) {
-  const StatedProblem stated_problem = stated(problem);
+/// Ends, horizon and bounds, a term each.
+std::string limits_html(const Problem& problem, const StatedProblem& stated_problem) {
   const auto n = static_cast<std::size_t>(problem.configuration_size());
   const auto m = static_cast<std::size_t>(problem.control_size());
   const auto l = static_cast<std::size_t>(problem.first_order_size());
   const std::size_t letters = stated_problem.letters.size();
-  const WrittenFormulas along = written(stated_problem.along, stated_problem.inputs, stated_problem);
-  const WrittenFormulas at_ends = written(stated_problem.at_ends, stated_problem.end_inputs, stated_problem);
-
-  std::string html = objective_html(stated_problem);
-  const bool has_cost = !stated_problem.along.front().value.is_zero();
-  for (std::size_t i = has_cost ? 0 : 1; i < along.lines.size(); ++i) html += along.lines[i];
-  for (const std::string& line : at_ends.lines) html += line;
-  if (!along.shared.empty() || !at_ends.shared.empty()) html += "<p>with</p>\n" + along.shared + at_ends.shared;
-
+  std::string html = "<dl>\n";
   const ProblemBounds bounds = problem.bounds();
   const auto add = [&html](std::string_view term, const Conditions& conditions) {
     if (!conditions.row().empty()) html += fmt::format("<dt>{}<dd>{}\n", term, conditions.row());
   };
-  html += "<dl>\n";
   Conditions begin;
   begin.add(part(stated_problem.end_inputs, letters, n), bounds.first.q);
   begin.add(part(stated_problem.end_inputs, letters + n, n), bounds.first.v);
@@ -192,7 +181,23 @@ std::string statement_html(const Problem& problem) {
     on_motion.add(letter->mathml, parameter.lower, parameter.upper);
   }
   add("Bounds", on_motion);
-  return html + "</dl>\n" + letters_html(stated_problem);
+  return html + "</dl>\n";
+}
+
+}  // namespace
+
+std::string statement_html(const Problem& problem) {
+  const StatedProblem stated_problem = stated(problem);
+  const WrittenFormulas along = written(stated_problem.along, stated_problem.inputs, stated_problem);
+  const WrittenFormulas at_ends = written(stated_problem.at_ends, stated_problem.end_inputs, stated_problem);
+
+  std::string html = objective_html(stated_problem);
+  const bool has_cost = !stated_problem.along.front().value.is_zero();
+  for (std::size_t i = has_cost ? 0 : 1; i < along.lines.size(); ++i) html += along.lines[i];
+  for (const std::string& line : at_ends.lines) html += line;
+  if (!along.shared.empty() || !at_ends.shared.empty()) html += "<p>with</p>\n" + along.shared + at_ends.shared;
+
+  return html + limits_html(problem, stated_problem) + letters_html(stated_problem);
 }
 
 }  // namespace dmocbench

@@ -283,9 +283,10 @@ TEST(Report, AnswersFiveQuestionsByClaimsOnItsFirstScreen) {
 }
 
 TEST(ComparedTables, PairRowsByWhatTheyAreAboutAndTellCountsAndStatusesThatDiffer) {
-  const Table first = Table::from_csv(
+  Table first = Table::from_csv(
       "problem,method,intervals,status,major_iterations,objective,seconds\n"
       "arm,dmoc,16,solved,5,0.25,1\narm,dmoc,16,solved,7,0.5,1\narm,dmoc,32,solved,6,0.125,1\n");
+  first.set_key({"problem", "method", "intervals", "sigma"});
   const Table second = Table::from_csv(
       "problem,method,intervals,status,major_iterations,objective,seconds\n"
       "arm,dmoc,64,solved,9,1,2\narm,dmoc,16,solved,5,0.75,2\narm,dmoc,16,time limit,8,0.5,2\n");
@@ -302,7 +303,9 @@ TEST(ComparedTables, PairRowsByWhatTheyAreAboutAndTellCountsAndStatusesThatDiffe
 
 TEST(ComparedTables, JudgeTimesByRoundsAlone) {
   const auto table = [](const std::string& times) {
-    return Table::from_csv("problem,round_seconds\narm," + times + "\nleg,1 1\nfoot,\n");
+    Table result = Table::from_csv("problem,round_seconds\narm," + times + "\nleg,1 1\nfoot,\n");
+    result.set_key({"problem"});
+    return result;
   };
   const Table calm = table("1 1.1 0.9 1 1.05 0.95 1 1.02 0.98 1 1.01");
   const Table slow = table("2 2.1 1.9 2 2.05 1.95 2 2.02 1.98 2 2.01");

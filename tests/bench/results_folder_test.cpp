@@ -24,17 +24,20 @@ using ReportOnDisk = tests::InTemporaryFolder;
 
 TEST_F(ReportOnDisk, StandsWhateverTypesMetadataHave) {
   write_file(folder() / "objective.csv", one_solve);
-  const Json whole{
-      {"command_line", {"objective", "--out", "x"}},
-      {"utc_time", "2026-01-01T00:00:00Z"},
-      {"wall_seconds", 1.5},
-      {"commit", "a"},
-      {"complete", true},
-      {"rows", 2},
-      {"not_solved", 1},
-      {"cost_scale", {{"arm", 1.0}}},
-      {"motions", {{{"nodes", "motion_arm_nodes.csv"}, {"problem", "arm"}, {"method", "dmoc"}}}},
-      {"tables", {{"objective.csv", {{"columns", {"problem"}}, {"meanings", {{"problem", "its name"}}}}}}}};
+  const Json whole{{"command_line", {"objective", "--out", "x"}},
+                   {"utc_time", "2026-01-01T00:00:00Z"},
+                   {"wall_seconds", 1.5},
+                   {"commit", "a"},
+                   {"complete", true},
+                   {"rows", 2},
+                   {"not_solved", 1},
+                   {"cost_scale", {{"arm", 1.0}}},
+                   {"motions", {{{"nodes", "motion_arm_nodes.csv"}, {"problem", "arm"}, {"method", "dmoc"}}}},
+                   {"tables",
+                    {{"objective.csv",
+                      {{"columns", {"problem"}},
+                       {"meanings", {{"problem", "its name"}}},
+                       {"schema", {{"primaryKey", {"problem"}}}}}}}}};
   std::vector<std::string> places;  // of everything, the whole apart
   const Json flat = whole.flatten();
   for (const auto& [place, value] : flat.items()) {
@@ -50,6 +53,15 @@ TEST_F(ReportOnDisk, StandsWhateverTypesMetadataHave) {
       EXPECT_TRUE(is_in_page(comparison_page({"a", results}, {"b", results}), "Two runs")) << metadata;
     }
   }
+}
+
+TEST_F(ReportOnDisk, TakesTheKeyOfATableFromItsMetadata) {
+  write_file(folder() / "objective.csv", one_solve);
+  write_file(folder() / "objective.json", R"({"command_line": ["objective"], "tables": {"objective.csv": {"schema":
+    {"primaryKey": ["problem", "intervals"]}}}})");
+  const ResultsFolder results = read_results_folder(folder());
+  ASSERT_EQ(results.tables.size(), 1U);
+  EXPECT_EQ(results.tables.front().table.key(), (std::vector<std::string>{"problem", "intervals"}));
 }
 
 TEST_F(ReportOnDisk, NamesTheFileAndTheKeyOfMetadataOfAnotherType) {
