@@ -126,10 +126,16 @@ class Convergence final : public ExperimentOf<Measured> {
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     reference_ = parse_reference(reference_text_);
     if (!fit_.empty()) {
-      const std::vector<long long> range = parse_intervals("--fit", fit_);
-      fit_range_ = {range.front(), range.back()};
+      const std::size_t colon = std::min(fit_.find(':'), fit_.size());
+      const long long first = parse_intervals("--fit", fit_.substr(0, colon)).front();
+      const long long last = colon == fit_.size() ? first : parse_intervals("--fit", fit_.substr(colon + 1)).back();
+      if (last < first) throw Error(fmt::format("--fit: the range {} ends below its start", fit_));
+      fit_range_ = {first, last};
     }
-    if (reference_ == exact_reference) indirect_ = std::make_shared<IndirectReference>(card_.options.out);
+    if (reference_ == exact_reference) {
+      for (const Case& each : chosen) require_indirect(*each.problem);
+      indirect_ = std::make_shared<IndirectReference>(card_.options.out);
+    }
     if (reference_ > 0 && std::ranges::count(chosen, reference_, intervals_of) == 0) {
       throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
     }

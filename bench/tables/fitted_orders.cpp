@@ -263,6 +263,9 @@ FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRan
     }
     if (const auto note = note_on_missing_orders(std::span(curves).subspan(fits_before))) notes.push_back(*note);
   }
+  const auto is_unsteady = [](const FittedCurve& fit) { return fit.fit.verdict == "unsteady"; };
+  if (notes.empty() && std::ranges::any_of(curves, is_unsteady))
+    notes.emplace_back("unsteady: the orders of no four neighbouring grids agree; finer grids may have one");
   return {.table = table_of(order_columns(), curves), .notes = std::move(notes)};
 }
 

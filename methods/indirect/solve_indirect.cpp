@@ -52,8 +52,22 @@ Eigen::VectorXd phase_point(LegendreTransform& legendre, const BoundaryState& en
   return point;
 }
 
-/// The maximum principle is stated here for fixed ends, a fixed horizon and free controls.
-void require_smooth_class(const Problem& problem) {
+void require_fit(const Problem& problem, const Trajectory& start) {
+  if (!start.has_costates()) {
+    throw Error("the indirect method starts from costates: give it a solution of a solver that has multipliers");
+  }
+  const Eigen::Index n = problem.configuration_size();
+  const double horizon = problem.horizon();
+  constexpr double coincidence = 1e-9;
+  if (start.q.cols() != n || start.stage_u.cols() != problem.control_size() ||
+      std::abs(start.node_times[start.intervals()] - horizon) > coincidence * horizon) {
+    throw Error("the start of the indirect method belongs to another problem than " + problem.name());
+  }
+}
+
+}  // namespace
+
+void require_indirect(const Problem& problem) {
   const TracedProblem traced(problem);
   const auto refuse = [&](const std::string& feature) {
     throw Error("the indirect method does not support " + feature + ", which " + problem.name() +
@@ -77,25 +91,10 @@ void require_smooth_class(const Problem& problem) {
   if (!problem.final_cost(end).is_zero()) refuse("a final cost");
 }
 
-void require_fit(const Problem& problem, const Trajectory& start) {
-  if (!start.has_costates()) {
-    throw Error("the indirect method starts from costates: give it a solution of a solver that has multipliers");
-  }
-  const Eigen::Index n = problem.configuration_size();
-  const double horizon = problem.horizon();
-  constexpr double coincidence = 1e-9;
-  if (start.q.cols() != n || start.stage_u.cols() != problem.control_size() ||
-      std::abs(start.node_times[start.intervals()] - horizon) > coincidence * horizon) {
-    throw Error("the start of the indirect method belongs to another problem than " + problem.name());
-  }
-}
-
-}  // namespace
-
 IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start, const IndirectOptions& options) {
   constexpr int lower_stages = 8;
   constexpr int higher_stages = 10;
-  require_smooth_class(problem);
+  require_indirect(problem);
   require_fit(problem, start);
   const PontryaginFunction function(problem);
   LegendreTransform legendre{TracedProblem(problem)};

@@ -13,6 +13,11 @@ struct IndirectOptions {
   Eigen::Index most_intervals = 512;   ///< the largest N; beyond it the best agreement so far is returned
 };
 
+/// The maximum principle is stated here for fixed ends, a fixed horizon and a motion without bounds. Throws `Error` that
+/// names the first thing of the problem that is outside this class: bounds, constraints of any kind, a final cost, free
+/// ends, a free horizon, first-order states or unknown parameters.
+void require_indirect(const Problem& problem);
+
 /// An optimal motion that depends on direct methods for its start only: Pontryagin's boundary value problem of the same
 /// traced formulas, solved twice, by Gauss collocation of order 16 on N intervals and of order 20 on 3N/2, with N
 /// doubled until both agree (`IndirectAgreement`). The finer run is returned.
@@ -20,9 +25,8 @@ struct IndirectOptions {
 /// `start` is a direct solution with costates on the wanted branch; a few dozen intervals suffice. The result is an
 /// extremal near it: Legendre's condition is checked, optimality is not.
 ///
-/// Throws `Error` if the problem has bounds, path constraints, boundary conditions, a final cost, free ends or a free
-/// horizon, the start has no costates or another horizon, the running cost is not strictly convex in the control, or
-/// Newton's method does not converge.
+/// Throws `Error` as `require_indirect`, and if the start has no costates or another horizon, the running cost is not
+/// strictly convex in the control, or Newton's method does not converge.
 [[nodiscard]] IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
                                               const IndirectOptions& options = {});
 
