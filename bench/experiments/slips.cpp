@@ -1,4 +1,4 @@
-// Statements of the paper that cannot be meant as printed, each evaluated as printed and as meant.
+// The misprints of the paper, each formula evaluated as printed and as corrected.
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -257,9 +257,8 @@ int evaluate_misprints(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program(
-      "slips", "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
-      argc, argv, evaluate_misprints);
+  return run_program("slips", "Misprints of the paper: each formula evaluated as printed and as corrected (slips.csv).",
+                     argc, argv, evaluate_misprints);
 }
 
 }  // namespace dmocbench::slips_program

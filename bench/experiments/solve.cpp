@@ -104,9 +104,7 @@ class Solve final : public ExperimentOf<Measured> {
                  "NAME_picture.csv; with several cases each NAME carries the case's label. The last iterate of "
                  "every failed solve is also written, and can be continued with --start NAME_nodes.csv.",
              .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
-             .finishes_interrupted = true,
-             .wants_motions = true,
-             .takes_parts = false,
+             .rows = RowUse::motions,
              .example = "--problem two_link_manipulator --method dmoc --intervals 64"}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return columns_through<Measured>(&Measured::checks, check_columns()) +
@@ -138,7 +136,7 @@ class Solve final : public ExperimentOf<Measured> {
     return chosen;
   }
   [[nodiscard]] SolvedCase solve(SolveTask task) override {
-    task.takes_costates = takes_costates_;
+    if (!takes_costates_) task.start.with_costates.reset();
     if (accuracy_.is_wanted()) return accuracy_.solve(std::move(task));
     return trace_.is_wanted() ? trace_.solve(task) : Experiment::solve(std::move(task));
   }

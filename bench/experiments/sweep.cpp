@@ -36,7 +36,6 @@ class Sweep final : public ExperimentOf<Instance> {
                          .batch = true},
              .branches = BranchesTold::none,
              .takes_batches = true,
-             .finishes_interrupted = true,
              .example = "--over mass_1=0.5:2:20 --over final_q1=0.3:0.8:11"}) {}
 
   void add_options(CommandLine& line) override {

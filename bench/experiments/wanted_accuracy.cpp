@@ -94,7 +94,6 @@ SolvedCase WantedAccuracy::solve(SolveTask task) {
   the_case.stages = static_cast<int>(last.stages);
   task.start.motion = smooth_motion(answer.trajectory);
   task.start.with_costates = answer.trajectory;
-  task.takes_costates = true;
   constexpr double moment = 1e-9;
   double& most_seconds = task.options.most_seconds;
   if (most_seconds > 0.0) most_seconds = std::max(most_seconds - spent, moment);

@@ -8,9 +8,7 @@
 namespace dmocbench {
 
 SolvedCase SolveTask::by(const Solver& solver) const {
-  Start from = start;
-  if (!takes_costates) from.with_costates.reset();
-  return solve_case(the_case, from, solver, options.tolerance, repeats, polishes);
+  return solve_case(the_case, start, solver, options.tolerance, repeats, polishes);
 }
 
 void FurtherOutput::write(const std::string& suffix, const Table& table) {

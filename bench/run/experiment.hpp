@@ -28,6 +28,15 @@ enum class BranchesTold : std::uint8_t {
   none,             ///< no row
 };
 
+/// The use of an experiment's rows.
+enum class RowUse : std::uint8_t {
+  curves,   ///< they are compared: the exit code is 1 if a curve has no usable row. `finish` needs only the rows and
+            ///< `indirect`, so that --part is offered, and an interrupted run is resumed
+  motions,  ///< each is a motion that the user wants: the exit code is 1 if one is not solved or no motion
+            ///< (`is_no_motion`). A start's costates become start multipliers, and `finish` is called after an
+            ///< interrupt too, if the first row is there
+};
+
 /// The properties of an experiment that do not depend on its cases.
 struct ExperimentCard {
   std::string name;           ///< of the binary, and of the table unless the user gives another
@@ -36,30 +45,26 @@ struct ExperimentCard {
   /// The endings that `finish` appends to the table's name, as in "_slopes.csv"; known when `cases` has returned. Files
   /// of an earlier run are removed when the first row is written, so that old and new files are never mixed.
   std::vector<std::string> further_files = {};
+  RowUse rows = RowUse::curves;                           ///< the use of the rows
   BranchesTold branches = BranchesTold::of_chosen_start;  ///< which rows state their branch
   bool problems_are_independent = false;  ///< rows of one problem do not depend on other problems: --jobs is offered
   bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that
                              ///< other load of the machine slows all of them alike
-  bool compares_tolerances = false;   ///< several tolerances make several cases: --tolerances is offered
-  bool polishes = false;              ///< solved cases are tightened by Newton steps (polish.hpp)
-  bool takes_batches = false;         ///< cases of one program may be solved side by side, without times and without
-                                      ///< `solve`: --batch is offered
-  bool finishes_interrupted = false;  ///< `finish` is also called after an interrupt, if the first row is there
-  bool wants_motions = false;         ///< an answer that is not a motion (`is_no_motion`) also makes the exit code 1
-  /// `finish` needs only the rows and `indirect`: --part is offered, and an interrupted run is resumed.
-  bool takes_parts = true;
-  std::string example = {};  ///< options of a call that `--help` shows; by default a problem and its grids
+  bool compares_tolerances = false;  ///< several tolerances make several cases: --tolerances is offered
+  bool polishes = false;             ///< solved cases are tightened by Newton steps (polish.hpp)
+  bool takes_batches = false;        ///< cases of one program may be solved side by side, without times and without
+                                     ///< `solve`: --batch is offered
+  std::string example = {};          ///< options of a call that `--help` shows; by default a problem and its grids
 };
 
 /// A solve to be carried out.
 struct SolveTask {
-  Case the_case;                ///< the case to be solved
-  Start start;                  ///< where the solve begins
-  SolverOptions options;        ///< from the command line, with the tolerance of the case
-  NamedOptions named_options;   ///< options passed to the solver by name
-  int repeats = 1;              ///< solves; times are their medians
-  bool polishes = false;        ///< as in the card
-  bool takes_costates = false;  ///< the costates of the start become start multipliers
+  Case the_case;               ///< the case to be solved
+  Start start;                 ///< where the solve begins
+  SolverOptions options;       ///< from the command line, with the tolerance of the case
+  NamedOptions named_options;  ///< options passed to the solver by name
+  int repeats = 1;             ///< solves; times are their medians
+  bool polishes = false;       ///< as in the card
 
   /// Solves the case as it stands here (`solve_case`).
   [[nodiscard]] SolvedCase by(const Solver& solver) const;

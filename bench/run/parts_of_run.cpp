@@ -107,7 +107,7 @@ PartsOfRun::PartsOfRun(Experiment& experiment, const std::vector<Case>& cases, c
   const ExperimentOptions& chosen = experiment.options();
   if (!chosen.part.empty()) part_ = parse_part("--part", chosen.part);
   if (!chosen.missing_parts.empty()) asked_for_ = parse_part("--missing-parts", "1/" + chosen.missing_parts).of;
-  if (experiment.card().takes_parts) identity_ = identity_of(experiment.card(), cases, metadata, options);
+  if (experiment.card().rows == RowUse::curves) identity_ = identity_of(experiment.card(), cases, metadata, options);
 }
 
 std::vector<std::size_t> PartsOfRun::groups() const { return groups_of(cases_, respects_of_parts(experiment_)); }

@@ -71,7 +71,7 @@ class Run {
         starts_({.start = options_.start,
                  .most_seconds = options_.start_seconds,
                  .tells_branch = experiment.card().branches != BranchesTold::none,
-                 .takes_costates = true,
+                 .takes_costates = experiment.card().rows == RowUse::motions,
                  .tells_branch_from_guess = experiment.card().branches == BranchesTold::of_any_start},
                 solver_options_),
         own_columns_(experiment.own_columns()),
@@ -124,7 +124,7 @@ class Run {
     Table own = own_rows();
     if (own.rows().empty()) throw_if_interrupted();
     FurtherOutput output{.prefix = prefix_, .metadata = metadata_, .kept = kept_, .findings = findings_};
-    if (complete || experiment_.card().finishes_interrupted) experiment_.finish(own, output);
+    if (complete || wants_motions()) experiment_.finish(own, output);
     const Table table = kept_.joined(table_file(), own);
     if (!own.rows().empty()) write_file(table_file(), table.csv());
     kept_.describe_end(complete, metadata_);
@@ -140,11 +140,13 @@ class Run {
   }
 
  private:
+  [[nodiscard]] bool wants_motions() const { return experiment_.card().rows == RowUse::motions; }
+
   /// Prints how the run ended; returns the exit code.
   [[nodiscard]] int report(const Table& own, bool complete) const {
     const Outcome outcome = outcome_of(own);
     const bool lacks_motion = outcome.failures + outcome.too_coarse + outcome.violating > 0;
-    const bool has_failed = experiment_.card().wants_motions ? lacks_motion : outcome.unusable_curves > 0;
+    const bool has_failed = wants_motions() ? lacks_motion : outcome.unusable_curves > 0;
     const int code = !complete ? 130 : has_failed ? 1 : 0;
     if (findings_.are_for_people()) print_end(outcome, own, complete);
     nlohmann::ordered_json end{{"experiment", experiment_.card().name},
@@ -161,12 +163,13 @@ class Run {
     const std::string& name = experiment_.card().name;
     const std::size_t kept = kept_.count(table_file());
     print_line(fmt::format(
-        "{}: {}{}, {} not solved, {} on another branch{}: {}{}", name,
+        "{}: {}{}, {} not solved{}{}: {}{}", name,
         complete ? "" : fmt::format("interrupted before {} complete: ", counted(cases_.size(), "row was", "rows were")),
-        counted(own.rows().size(), "row"), outcome.failures, outcome.other_branch, outcome.no_motions_by_method,
-        table_file().string(),
+        counted(own.rows().size(), "row"), outcome.failures,
+        outcome.other_branch == 0 ? "" : fmt::format(", {} on another branch than the start", outcome.other_branch),
+        outcome.no_motions_by_method, table_file().string(),
         kept == 0 ? "" : fmt::format(" (and {} of other problems or settings)", counted(kept, "earlier row"))));
-    if (!complete && experiment_.card().takes_parts) print_line(name + ": the same command resumes it");
+    if (!complete && !wants_motions()) print_line(name + ": the same command resumes it");
     // The first one; the others stand in their rows.
     for (const Row& row : own.rows()) {
       const std::size_t advice = row.text("message").rfind("Try ");
@@ -186,7 +189,7 @@ class Run {
 
   /// Takes over the rows of an interrupted run of the same identity.
   void resume() {
-    if (!experiment_.card().takes_parts || options_.fresh) return;
+    if (wants_motions() || options_.fresh) return;
     rows_ = parts_.resume(unfinished_file());
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (!rows_[i]) continue;
@@ -203,7 +206,7 @@ class Run {
 
   void save_unfinished() {
     last_saved_ = Clock::now();
-    if (experiment_.card().takes_parts) parts_.save(unfinished_file(), rows_, metadata_);
+    if (!wants_motions()) parts_.save(unfinished_file(), rows_, metadata_);
   }
 
   void end_unfinished(bool complete) {
@@ -342,7 +345,7 @@ class Run {
       SolvedCase solved = solve(first + position, options_.repeats);
       // It was not solved to its end; a motion keeps its last iterate.
       const bool is_cut = interrupt_requested() && !is_solved(solved.solution.status);
-      if (is_cut && !experiment_.card().wants_motions) return;
+      if (is_cut && !wants_motions()) return;
       keep(completed(solved), first + position);
     }
   }
@@ -526,8 +529,9 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     line.example(!card.example.empty()
                      ? card.example
                      : fmt::format("--problem {} --intervals {}", defaults.problems.front(), defaults.intervals));
-    line.exit_code_1(card.wants_motions ? "a row is not solved, or is not a motion"
-                                        : "a curve has no usable row (its rows have the reasons)");
+    const bool wants_motions = card.rows == RowUse::motions;
+    line.exit_code_1(wants_motions ? "a row is not solved, or is not a motion"
+                                   : "a curve has no usable row (its rows have the reasons)");
     add_options(line, experiment.options());
     Findings findings;
     findings.add_to(line);
@@ -537,7 +541,7 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     if (card.takes_batches) add_batch_option(line, experiment.options());
     line.group("Of this experiment");
     experiment.add_options(line);
-    if (card.takes_parts) add_part_options(line, experiment.options());
+    if (!wants_motions) add_part_options(line, experiment.options());
     const std::vector<std::string> command_line = parse_with_libraries(line);
     return Run(experiment, findings, command_line, line.values()).run();
   });

@@ -1,4 +1,4 @@
-// Takes back the answer of a solver that read a program of write-nl, and judges it as every answer.
+// Reads the solution that another solver found for a program of write-nl, and checks it like every solution.
 #include <fmt/format.h>
 
 #include "bench/extensions/interchange/exchanged_case.hpp"
@@ -22,7 +22,7 @@ class ReadSol final : public ExperimentOf<IndependentChecks> {
                  "NAME_stages.csv (t, u) and NAME_picture.csv.",
              .options = {.intervals = "128", .start = "guess"},
              .further_files = endings_of_motion_files(),
-             .takes_parts = false}) {}
+             .rows = RowUse::motions}) {}
   [[nodiscard]] Columns<IndependentChecks> columns() const override { return check_columns(); }
   void add_options(CommandLine& line) override {
     line.option("--sol", file_, "FILE.sol, the answer. It is matched to the program by its sizes alone");
