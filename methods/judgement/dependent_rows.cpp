@@ -10,17 +10,12 @@ namespace dmocbench {
 
 namespace {
 
-bool is_near(double value, double bound) {
-  constexpr double near = 1e-6;
-  return std::isfinite(bound) && std::abs(value - bound) <= near * std::max(1.0, std::abs(bound));
-}
-
 /// The equalities, and the inequalities that are at a bound.
 std::vector<bool> held_rows(const NonlinearProgram& program, const Eigen::VectorXd& constraints) {
   std::vector<bool> held = equalities_of(program);
   for (const Eigen::Index i : inequalities_of(program)) {
-    held[static_cast<std::size_t>(i)] = is_near(constraints[i], program.constraint_lower()[i]) ||
-                                        is_near(constraints[i], program.constraint_upper()[i]);
+    held[static_cast<std::size_t>(i)] = is_held(constraints[i], program.constraint_lower()[i]) ||
+                                        is_held(constraints[i], program.constraint_upper()[i]);
   }
   return held;
 }
@@ -37,6 +32,11 @@ Eigen::SparseMatrix<double> normalised(const Eigen::SparseMatrix<double>& jacobi
 }
 
 }  // namespace
+
+bool is_held(double value, double bound) {
+  constexpr double near = 1e-6;
+  return std::isfinite(bound) && std::abs(value - bound) <= near * std::max(1.0, std::abs(bound));
+}
 
 std::vector<std::size_t> dependent_rows(NonlinearProgram& program, const Eigen::VectorXd& point) {
   constexpr double shift = 1e-13;

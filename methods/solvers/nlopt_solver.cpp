@@ -18,10 +18,10 @@
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/kkt_residual.hpp"
-#include "methods/judgement/one_sided_constraints.hpp"
 #include "methods/kkt/linearisation.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/parsed.hpp"
+#include "methods/solvers/one_sided_constraints.hpp"
 
 namespace dmocbench {
 

@@ -12,11 +12,30 @@
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/least_violation.hpp"
 #include "methods/program/counted_program.hpp"
-#include "methods/solvers/scaled_cost.hpp"
+#include "methods/program/forwarding_program.hpp"
 
 namespace dmocbench {
 
 namespace {
+
+/// A program with its cost times a factor; its multipliers are the original's times the factor.
+class ScaledCost final : public ForwardingProgram {
+ public:
+  /// `program` must outlive it.
+  ScaledCost(NonlinearProgram& program, double factor) : ForwardingProgram(program), factor_(factor) {}
+
+  [[nodiscard]] double objective(const VectorIn& x) override { return factor_ * original().objective(x); }
+  void gradient(const VectorIn& x, VectorOut result) override {
+    original().gradient(x, result);
+    result *= factor_;
+  }
+  void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override {
+    original().hessian(x, factor_ * objective_factor, multipliers, values);
+  }
+
+ private:
+  double factor_;
+};
 
 constexpr double shortest_limit = 1e-9;  // in seconds; 0 means no limit
 

@@ -9,8 +9,8 @@
 
 #include "methods/expression/schedule.hpp"
 #include "methods/judgement/dependent_rows.hpp"
+#include "methods/mechanics/formula_check.hpp"
 #include "methods/transcription/start.hpp"
-#include "methods/transcription/undefined_stage.hpp"
 
 namespace dmocbench {
 
@@ -210,11 +210,7 @@ Worst farthest_outside(const Eigen::VectorXd& values, const Eigen::VectorXd& low
 
 std::string missed(const std::string& quantity, double amount) {
   if (std::isnan(amount)) return quantity + " is not a number.";
-  return fmt::format("Missed most is {}, by {:.3g}.", quantity, amount);
-}
-
-bool is_held(double value, double bound) {
-  return std::isfinite(bound) && std::abs(value - bound) <= 1e-6 * std::max(1.0, std::abs(bound));
+  return fmt::format("The largest violation is {:.3g}, in {}.", amount, quantity);
 }
 
 /// The controls that are at a bound in most stages.
@@ -276,9 +272,9 @@ std::string pressed_bound(const Problem& problem, Transcription& transcription, 
   if (pressed.amount == 0.0 || pressed.amount < share * hardest) return "";
   const auto i = static_cast<Eigen::Index>(pressed.entry);
   const bool is_lower = gradient[i] > 0.0;
-  return fmt::format(" In the way is {}, whose {} bound is {:g}.",
-                     ConstraintWords(problem, transcription, x).unknown(pressed.entry), is_lower ? "lower" : "upper",
-                     is_lower ? transcription.variable_lower()[i] : transcription.variable_upper()[i]);
+  return fmt::format(" The {} bound {:g} of {} is active.", is_lower ? "lower" : "upper",
+                     is_lower ? transcription.variable_lower()[i] : transcription.variable_upper()[i],
+                     ConstraintWords(problem, transcription, x).unknown(pressed.entry));
 }
 
 /// The bound on a velocity that is missed most, where it is not the row that is missed most of all.
@@ -295,7 +291,7 @@ std::string missed_velocity(const Problem& problem, const Transcription& transcr
       worst = {static_cast<std::size_t>(i), amount};
     }
   }
-  return worst.amount < share * most ? "" : fmt::format(" In the way is {}.", words.row(worst.entry));
+  return worst.amount < share * most ? "" : fmt::format(" Violated as well is {}.", words.row(worst.entry));
 }
 
 /// The largest derivatives of each boundary condition, and by which unknown it is.
@@ -418,6 +414,32 @@ std::string describe_unknown(const Problem& problem, const Transcription& transc
 }
 
 namespace {
+
+/// Which formula cannot be evaluated at a point of a program, and where first: "a derivative of force[1] is not a
+/// number in interval 3 (t = 0.41)". L, f, C, h and their derivatives up to an order are looked at in all stages.
+/// Empty if all are numbers.
+std::string undefined_stage(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x,
+                            FormulaCheck::Derivatives up_to) {
+  const Eigen::Index n = problem.configuration_size();
+  const Eigen::Index m = problem.control_size();
+  const Eigen::Index l = problem.first_order_size();
+  const Eigen::Index width = 2 * n + 1 + m + 2 * l;
+  const Eigen::MatrixXd stages = transcription.tabulate(transcription.functions().stages, x);
+  FormulaCheck check(problem, up_to);
+  for (Eigen::Index k = 0; k < stages.rows(); ++k) {
+    for (Eigen::Index i = 0; i < transcription.layout().stages(); ++i) {
+      const auto stage = stages.row(k).segment(i * width, width);
+      const MotionPoint point{.q = stage.head(n),
+                              .v = stage.segment(n, n),
+                              .u = stage.segment(2 * n + 1, m),
+                              .y = stage.segment(2 * n + 1 + m, l)};
+      const std::string quantity = check.undefined_at(point, stage[2 * n]);
+      if (!quantity.empty())
+        return fmt::format("{} is not a number in interval {} (t = {:g})", quantity, k, stage[2 * n]);
+    }
+  }
+  return "";
+}
 
 /// A sentence on the formula that is not a number where a solve ended. No method evaluates L itself, so that a solver
 /// may have wandered off where it is not defined, and failed there for another reason.

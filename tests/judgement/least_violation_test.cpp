@@ -209,7 +209,7 @@ TEST_P(UnreachableProblems, EndAsInfeasibleWithTheRowNamedWhateverTheSolver) {
       EXPECT_TRUE(is_point_of_least_violation(program, solution.primal));
       EXPECT_EQ(solution.message.find("Infeasible from this start"), 0U) << solution.message;
       const std::string words = describe_violation(*problem, program, solution);
-      EXPECT_NE(words.find("Missed most is "), std::string::npos) << words;
+      EXPECT_NE(words.find("The largest violation is "), std::string::npos) << words;
       EXPECT_NE(words.find(GetParam().names), std::string::npos) << words;
     }
   }

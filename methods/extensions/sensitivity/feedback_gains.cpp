@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/QR>
+
 #include "methods/error.hpp"
-#include "methods/extensions/sensitivity/null_space.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/numerics/dense_solve.hpp"
@@ -13,6 +14,31 @@
 namespace dmocbench {
 
 namespace {
+
+/// `count` columns of Q of QR = A, from column `first` on.
+Eigen::MatrixXd columns_of_q(const Eigen::MatrixXd& a, Eigen::Index first, Eigen::Index count) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(a);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(a.rows(), count);
+  columns.middleRows(first, count).setIdentity();
+  columns.applyOnTheLeft(factors.householderQ());
+  return columns;
+}
+
+/// An orthonormal basis of the x with A x = 0 for r × c A of rank r < c: c × (c - r), by Householder's QR of Aᵀ, whose
+/// columns are first brought to length 1.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
+  return columns_of_q(a.transpose().colwise().normalized(), a.rows(), a.cols() - a.rows());
+}
+
+/// The last pivot of QR with column pivoting over the first, in absolute value: about 1/condition of a square A, 0 of a
+/// singular one up to rounding.
+double pivot_ratio(const Eigen::MatrixXd& a) {
+  const Eigen::VectorXd pivots = a.colPivHouseholderQr().matrixQR().diagonal().cwiseAbs();
+  return pivots[0] > 0.0 ? pivots[pivots.size() - 1] / pivots[0] : 0.0;
+}
+
+/// An orthonormal basis of the space that the columns of A span; r × c A has rank c <= r.
+Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& a) { return columns_of_q(a, 0, a.cols()); }
 
 /// Deviations of state and costate of a node along which the conditions after it hold: 2n × 2n each, a column per
 /// deviation. The state is (q, p), or (q, v) for tangent-space collocation; the costate its conjugate, for the scaled

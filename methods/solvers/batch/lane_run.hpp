@@ -26,8 +26,10 @@ namespace dmocbench::batch {
 namespace constants = interior_point::constants;
 
 /// The interior-point method on eight instances side by side: the steps of `InteriorPointRun`
-/// (interior_point_solver.cpp) for one, without second-order corrections, and with the first half of its restoration
-/// (lane_restoration.cpp). Numbers in brackets are the equations, A-1 to A-9 the steps, of Wächter and Biegler (2006).
+/// (interior_point_solver.cpp) for one, without second-order corrections, and with the first half of its restoration:
+/// steps of least length to where the linearised constraints hold, until the filter accepts a point. Where there are
+/// bounds, or these steps end, an instance is left to `interior_point`. Numbers in brackets are the equations, A-1 to
+/// A-9 the steps, of Wächter and Biegler (2006).
 ///
 /// All lanes go through the same round: system, line search, derivatives, judgement. Each has a phase, which defines
 /// the meaning of a round for it; a lane whose inertia was wrong waits for the next round with a larger shift.

@@ -5,14 +5,19 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <tl/expected.hpp>
 
 #include "methods/choose.hpp"
 #include "methods/judgement/least_violation.hpp"
 #include "methods/judgement/stop_rule.hpp"
+#include "methods/kkt/intervals/interval_kkt.hpp"
+#include "methods/kkt/refined_kkt.hpp"
+#include "methods/kkt/sparse_kkt.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -20,7 +25,6 @@
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/constants.hpp"
 #include "methods/solvers/interior_point/filter_line_search.hpp"
-#include "methods/solvers/interior_point/kkt_choice.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/named_options.hpp"
 
@@ -32,6 +36,21 @@ namespace {
 
 constexpr double push_of_descent = 1e-8;
 constexpr double correctable = 2.0;  // see try_second_order_correction
+
+/// The solver of the linear systems that the choices name, or a sentence with the reason why the program's structure
+/// does not allow it.
+tl::expected<std::unique_ptr<kkt::KktSystem>, std::string> make_kkt(NonlinearProgram& program,
+                                                                    const InteriorPointOptions& choices) {
+  if (choices.make_kkt_system) return choices.make_kkt_system(program);
+  if (choices.factorisation == InteriorPointOptions::Factorisation::sparse) {
+    return std::make_unique<kkt::SparseKkt>(program);
+  }
+  if (program.interval_structure() != nullptr && program.interval_structure()->has_interior_equations) {
+    return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::along_the_horizon);
+  }
+  return kkt::IntervalKkt::make(program).map(
+      [&](auto by_intervals) { return std::make_unique<kkt::RefinedKkt>(program, std::move(by_intervals)); });
+}
 
 /// One solve by the method of Wächter and Biegler (README.md). Numbers in brackets are its equations, A-1 to
 /// A-9 the steps of its Algorithm A.

@@ -1,4 +1,4 @@
-#include "methods/judgement/one_sided_constraints.hpp"
+#include "methods/solvers/one_sided_constraints.hpp"
 
 #include <gtest/gtest.h>
 
