@@ -9,6 +9,7 @@
 
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/diagnostics/accuracy.hpp"
+#include "methods/diagnostics/element_identities.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/diagnostics/violation_between_stages.hpp"
@@ -16,6 +17,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/linear_solve.hpp"
 #include "methods/indirect/solve_indirect.hpp"
+#include "methods/solvers/batch/neighbour_starts.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/solvers/solver.hpp"
