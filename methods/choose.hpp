@@ -24,8 +24,9 @@ template <class Table, class NameOf>
 }
 
 /// The candidate that a mistyped name most likely stands for: at most a third of its letters are added, left out,
-/// replaced or swapped with the next one. Empty if there is none.
+/// replaced or swapped with the next one, and upper and lower case are the same. Empty if there is none.
 [[nodiscard]] inline std::string likely_meant(std::string_view name, const std::vector<std::string>& candidates) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   std::string best;
   std::size_t least = name.size() / 3 + 1;
   for (const std::string& candidate : candidates) {
@@ -38,7 +39,7 @@ template <class Table, class NameOf>
       two_before = std::exchange(before, distance);
       distance[0] = i;
       for (std::size_t j = 1; j <= candidate.size(); ++j) {
-        const bool is_equal = name[i - 1] == candidate[j - 1];
+        const bool is_equal = lower(name[i - 1]) == lower(candidate[j - 1]);
         distance[j] = std::min({before[j] + 1, distance[j - 1] + 1, before[j - 1] + (is_equal ? 0 : 1)});
         const bool is_swapped = i > 1 && j > 1 && name[i - 1] == candidate[j - 2] && name[i - 2] == candidate[j - 1];
         if (is_swapped) distance[j] = std::min(distance[j], two_before[j - 2] + 1);

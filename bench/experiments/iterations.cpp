@@ -1,4 +1,4 @@
-// Minor iterations and everything else that a solve is counted by: fig:kepler_iterations and fig:twolink_iterations.
+// Iteration counts, evaluations and times of solves: fig:kepler_iterations and fig:twolink_iterations.
 #include <optional>
 #include <string>
 #include <utility>

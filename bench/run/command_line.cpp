@@ -105,6 +105,14 @@ bool is_out_of_memory(const std::exception& error) noexcept {
          dynamic_cast<const std::length_error*>(&error) != nullptr;
 }
 
+std::string as_shown(std::string_view text) {
+  constexpr std::size_t most_shown = 40;
+  std::string shown(text.substr(0, most_shown));
+  std::ranges::replace_if(
+      shown, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+  return fmt::format("\"{}\"{}", shown, text.size() > most_shown ? " ..." : "");
+}
+
 std::string sentence_of(const std::exception& error) {
   if (is_out_of_memory(error)) return "out of memory; fewer intervals or a higher limit (ulimit -v) help";
   if (is_out_of_threads(error)) {
@@ -125,7 +133,7 @@ void CommandLine::option(const std::string& names, Value& value, const std::stri
   constexpr bool is_path = std::is_same_v<Value, std::filesystem::path>;
   if constexpr (is_path || std::is_same_v<Value, std::string>) {
     const auto is_empty = [](const std::string& text) {
-      return std::string(!text.empty() ? "" : is_path ? "no file is named" : "no file or value is given");
+      return std::string(!text.empty() ? "" : is_path ? "no file or folder is named" : "no file or value is given");
     };
     option->check(CLI::Validator(is_empty, ""));
   }
@@ -241,6 +249,8 @@ std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& 
   for (const CLI::Option* known : app.get_options()) {
     for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
   }
+  if (!option.starts_with('-') && std::ranges::find(names, "--problem") != names.end())
+    return fmt::format("{} is not an option; name a problem with --problem {}", as_shown(option), as_shown(option));
   // The letters of formulas, which no option resembles.
   constexpr std::array letters{std::pair("N", "--intervals"), std::pair("n", "--intervals"), std::pair("s", "--stages"),
                                std::pair("T", "--set")};

@@ -83,6 +83,9 @@ inline constexpr const char* group_of_output = "Output";  ///< where results go
 /// A text of any origin for one line of a terminal: blanks in the place of control characters, cut at 2000 bytes.
 [[nodiscard]] std::string one_line(std::string_view text);
 
+/// A user's text in quotes, fit for a line on a terminal: cut short, without control characters.
+[[nodiscard]] std::string as_shown(std::string_view text);
+
 /// Prints `one_line` of a text, and ends the line.
 void print_line(const std::string& text);
 

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bench/run/command_line.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/result_file.hpp"
@@ -29,15 +30,6 @@
 namespace dmocbench {
 
 namespace {
-
-/// A user's text in quotes, fit for a line on a terminal: cut short, without control characters.
-std::string as_shown(std::string_view text) {
-  constexpr std::size_t most_shown = 40;
-  std::string shown(text.substr(0, most_shown));
-  std::ranges::replace_if(
-      shown, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
-  return fmt::format("\"{}\"{}", shown, text.size() > most_shown ? " ..." : "");
-}
 
 long long parse_count(std::string_view option, std::string_view text) {
   const auto count = parsed<long long>(text);
@@ -460,6 +452,8 @@ std::vector<long long> parse_intervals(std::string_view option, std::string_view
     const long long first = parse_count(option, take_part(entry, ':'));
     const long long last = is_range ? parse_count(option, entry) : first;
     if (last < first) throw Error(fmt::format("{}: the range {} ends below its start", option, whole));
+    if (last > first && last < 2 * first)
+      throw Error(fmt::format("{}: the range {} doubles to {} alone; write {},{}", option, whole, first, first, last));
     for (long long count = first; count <= last; count *= 2) counts.insert(count);
     if (counts.size() > most_counts) {  // all grids are in memory at the same time
       throw Error(fmt::format("{} takes at most {} numbers; run the rest under another --name", option, most_counts));

@@ -95,7 +95,7 @@ struct ProblemOptions {
 
 /// Numbers of intervals from a list like "16,48,64" or "8:1024" (8, 16, ..., 1024: doubling while not above the end),
 /// or a mixture; ascending, each once, at most 1000. Throws `Error` that names the option and quotes the entry if one
-/// is not a whole number between 1 and Grid::most_intervals, or a range ends below its start.
+/// is not a whole number between 1 and Grid::most_intervals, or a range ends below its start or holds its start alone.
 [[nodiscard]] std::vector<long long> parse_intervals(std::string_view option, std::string_view text);
 
 /// Relative node times, one per line, from a file. Throws `Error` that names the line if one is not a number.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
@@ -20,6 +21,12 @@ namespace dmocbench {
 
 namespace {
 
+std::string fault_of_field(const Table& table, const Row& row, const std::string& column) {
+  if (std::ranges::count(table.columns(), column) == 0)
+    return fmt::format("there is no column {} among {}", column, fmt::join(table.columns(), ", "));
+  return fmt::format("\"{}\" in column {} is not a number", row.text(column), column);
+}
+
 /// The columns PREFIX NAME of the table in a file.
 Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& names, const std::string& prefix,
                         const std::filesystem::path& file) {
@@ -27,10 +34,7 @@ Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& name
   for (Eigen::Index k = 0; const Row& row : table.rows()) {
     for (Eigen::Index i = 0; const std::string& name : names) {
       const auto value = row.number(prefix + name);
-      if (!value) {
-        throw Error(
-            fmt::format("{}: column {} is missing or has a field that is not a number", file.string(), prefix + name));
-      }
+      if (!value) throw Error(fmt::format("{}: {}", file.string(), fault_of_field(table, row, prefix + name)));
       values(k, i++) = *value;
     }
     ++k;

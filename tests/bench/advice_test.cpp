@@ -100,6 +100,7 @@ TEST(LikelyMeant, IsTheNameWithFewestLettersChangedAndNoneThatIsFar) {
   EXPECT_EQ(likely_meant("hamiltonain", names), "hamiltonian");
   EXPECT_EQ(likely_meant("tangnet", names), "tangent");
   EXPECT_EQ(likely_meant("dmco", names), "dmoc");
+  EXPECT_EQ(likely_meant("DMOC", names), "dmoc");
   EXPECT_EQ(likely_meant("collocation", names), "");
   EXPECT_EQ(likely_meant("x", names), "");
 }

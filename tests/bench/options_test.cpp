@@ -51,6 +51,7 @@ TEST(Intervals, RefusesAnythingElseAndQuotesIt) {
     EXPECT_THROW(static_cast<void>(intervals(text)), Error) << text;
   }
   expect_error_naming({"--intervals", "8:4"}, [] { static_cast<void>(intervals("8:4")); });
+  expect_error_naming({"--intervals", "64:100", "64,100"}, [] { static_cast<void>(intervals("64:100")); });
   expect_error_naming({"--fit", "\"x\""}, [] { static_cast<void>(parse_intervals("--fit", "x")); });
 }
 
