@@ -18,7 +18,8 @@ struct RowPair {
 };
 
 /// The rows of two tables with the same fields in the key of the first one; where several of a table have the same, or
-/// there is no key, the first belongs to the first, the second to the second. `alone` counts the rows without a partner.
+/// there is no key, the first belongs to the first, the second to the second. `alone` counts the rows without a
+/// partner.
 struct PairedRows {
   std::vector<RowPair> pairs;
   std::size_t alone = 0;

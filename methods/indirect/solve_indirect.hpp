@@ -13,9 +13,9 @@ struct IndirectOptions {
   Eigen::Index most_intervals = 512;   ///< the largest N; beyond it the best agreement so far is returned
 };
 
-/// The maximum principle is stated here for fixed ends, a fixed horizon and a motion without bounds. Throws `Error` that
-/// names the first thing of the problem that is outside this class: bounds, constraints of any kind, a final cost, free
-/// ends, a free horizon, first-order states or unknown parameters.
+/// The maximum principle is stated here for fixed ends, a fixed horizon and a motion without bounds. Throws `Error`
+/// that names the first thing of the problem that is outside this class: bounds, constraints of any kind, a final cost,
+/// free ends, a free horizon, first-order states or unknown parameters.
 void require_indirect(const Problem& problem);
 
 /// An optimal motion that depends on direct methods for its start only: Pontryagin's boundary value problem of the same
