@@ -32,7 +32,8 @@ constexpr auto entries = std::to_array<Entry>({
     {Status::out_of_memory, "out of memory", "There is not enough memory for the solver."},
     {Status::solver_error, "solver error", "The solver reported an internal error."},
     {Status::too_coarse, "too coarse",
-     "The discrete program is solved, but its answer is not a motion: the grid is too coarse for it; take more intervals."},
+     "The discrete program is solved, but its answer is not a motion: the grid is too coarse for it; take more "
+     "intervals."},
     {Status::violates_between_stages, "violates between stages",
      "The discrete program is solved, but its motion leaves a bound or path constraint between the stages."},
     {Status::control_not_determined, "solved, control not determined",
