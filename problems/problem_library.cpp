@@ -72,7 +72,16 @@ std::string reason_of_loader() {
 
 using AddProblems = void (*)(Registry&);
 
+/// Lets libraries find the functions that they call also in a module that a program, such as Python, has loaded for
+/// itself alone.
+void offer_own_functions() {
+  Dl_info own{};
+  if (::dladdr(reinterpret_cast<const void*>(&tag_of_this_build), &own) == 0) return;  // NOLINT(*-reinterpret-cast)
+  ::dlopen(own.dli_fname, RTLD_NOW | RTLD_NOLOAD | RTLD_GLOBAL);  // null of a program, which offers them anyway
+}
+
 AddProblems entry_of(const std::filesystem::path& file) {
+  offer_own_functions();
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw Error(fmt::format("the library cannot be loaded: {}", reason_of_loader()));
   void* const entry = ::dlsym(library, "dmocbench_add_problems_to");

@@ -13,7 +13,8 @@ namespace dmocbench {
 /// made by another build of dmocbench (which is detected before any of its code runs), has no problem, or one whose
 /// name is already in `registry`.
 ///
-/// Its formulas are traced by the functions of this program, which has to offer them: ENABLE_EXPORTS in CMake.
+/// Its formulas are traced by the functions of this program, which has to offer them: ENABLE_EXPORTS in CMake. The
+/// symbols of a module that a program has loaded, as Python does, are made global for it.
 void load_problem_library(const std::filesystem::path& file, Registry& registry);
 
 /// The tag of this build, as in libraries of problems (build_tag.hpp).

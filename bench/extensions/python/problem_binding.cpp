@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include <dlfcn.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -42,15 +41,6 @@ ProblemHandle of_python(const py::object& original) {
     return true;
   });
   return {std::move(problem), original};
-}
-
-/// The libraries find the functions that they call in this module, which Python has loaded for itself alone.
-void load_libraries(const std::vector<std::string>& files) {
-  Dl_info module{};
-  if (::dladdr(reinterpret_cast<const void*>(&load_problem_libraries), &module) != 0) {  // NOLINT(*-reinterpret-cast)
-    ::dlopen(module.dli_fname, RTLD_NOW | RTLD_NOLOAD | RTLD_GLOBAL);
-  }
-  load_problem_libraries(files);
 }
 
 /// Operations of the formulas L, p, L_q, f, C, h and their derivatives, as they are traced of every problem.
@@ -95,7 +85,7 @@ void bind_problems(py::module_& module) {
                              })
       .def("operation_count", &operation_count, "Operations of the formulas and their derivatives.");
   module.def("problem_names", &problem_names, "Names of all problems that are built in or loaded.");
-  module.def("load_problem_libraries", &load_libraries, py::arg("files"));
+  module.def("load_problem_libraries", &load_problem_libraries, py::arg("files"));
   module.def(
       "check_parameter",
       [](const std::string& name, double value, double lower, double upper, bool whole) {

@@ -139,9 +139,25 @@ class Runs(unittest.TestCase):
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
         self.assertEqual(len(db.run("solve", PendulumSwingUp(), out=self.out, method="dmoc", intervals=16)), 1)
 
-    def command(self, *words):
-        return subprocess.run([sys.executable, "-m", "dmocbench", *words], cwd=self.out, capture_output=True, text=True,
-                              env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [os.environ.get("PYTHONPATH"), here]))})
+    def command(self, *words, **variables):
+        return self.python("-m", "dmocbench", *words, **variables)
+
+    def python(self, *words, **variables):
+        path = os.pathsep.join(filter(None, [os.environ.get("PYTHONPATH"), here]))
+        return subprocess.run([sys.executable, *words], cwd=self.out, capture_output=True, text=True,
+                              env={**os.environ, "PYTHONPATH": path, **variables})
+
+    @unittest.skipIf(library is None, "no library is given")
+    def test_take_libraries_however_they_are_named(self):
+        grid = ["solve", "--problem", "pushed_in_a_band", "--method", "dmoc", "--intervals", "16"]
+        of_class = ("import dmocbench as db; from pendulum import PendulumSwingUp\n"
+                    "class Mine(PendulumSwingUp): 'by another name than in the library'\n"
+                    "db.convergence(Mine(), intervals=[16, 32])")
+        for way, done in {"an option of a command": self.command(*grid, "--library", library),
+                          "the environment of a command": self.command(*grid, DMOCBENCH_LIBRARIES=library),
+                          "the environment of a process": self.python("-c", of_class, DMOCBENCH_LIBRARIES=library)}.items():
+            with self.subTest(way):
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_are_commands_too(self):
         done = self.command("convergence", os.path.join(here, "pendulum.py"), "--intervals", "16:64", "--method", "dmoc")
