@@ -47,7 +47,11 @@ END {
   for (i = 1; i <= count; ++i) {
     group = groups[i]
     figure = members[group]
-    if (group in several) figure = substr(group, 1, index(group " ", " ") - 1)
+    if (group in several) {
+      figure = group
+      gsub(/ +/, "_", figure)
+      sub(/_$/, "", figure)
+    }
     sub(/^motion_/, "", figure)
     printf "figure=%s,problem=%s,status=%s,members=%s,methods=%s,intervals=%s\n", figure, problems[group], statuses[group],
       members[group], methods[group], numbers[group]

@@ -101,7 +101,8 @@ class Solve final : public ExperimentOf<Measured> {
             {.name = "solve",
              .description =
                  "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
-                 "NAME_picture.csv; with several cases each NAME carries the case's label. The last iterate of "
+                 "NAME_picture.csv. NAME is the one that --name gives; without it, solve_ and the problem with its "
+                 "settings; with several cases it carries the case's label. The last iterate of "
                  "every failed solve is also written, and can be continued with --start NAME_nodes.csv.",
              .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
              .rows = RowUse::motions,
@@ -124,6 +125,8 @@ class Solve final : public ExperimentOf<Measured> {
       label_of_ = [one_solver](const Case& the_case) {
         return "_" + the_case.file_label() + (one_solver ? "" : "_" + the_case.solver);
       };
+    } else if (options().name == card().name) {  // other problems have their motions next to it
+      label_of_ = [](const Case& the_case) { return "_" + the_case.file_label_of_problem(); };
     }
     for (const Case& the_case : chosen) {
       for (const std::string& ending : endings_of_motion_files())

@@ -130,6 +130,20 @@ void KeptRows::require_columns(const std::filesystem::path& file, const std::vec
                           file.string()));
 }
 
+void KeptRows::require_no_other_motion(const std::filesystem::path& file) const {
+  std::error_code none;  // a missing file is not a regular file
+  const JsonPlace earlier(earlier_, prefix_.string() + ".json");
+  if (!std::filesystem::is_regular_file(file, none) || !earlier.has("motions")) return;
+  for (const JsonPlace& motion : earlier.at("motions").entries()) {
+    if (motion.at("nodes").text() != file.filename()) continue;
+    const Statement other{motion.at("problem").text(), motion.has("library") ? motion.at("library").text() : "",
+                          motion.has("settings") ? motion.at("settings").text() : ""};
+    if (is_own(other)) continue;
+    throw Error(fmt::format("{} is the motion of {}{}{}; choose another --name or --out", file.string(), other.problem,
+                            other.settings.empty() ? "" : " ", other.settings));
+  }
+}
+
 std::size_t KeptRows::count(const std::filesystem::path& file) const {
   const auto found = kept_.find(file);
   return found == kept_.end() ? 0 : found->second.rows().size();

@@ -50,6 +50,8 @@ class KeptRows {
   void read(const std::filesystem::path& file);
   /// Throws `Error` that names the file if it exists and its columns are not these.
   void require_columns(const std::filesystem::path& file, const std::vector<std::string>& columns) const;
+  /// Throws `Error` that names the file if it is the motion of another statement.
+  void require_no_other_motion(const std::filesystem::path& file) const;
   /// Number of rows that are kept in a file.
   [[nodiscard]] std::size_t count(const std::filesystem::path& file) const;
   /// The kept rows of a file, followed by the rows of a table. Rows of a file with other columns are not kept.

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/meanings.hpp"
+#include "bench/run/problem_libraries.hpp"
 #include "methods/program/status.hpp"
 #include "methods/tables/motion_file.hpp"
 
@@ -24,6 +25,7 @@ void write_motion(const std::filesystem::path& prefix, const SolvedCase& solved,
   write_table(file + "_nodes.csv", node_table(problem, *solved.trajectory), metadata);
   metadata["motions"].push_back({{"nodes", std::filesystem::path(file + "_nodes.csv").filename().string()},
                                  {"problem", problem.name()},
+                                 {"library", library_of(problem.name())},
                                  {"settings", problem.settings()},
                                  {"method", the_case.method},
                                  {"tableau", the_case.tableau},

@@ -111,7 +111,6 @@ class Run {
     if (parts_.is_one()) return run_part();
     const OutputFolder folder(options_.out);
     const ResultLock lock(prefix_);
-    require_writable(table_file());
     read_kept_rows();
     if (options_.join.empty()) {
       resume();
@@ -220,6 +219,8 @@ class Run {
     kept_ = KeptRows(prefix_, statements_of(cases_), has_instances(cases_));
     kept_.require_columns(table_file(), names_);
     for (const std::filesystem::path& file : files_of_run({})) {
+      require_writable(file);
+      kept_.require_no_other_motion(file);
       if (file.extension() == ".csv") kept_.read(file);
     }
     kept_.describe_runs(metadata_);

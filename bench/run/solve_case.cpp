@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -210,8 +211,16 @@ std::string Case::label() const {
                      variant.label.empty() ? "" : " ", variant.label, intervals());
 }
 
+std::string Case::file_label_of_problem() const {
+  std::string label = problem->name() + " " + problem->settings();
+  if (label.ends_with(' ')) label.pop_back();
+  std::ranges::replace_if(
+      label, [](char letter) { return std::string_view(" =/").find(letter) != std::string_view::npos; }, '_');
+  return label;
+}
+
 std::string Case::file_label() const {
-  return fmt::format("{}_{}_{}{}_{}{}", problem->name(), method, tableau, stages, intervals(),
+  return fmt::format("{}_{}_{}{}_{}{}", file_label_of_problem(), method, tableau, stages, intervals(),
                      derivatives == "tape" ? "" : "_" + derivatives);
 }
 

@@ -62,8 +62,10 @@ struct Case {
   [[nodiscard]] std::unique_ptr<Transcription> transcribe() const;
   /// "orbital_transfer dmoc gauss 1 ipopt tape N = 64".
   [[nodiscard]] std::string label() const;
-  /// The same as part of a file's name: "orbital_transfer_dmoc_gauss1_64", followed by the derivatives unless they are
-  /// by the tape.
+  /// The problem and its settings as part of a file's name: "orbital_transfer_mass_2".
+  [[nodiscard]] std::string file_label_of_problem() const;
+  /// The case as part of a file's name: "orbital_transfer_mass_2_dmoc_gauss1_64", followed by the derivatives unless
+  /// they are by the tape.
   [[nodiscard]] std::string file_label() const;
   /// True if both differ in their grid only: points of one curve.
   [[nodiscard]] bool same_curve(const Case& other) const;
