@@ -25,11 +25,12 @@ struct Measured {
 /// How often each method finds the best minimum, and at which cost.
 Table minima_found(const Table& minima, const Table& shares) {
   const ColumnNames group{"problem", "tableau", "stages", "solver", "derivatives", "intervals"};
-  Table found({"problem", "N", "method", "minima", "best cost", "best in", "95 % interval", "no motion", "not solved"});
+  Table found;
+  found.set_key({"problem", "N", "method", "tableau", "stages", "solver", "derivatives"});
   for (const Row& share : shares.rows()) {
     const Selection of_group = Selection(minima).matching(share, group);
     const Selection best = of_group.where("is_best", "yes");
-    Row row = fields_of(share, {"problem", "method"});
+    Row row = fields_of(share, found.key());
     row.set("N", share.text("intervals"));
     row.set("minima",
             of_group.where([&](const Row& minimum) { return minimum.number(share.text("method"), 0.0) > 0.0; }).size());
@@ -115,7 +116,10 @@ class LocalMinima final : public ExperimentOf<Measured> {
       metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
     }
     for (const auto& [problem, words] : varied_) metadata["starts"]["varied"][problem] = words;
-    output.findings.show("minima", minima_found(minima, shares), {}, output.prefix.string() + "_shares.csv");
+    output.findings.show(
+        "minima", minima_found(minima, shares),
+        {"problem", "N", "method", "minima", "best cost", "best in", "95 % interval", "no motion", "not solved"},
+        output.prefix.string() + "_shares.csv");
   }
 
  private:

@@ -12,12 +12,12 @@ namespace dmocbench::objective_program {
 
 /// The cost of each curve on its finest grid, and by how much the grid before differs from it.
 Table finest_costs(const Table& rows) {
-  Table costs({"problem", "method", "N", "cost", "change from", "relative change"});
-  for (const Selection& curve :
-       Selection(rows).usable().group_by({"problem", "method", "tableau", "stages", "solver", "derivatives"})) {
+  Table costs;
+  costs.set_key({"problem", "method", "tableau", "stages", "solver", "derivatives"});
+  for (const Selection& curve : Selection(rows).usable().group_by(costs.key())) {
     const Selection grids = curve.sorted_by("intervals");
     const double cost = grids.back().needed("objective");
-    Row row = fields_of(curve.front(), {"problem", "method"});
+    Row row = fields_of(curve.front(), costs.key());
     row.set("N", grids.back().text("intervals"));
     row.set("cost", fmt::format("{:.9g}", cost));
     if (grids.size() > 1) {
@@ -54,7 +54,9 @@ class Objective final : public ExperimentOf<Measured> {
     }
   }
   void finish(Table& table, FurtherOutput& output) override {
-    output.findings.show("costs", finest_costs(table), {}, output.prefix.string() + ".csv");
+    output.findings.show("costs", finest_costs(table),
+                         {"problem", "method", "N", "cost", "change from", "relative change"},
+                         output.prefix.string() + ".csv");
   }
 
  private:

@@ -27,9 +27,8 @@ struct Measured {
   std::optional<double> estimated_error;
 };
 
-std::vector<std::string> answer_columns(bool with_horizon, bool with_tableau) {
+std::vector<std::string> answer_columns(bool with_horizon) {
   std::vector<std::string> columns{"problem", "method", "N", "status", "cost"};
-  if (with_tableau) columns.insert(columns.begin() + 2, "tableau");
   if (with_horizon) columns.emplace_back("T");
   for (const char* const column : {"iterations", "seconds", "replay error", "worst between stages", "files"})
     columns.emplace_back(column);
@@ -68,9 +67,6 @@ std::string violation_in_words(const SolvedCase& solved) {
                      solved.the_case.problem->card().time_unit.factor * worst.time);
 }
 
-/// "gauss 2": the family of tableaus and the stages.
-std::string tableau_in_words(const Case& the_case) { return fmt::format("{} {}", the_case.tableau, the_case.stages); }
-
 Row row_of_answer(const SolvedCase& solved, const IndependentChecks& checks, const std::string& files) {
   const Solution& solution = solved.solution;
   const Problem& problem = *solved.the_case.problem;
@@ -78,7 +74,10 @@ Row row_of_answer(const SolvedCase& solved, const IndependentChecks& checks, con
   Row row;
   row.set("problem", problem.name());
   row.set("method", solved.the_case.method);
-  row.set("tableau", tableau_in_words(solved.the_case));
+  row.set("tableau", solved.the_case.tableau);
+  row.set("stages", solved.the_case.stages);
+  row.set("solver", solved.the_case.solver);
+  row.set("derivatives", solved.the_case.derivatives);
   row.set("N", solved.the_case.intervals());
   row.set("status", name_of(solution.status));
   row.set("iterations", solution.major_iterations);
@@ -152,11 +151,8 @@ class Solve final : public ExperimentOf<Measured> {
   }
   void finish(Table& /*table*/, FurtherOutput& output) override {
     trace_.describe(output);
-    const auto has_another_tableau = [&](const auto& answer) {
-      return tableau_in_words(answer.solved.the_case) != tableau_in_words(answers_.front().solved.the_case);
-    };
-    Table summary(answer_columns(std::ranges::any_of(answers_, has_free_horizon),
-                                 std::ranges::any_of(answers_, has_another_tableau)));
+    Table summary;
+    summary.set_key({"problem", "method", "tableau", "stages", "solver", "derivatives", "N"});
     for (const auto& [solved, checks] : answers_) {
       const std::string file = output.prefix.string() + label_of_(solved.the_case);
       summary.append(row_of_answer(solved, checks, solved.trajectory ? file + "_nodes.csv" : "none"));
@@ -164,7 +160,8 @@ class Solve final : public ExperimentOf<Measured> {
       write_motion(file, solved, output.metadata);
       if (solved.estimated_error) output.metadata["motions"].back()["estimated_error"] = *solved.estimated_error;
     }
-    output.findings.show("answers", summary, {}, output.prefix.string() + ".csv");
+    output.findings.show("answers", summary, answer_columns(std::ranges::any_of(answers_, has_free_horizon)),
+                         output.prefix.string() + ".csv");
     std::set<std::string> doubts;
     for (const Answer& answer : answers_) {
       if (is_solved(answer.solved.solution.status)) doubts.insert(doubt_about_units(*answer.solved.the_case.problem));

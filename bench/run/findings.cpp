@@ -1,6 +1,7 @@
 #include "bench/run/findings.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -49,6 +50,25 @@ void print_aligned(const std::vector<std::vector<std::string>>& lines) {
   }
 }
 
+bool differs(const Table& table, const std::string& column) {
+  return std::ranges::any_of(table.rows(),
+                             [&](const Row& row) { return row.text(column) != table.rows().front().text(column); });
+}
+
+/// The chosen columns, and columns of the key in which rows differ. Columns of the key come first, in its order.
+std::vector<std::string> with_distinguishing(const std::vector<std::string>& chosen, const Table& table) {
+  const auto contains = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  std::vector<std::string> columns;
+  for (const std::string& column : table.key()) {
+    if (contains(chosen, column) || differs(table, column)) columns.push_back(column);
+  }
+  std::ranges::copy_if(chosen, std::back_inserter(columns),
+                       [&](const std::string& column) { return !contains(table.key(), column); });
+  return columns;
+}
+
 }  // namespace
 
 void Findings::add_to(CommandLine& line) {
@@ -64,7 +84,7 @@ void Findings::say(const std::string& sentence) {
 void Findings::show(const std::string& name, const Table& table, const std::vector<std::string>& columns,
                     const std::string& file, std::size_t most_rows) {
   Json rows = Json::array();
-  const std::vector<std::string>& chosen = columns.empty() ? table.columns() : columns;
+  const std::vector<std::string> chosen = columns.empty() ? table.columns() : with_distinguishing(columns, table);
   std::vector<std::vector<std::string>> lines{chosen};
   for (const Row& row : table.rows()) {
     Json object = Json::object();

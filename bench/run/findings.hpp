@@ -24,8 +24,9 @@ class Findings {
 
   /// Adds a sentence.
   void say(const std::string& sentence);
-  /// Adds some columns of a table under a name; all columns if `columns` is empty. The output for people has the first
-  /// of its rows, with five digits, and the file with all rows.
+  /// Adds some columns of a table under a name; all columns if `columns` is empty. Columns of the table's key in which
+  /// its rows differ are always added, so that no two rows look alike. The output for people has the first of its rows,
+  /// with five digits, and the file with all rows.
   void show(const std::string& name, const Table& table, const std::vector<std::string>& columns = {},
             const std::string& file = "", std::size_t most_rows = 12);
   /// Ends with the run's outcome: prints the object if --json was given.
