@@ -18,7 +18,7 @@ constexpr const char* header = R"(#pragma once
 
 #include <numbers>
 
-#include <dmocbench/dmocbench.hpp>
+#include <dmocbench/problem.hpp>
 
 namespace dmocbench {
 
@@ -56,7 +56,7 @@ class CLASS : public Problem {
   [[nodiscard]] BoundaryState final_state() const override {
     return BoundaryState::at_rest(Eigen::VectorXd::Constant(1, std::numbers::pi));
   }
-  [[nodiscard]] double horizon() const override { return 2.0; }
+  [[nodiscard]] double horizon() const override { return 1.5; }
   // Also: bounds(), path_constraints(x), boundary_conditions(...), guess(t), final_cost(x), cost_scale().
 };
 

@@ -11,7 +11,7 @@ class PendulumSwingUp(db.Problem):
     q = db.coordinates("theta", unit="rad")
     u = db.controls("tau", unit="N m")
     length = db.parameter(1.0, "m", "of the rod", lower=0.1, upper=10.0)
-    horizon = 2.0
+    horizon = 1.5
     start = db.at_rest(theta=0.0)
     end = db.at_rest(theta=math.pi)
 
