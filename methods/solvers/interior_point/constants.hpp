@@ -35,14 +35,14 @@ inline constexpr double sufficient_decrease = 1e-4;  // of the violation, as a s
 inline constexpr double very_short_step = 1e-3;
 inline constexpr int most_blocked_steps = 20;  // very short ones in a row, where bounds leave no room
 
-// Named after Ipopt's options: "A filter that blocks the way". Ipopt waits for 5 searches.
+// Named after Ipopt's options: "Blocking filter". Ipopt waits for 5 searches.
 inline constexpr int filter_reset_trigger = 10;
 inline constexpr int max_filter_resets = 5;
 
 // Ours, see README.md.
 inline constexpr double of_warm_start = 1e-6;  // a warm start's μ, and in place of κ_1
-inline constexpr double most_growth = 10.0;    // of the violation in one step: "No leaps"
-inline constexpr double short_step = 0.1;      // "Multipliers may run away", "Corrections": after a step so short
+inline constexpr double most_growth = 10.0;    // of the violation in one step: "Limit on the constraint violation"
+inline constexpr double short_step = 0.1;      // "Short steps", "Divergence of the multipliers": steps up to this length
 inline constexpr double runaway = 1e6;         // multipliers above this are estimated again
 
 }  // namespace dmocbench::interior_point::constants
