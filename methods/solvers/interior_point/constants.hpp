@@ -42,7 +42,7 @@ inline constexpr int max_filter_resets = 5;
 // Ours, see README.md.
 inline constexpr double of_warm_start = 1e-6;  // a warm start's μ, and in place of κ_1
 inline constexpr double most_growth = 10.0;    // of the violation in one step: "Limit on the constraint violation"
-inline constexpr double short_step = 0.1;      // "Short steps", "Divergence of the multipliers": steps up to this length
+inline constexpr double short_step = 0.1;      // "Short steps", "Divergence of the multipliers": up to this
 inline constexpr double runaway = 1e6;         // multipliers above this are estimated again
 
 }  // namespace dmocbench::interior_point::constants
