@@ -1,6 +1,6 @@
 # Times of exact derivatives per interval: by every way, over the size of the formulas, and against the peak of the machine.
 #   gnuplot -e "results='results'" plots/speed_intervals.gp
-# Reads speed.csv and speed_machine.csv (build/bench/speed/speed --csv results/speed.csv); draws nothing if they are not
+# Reads speed.csv and speed_machine.csv (bench/speed/page speed.json --csv results/speed.csv); draws nothing if they are not
 # there, or for cases left out of that run.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"

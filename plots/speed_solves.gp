@@ -1,7 +1,7 @@
 # Times of whole solves over the number of intervals: by interior_point and by Ipopt, and their ratio.
 #   gnuplot -e "results='results'" plots/speed_solves.gp
-# Reads speed_solves.csv and speed_solves_ratios.csv (build/bench/speed/solves --csv results/speed_solves.csv); draws nothing
-# if they are not there, or for cases left out of that run.
+# Reads speed_solves.csv and speed_solves_ratios.csv (bench/speed/page solves.json --csv results/speed_solves.csv); draws
+# nothing if they are not there, or for cases left out of that run.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 if (!exists_table("speed_solves")) { exit }

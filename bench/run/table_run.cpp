@@ -27,8 +27,10 @@ std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, Fi
   return command_line;
 }
 
-}  // namespace
-
+/// Writes tables, and next to them the metadata of their run with the JSON Schema of their rows. Columns that a table
+/// leaves unexplained have the meanings of the first table. Rows kept from earlier runs precede the others. The
+/// metadata contain `"complete": false` until all tables are there.
+/// Throws `Error` if a file cannot be written.
 void write_tables(const std::vector<TableFile>& tables, const std::filesystem::path& metadata_file,
                   const std::vector<std::string>& command_line, const KeptRows& kept) {
   nlohmann::ordered_json metadata = describe_run(command_line);
@@ -48,6 +50,8 @@ void write_tables(const std::vector<TableFile>& tables, const std::filesystem::p
   describe_tables_of_run(files, tables.empty() ? Table() : tables.front().table, metadata);
   write_as(true);
 }
+
+}  // namespace
 
 TableRun::TableRun(std::string name, CommandLine& line, Resumes resumes)
     : name_(std::move(name)),

@@ -24,13 +24,6 @@
 
 namespace dmocbench {
 
-/// Writes tables, and next to them the metadata of their run with the JSON Schema of their rows. Columns that a table
-/// leaves unexplained have the meanings of the first table. Rows kept from earlier runs precede the others. The
-/// metadata contain `"complete": false` until all tables are there.
-/// Throws `Error` if a file cannot be written.
-void write_tables(const std::vector<TableFile>& tables, const std::filesystem::path& metadata_file,
-                  const std::vector<std::string>& command_line, const KeptRows& kept = {});
-
 /// A run of an experiment without cases (those have experiment.hpp): whole tables, written when all of them are there.
 /// As long as it exists, an interrupt ends this thread's computations (`StopScope`).
 class TableRun {

@@ -1,15 +1,12 @@
 // Many instances of one program: the batch in lanes, on one thread and on all, against loops over single solvers.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -20,8 +17,6 @@
 #include "bench/run/even_draws.hpp"
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
-#include "bench/speed/speed_tables.hpp"
-#include "bench/tables/ratio_interval.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
@@ -233,88 +228,14 @@ void register_batches() {
   }
 }
 
-constexpr double nanosecond = 1e-9;
-
-/// The times of a way for the instances.
-struct BatchTimes : Benchmark {
-  std::optional<double> ratio = std::nullopt;  ///< to the batch on all threads
-
-  [[nodiscard]] double seconds() const { return nanosecond * median_of("real_time").value_or(NAN); }
-  [[nodiscard]] std::vector<double> rounds() const {
-    std::vector<double> times = numbers.at("real_time");
-    for (double& time : times) time *= nanosecond;
-    return times;
-  }
-  /// Solves per second; filling a batch does not count as a solve.
-  [[nodiscard]] std::optional<double> rate(const std::optional<double>& seconds) const {
-    return label("way") == "fill" || !seconds ? std::nullopt : std::optional(1.0 / *seconds);
-  }
-};
-
-Columns<BatchTimes> batch_columns() {
-  using Times = BatchTimes;
-  Columns<Times> columns{
-      label_column<Times>("problem", "name of the problem"),
-      label_column<Times>("start", "cold, warm or nearest"),
-      label_column<Times>("way", "batch, fill (lanes are filled, not solved), or the solver of a loop"),
-      label_column<Times>("threads", "number of threads", FieldKind::integer),
-      label_column<Times>("instances", "number of instances", FieldKind::integer),
-      {"repetitions", "", "number of repetitions",
-       [](const Times& times) { return times.numbers.at("real_time").size(); }},
-      {"seconds", "s", "time per instance, the median over the rounds", &Times::seconds},
-      {"seconds_lower", "s", "lower end of the 99 % interval of this median",
-       [](const Times& times) { return MedianOfRounds(times.rounds()).lower; }},
-      {"seconds_upper", "s", "upper end of this interval",
-       [](const Times& times) { return MedianOfRounds(times.rounds()).upper; }},
-      {"solves_per_second", "1/s", "solves per second, by the median time",
-       [](const Times& times) { return times.rate(times.seconds()); }},
-      {"rate_lower", "1/s", "lower end of the 99 % interval of this rate",
-       [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).upper); }},
-      {"rate_upper", "1/s", "upper end of this interval",
-       [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).lower); }},
-      {"ratio", "", "seconds by the batch's on all threads, from the same start", &Times::ratio},
-      counter_column<Times>("processor_seconds", "s", "time of all processors per instance"),
-      counter_column<Times>("median_iterations", "", "iterations of a solve, the median"),
-      counter_column<Times>("solved", "", "share of the instances that are solved"),
-      counter_column<Times>("one_by_one", "", "share of the instances that leave their lanes"),
-      counter_column<Times>("lanes_in_use", "", "share of the lanes' rounds with an instance")};
-  for (const char* const phase : phase_names) {
-    columns.push_back(
-        counter_column<Times>(fmt::format("share_{}", phase), "", "share of the phase in the time of all threads"));
-  }
-  return columns;
-}
-
-/// A row per benchmark: medians of the repetitions, with 99 % intervals (bootstrap).
-Table batch_table(const Benchmarks& benchmarks) {
-  const auto key = [](const Benchmark& of) { return of.label("problem") + of.label("start"); };
-  std::vector<BatchTimes> all;
-  std::map<std::string, double> fastest;  // per problem and start: of the batch
-  for (const auto& [name, benchmark] : benchmarks) {
-    const BatchTimes& times = all.emplace_back(BatchTimes{benchmark});
-    if (times.label("way") != "batch") continue;
-    const auto found = fastest.emplace(key(times), times.seconds()).first;
-    found->second = std::min(found->second, times.seconds());
-  }
-  for (BatchTimes& times : all) {
-    const auto found = fastest.find(key(times));
-    if (found != fastest.end()) times.ratio = times.seconds() / found->second;
-  }
-  return table_of(batch_columns(), all);
-}
-
 }  // namespace
 
 int run_batches(int argc, char** argv) {
   const BenchmarkProgram program{
       .name = "batch",
       .description = "Times per solve of many instances of a program: in lanes, and one by one.",
-      .csv = "write FILE, a row per benchmark, with ratios to the batch on all threads",
       .default_filter = ".",
-      .register_benchmarks = register_batches,
-      .tables = [](const Benchmarks& benchmarks) -> TablesBySuffix {
-        return {{"", batch_table(benchmarks)}};
-      }};
+      .register_benchmarks = register_batches};
   return program.run(argc, argv);
 }
 

@@ -1,10 +1,8 @@
 #include "bench/speed/benchmark_program.hpp"
 
 #include <exception>
-#include <filesystem>
-#include <sstream>
+#include <string_view>
 
-#include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,7 +10,6 @@
 #include "bench/run/command_line.hpp"
 #include "bench/run/metadata.hpp"
 #include "bench/run/result_file.hpp"
-#include "bench/run/table_run.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/environment.hpp"
 
@@ -20,17 +17,13 @@ namespace dmocbench::speed {
 
 namespace {
 
-/// Prints a line per benchmark, the median of its repetitions, and keeps all of them as JSON.
+/// Prints a line per benchmark, the median of its repetitions.
 class Reporter final : public benchmark::ConsoleReporter {
  public:
-  Reporter() : ConsoleReporter(OO_None) { json_.SetOutputStream(&text_); }
+  Reporter() : ConsoleReporter(OO_None) {}
 
-  // NOLINTBEGIN(readability-identifier-naming): the names of the base class
-  bool ReportContext(const Context& context) override {
-    return json_.ReportContext(context) && ConsoleReporter::ReportContext(context);
-  }
+  // NOLINTNEXTLINE(readability-identifier-naming): the name of the base class
   void ReportRuns(const std::vector<Run>& runs) override {
-    json_.ReportRuns(runs);
     std::vector<Run> shown;
     for (const Run& run : runs) {
       if (run.repetitions > 1 && run.aggregate_name != "median" && !run.error_occurred) continue;
@@ -44,20 +37,6 @@ class Reporter final : public benchmark::ConsoleReporter {
     if (!shown.empty()) ConsoleReporter::ReportRuns(shown);
     GetOutputStream().flush();  // hours may pass until the next
   }
-  void Finalize() override {
-    json_.Finalize();
-    ConsoleReporter::Finalize();
-  }
-  // NOLINTEND(readability-identifier-naming)
-
-  /// Empty if no benchmark ran.
-  [[nodiscard]] Benchmarks benchmarks() const {
-    return text_.str().empty() ? Benchmarks{} : parse_benchmarks(text_.str(), "the result of this run");
-  }
-
- private:
-  std::ostringstream text_;
-  benchmark::JSONReporter json_;
 };
 
 /// False if a flag is unknown; the library has then reported it.
@@ -75,57 +54,36 @@ bool initialize(const BenchmarkProgram& program, const char* file, const std::ve
   return !benchmark::ReportUnrecognizedArguments(count, pointers.data());
 }
 
-/// Runs the benchmarks chosen by the flags and writes their tables. False if no benchmark is chosen; the library has
-/// then reported it.
-bool run_and_write(const BenchmarkProgram& program, const std::filesystem::path& csv,
-                   const std::vector<std::string>& command_line) {
-  const nlohmann::ordered_json description = describe_run({});
-  for (const char* key : {"commit", "compiler", "flags", "instruction_set", "processor"}) {
+/// The file of Google Benchmark states the data needed to judge or repeat its numbers.
+void describe(const std::vector<std::string>& command_line) {
+  const nlohmann::ordered_json description = describe_run(command_line);
+  for (const char* key : {"dmocbench", "commit", "compiler", "flags", "instruction_set", "processor"}) {
     benchmark::AddCustomContext(key, description.at(key).get<std::string>());
   }
-  program.register_benchmarks();
-  Reporter reporter;
-  const bool has_run = benchmark::RunSpecifiedBenchmarks(&reporter) > 0;
-  benchmark::Shutdown();
-  const Benchmarks benchmarks = reporter.benchmarks();
-  if (csv.empty() || benchmarks.empty()) return has_run;
-  const auto beside = [&](const std::string& end) {
-    return std::filesystem::path(csv).replace_filename(csv.stem().string() + end);
-  };
-  std::vector<TableFile> tables;
-  for (const auto& [suffix, table] : program.tables(benchmarks)) {
-    tables.push_back({beside(suffix + csv.extension().string()), table});
-  }
-  write_tables(tables, beside("_tables.json"), command_line);
-  return has_run;
+  benchmark::AddCustomContext("command_line", description.at("command_line").dump());
 }
 
 }  // namespace
 
 int BenchmarkProgram::run(int argc, char** argv) const try {
-  CLI::App app(description + " All flags of Google Benchmark hold as well:", name);
-  std::filesystem::path file;
-  if (tables) app.add_option("--csv", file, csv)->option_text("FILE");
-  app.allow_extras();
-  std::vector<std::string> flags;
-  try {
-    app.parse(argc, argv);
-    flags = app.remaining();
-  } catch (const CLI::CallForHelp&) {
-    fmt::print("{}\n", app.help());
-    flags = {"--help"};  // the library adds its own and ends the program
-  } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "{}: {}; --help lists the flags\n", name, error.what());
-    return 2;
+  const std::vector<std::string> flags(argv + 1, argv + argc);
+  for (const std::string& flag : flags) {
+    if (flag == "--help") fmt::print("{}: {} It takes the flags of Google Benchmark:\n\n", name, description);
   }
   check_environment();
   order_by_one_thread();
   if (!initialize(*this, *argv, flags)) return 2;
-  if (!file.empty()) require_writable(file);  // before anything is timed
   for (const std::string& flag : flags) {
+    constexpr std::string_view file = "--benchmark_out=";
+    if (flag.starts_with(file)) require_writable(flag.substr(file.size()));  // before anything is timed
     if (flag.starts_with("--benchmark_repetitions=-")) throw Error(flag + ": repetitions are at least 1");
   }
-  return run_and_write(*this, file, {argv, argv + argc}) ? 0 : 2;
+  describe({argv, argv + argc});
+  register_benchmarks();
+  Reporter reporter;
+  const bool has_run = benchmark::RunSpecifiedBenchmarks(&reporter) > 0;  // otherwise the library has reported it
+  benchmark::Shutdown();
+  return has_run ? 0 : 2;
 } catch (const std::exception& error) {
   fmt::print(stderr, "{}: {}\n", name, sentence_of(error));
   return 2;

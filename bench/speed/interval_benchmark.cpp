@@ -8,7 +8,6 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "bench/speed/speed_tables.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench::speed {
@@ -38,7 +37,7 @@ std::string benchmark_name(const IntervalBenchmark& benchmark) {
   return name;
 }
 
-/// The keys are columns of `interval_table`.
+/// The keys are columns of the table of `bench/speed/page`.
 std::string label_of(const IntervalBenchmark& benchmark) {
   const Formulas& formulas = benchmark.formulas;
   std::string label = fmt::format("way={} quantity={} problem={} method={} tableau=gauss stages={} intervals={}",
@@ -105,10 +104,10 @@ void register_benchmark(const IntervalBenchmark& measured, std::function<Evaluat
     constexpr std::int64_t intervals = BenchmarkedFormulas::intervals;
     constexpr double nanosecond = 1e-9;
     state.SetItemsProcessed(state.iterations() * intervals);
-    state.counters[ns_per_interval] =
+    state.counters["ns_per_interval"] =
         Counter(intervals * nanosecond, Counter::kIsIterationInvariantRate | Counter::kInvert);
-    state.counters[operations_per_interval] = static_cast<double>(work.operations);
-    if (work.bytes > 0.0) state.counters[bytes_per_interval] = work.bytes;
+    state.counters["operations"] = static_cast<double>(work.operations);
+    if (work.bytes > 0.0) state.counters["bytes"] = work.bytes;
     state.SetLabel(label);
   };
   benchmark::RegisterBenchmark(benchmark_name(measured).c_str(), run);

@@ -10,7 +10,6 @@
 
 #include "bench/speed/interval_benchmark.hpp"
 #include "bench/speed/kernels.hpp"
-#include "bench/speed/speed_tables.hpp"
 
 namespace dmocbench::speed {
 
@@ -48,7 +47,7 @@ void measure_triad(benchmark::State& state, TriadLoop triad, std::size_t bytes, 
     triad(size, a, b, c, 0.5);
     benchmark::ClobberMemory();
   }
-  state.counters[bytes_per_second] = per_iteration(static_cast<double>(3 * sizeof(double) * size));
+  state.counters["bytes_per_second"] = per_iteration(static_cast<double>(3 * sizeof(double) * size));
 }
 
 std::vector<MemoryLevel> memory_levels() {
@@ -79,12 +78,12 @@ void register_machine_benchmarks() {
                                    for ([[maybe_unused]] auto turn : state)
                                      benchmark::DoNotOptimize(kernels.arithmetic(turns));
                                    const auto operations = static_cast<double>(turns * kernels.operations_of_a_turn);
-                                   state.counters[operations_per_second] = per_iteration(operations);
+                                   state.counters["operations_per_second"] = per_iteration(operations);
                                    state.SetLabel(label + "arithmetic");
                                  });
     std::size_t smaller = 0;  // the capacity of the level before
     for (const MemoryLevel& level : memory_levels()) {
-      // Keys are columns of `machine_table`, and the sizes of the arrays that a level holds.
+      // Keys are columns of the table of `bench/speed/page`, and the sizes of the arrays that a level holds.
       const std::string of_level = fmt::format("{}{} array_bytes={} more_than_bytes={} up_to_bytes={}", label,
                                                level.name, level.triad_size, smaller, level.capacity);
       smaller = level.capacity;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -11,11 +10,9 @@
 
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
-#include "bench/speed/speed_tables.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
-#include "methods/runtime/parsed.hpp"
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
@@ -135,37 +132,13 @@ void register_solves() {
   }
 }
 
-/// Medians over the repetitions.
-TablesBySuffix tables_of(const Benchmarks& benchmarks) {
-  const Columns<Benchmark> columns{
-      label_column("problem", "name of the problem"),
-      label_column("method", "family of elements"),
-      label_column("start", "warm or cold"),
-      label_column("intervals", "number of intervals N", FieldKind::integer),
-      counter_column("iterations", "", "iterations of a solve"),
-      counter_column("solved", "", "1 if the program is solved"),
-      counter_column("plain_microseconds", "us", "time of a solve by Solver::solve"),
-      counter_column("prepared_microseconds", "us", "time of a solve by PreparedSolve"),
-      counter_column("residuals_microseconds", "us", "time of a PreparedSolve that judges by residuals only"),
-      counter_column("plain_over_prepared", "", "plain_microseconds by prepared_microseconds"),
-      counter_column("over_long_grid", "", "time per interval and iteration by a long grid's")};
-  std::vector<Benchmark> solves = without_names(benchmarks);
-  std::ranges::sort(solves, {}, [](const Benchmark& of) {
-    return std::tuple(of.label("problem"), of.label("method"), of.label("start"),
-                      parsed<double>(of.label("intervals")));
-  });
-  return {{"", table_of(columns, solves)}};
-}
-
 }  // namespace
 
 int run_prepared(int argc, char** argv) {
   const BenchmarkProgram program{.name = "prepared",
                                  .description = "Programs that are solved again: prepared solves against plain ones.",
-                                 .csv = "write FILE, a row per benchmark",
                                  .default_filter = "/dmoc/",
-                                 .register_benchmarks = register_solves,
-                                 .tables = tables_of};
+                                 .register_benchmarks = register_solves};
   return program.run(argc, argv);
 }
 

@@ -17,7 +17,6 @@
 
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
-#include "bench/speed/speed_tables.hpp"
 #include "bench/speed/timed_solves.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/transcription/elements/families.hpp"
@@ -149,16 +148,10 @@ void register_solves() {
 
 int run_solves(int argc, char** argv) {
   // Without flags it takes seconds: long grids and the library are left out.
-  const BenchmarkProgram program{
-      .name = "solves",
-      .description = "Times of whole solves by interior_point and by Ipopt.",
-      .csv = "write FILE, a row per benchmark, FILE_ratios and FILE_exponents",
-      .default_filter = "^[^/]*/[^/]*/(64|1024)/",
-      .register_benchmarks = register_solves,
-      .tables = [](const Benchmarks& benchmarks) -> TablesBySuffix {
-        const Table solves = solve_table(benchmarks);
-        return {{"", solves}, {"_ratios", solve_ratios(solves)}, {"_exponents", solve_exponents(solves)}};
-      }};
+  const BenchmarkProgram program{.name = "solves",
+                                 .description = "Times of whole solves by interior_point and by Ipopt.",
+                                 .default_filter = "^[^/]*/[^/]*/(64|1024)/",
+                                 .register_benchmarks = register_solves};
   return program.run(argc, argv);
 }
 

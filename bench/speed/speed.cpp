@@ -2,7 +2,6 @@
 // by number, ADOL-C; and the peak of the machine.
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/interval_benchmark.hpp"
-#include "bench/speed/speed_tables.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -12,26 +11,20 @@ int run_speed(int argc, char** argv) {
   const BenchmarkProgram program{
       .name = "speed",
       .description = "Times of exact derivatives per interval.",
-      .csv = "write FILE, a row per benchmark, and FILE_machine, the peak of the machine",
       // Without flags it takes a minute: several stages and the chains of links are left out.
       .default_filter = "-gauss_[2-9]|link_chain",
-      .register_benchmarks =
-          [&paper] {
-            for (const std::string& problem : paper_problem_names()) {
-              paper.push_back(std::make_unique<BenchmarkedFormulas>(Formulas{.problem = problem}));
-            }
-            register_expression_benchmarks(paper);
-            register_program_benchmarks();
-            register_hand_benchmarks(paper);
+      .register_benchmarks = [&paper] {
+        for (const std::string& problem : paper_problem_names()) {
+          paper.push_back(std::make_unique<BenchmarkedFormulas>(Formulas{.problem = problem}));
+        }
+        register_expression_benchmarks(paper);
+        register_program_benchmarks();
+        register_hand_benchmarks(paper);
 #ifdef DMOCBENCH_SPEED_ADOLC
-            register_adolc_benchmarks(paper);
+        register_adolc_benchmarks(paper);
 #endif
-            register_machine_benchmarks();
-          },
-      .tables =
-          [](const Benchmarks& benchmarks) {
-            return TablesBySuffix{{"", interval_table(benchmarks)}, {"_machine", machine_table(benchmarks)}};
-          }};
+        register_machine_benchmarks();
+      }};
   return program.run(argc, argv);
 }
 
