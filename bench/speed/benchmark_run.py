@@ -76,7 +76,7 @@ def read(path):
     except OSError as error:
         raise Misuse(f"cannot read {path}: {error.strerror}") from error
     except ValueError as error:
-        raise Misuse(f"{path} is not JSON; write it with --benchmark_out={path}") from error
+        raise Misuse(f"{path} is not JSON; --benchmark_out=FILE writes it") from error
     runs = {}
     try:
         for one in content["benchmarks"]:
@@ -86,4 +86,4 @@ def read(path):
                 runs.setdefault(one["run_name"], Run(one["run_name"], one.get("label", ""))).repetitions.append(one)
         return content.get("context", {}), [runs[name] for name in sorted(runs)]
     except (AttributeError, KeyError, TypeError) as error:
-        raise Misuse(f"{path} is JSON, but not of Google Benchmark; write it with --benchmark_out={path}") from error
+        raise Misuse(f"{path} is JSON, but not of Google Benchmark; --benchmark_out=FILE writes it") from error
