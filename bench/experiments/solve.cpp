@@ -27,9 +27,10 @@ struct Measured {
   std::optional<double> estimated_error;
 };
 
-std::vector<std::string> answer_columns(bool with_horizon) {
+std::vector<std::string> answer_columns(bool with_horizon, bool with_estimate) {
   std::vector<std::string> columns{"problem", "method", "N", "status", "cost"};
   if (with_horizon) columns.emplace_back("T");
+  if (with_estimate) columns.emplace_back("estimated error");
   for (const char* const column : {"iterations", "seconds", "replay error", "worst between stages", "files"})
     columns.emplace_back(column);
   return columns;
@@ -87,6 +88,7 @@ Row row_of_answer(const SolvedCase& solved, const IndependentChecks& checks, con
     row.set("T", fmt::format("{:.6g}{}{}", time.factor * solved.trajectory->node_times.tail<1>()[0],
                              time.name.empty() ? "" : " ", time.name));
   }
+  if (solved.estimated_error) row.set("estimated error", fmt::format("{:.1e}", *solved.estimated_error));
   row.set("replay error", checks.replay ? replay_in_words(problem, *checks.replay) : "none");
   row.set("worst between stages", violation_in_words(solved));
   row.set("files", files);
@@ -160,7 +162,8 @@ class Solve final : public ExperimentOf<Measured> {
       write_motion(file, solved, output.metadata);
       if (solved.estimated_error) output.metadata["motions"].back()["estimated_error"] = *solved.estimated_error;
     }
-    output.findings.show("answers", summary, answer_columns(std::ranges::any_of(answers_, has_free_horizon)),
+    output.findings.show("answers", summary,
+                         answer_columns(std::ranges::any_of(answers_, has_free_horizon), accuracy_.is_wanted()),
                          output.prefix.string() + ".csv");
     std::set<std::string> doubts;
     for (const Answer& answer : answers_) {

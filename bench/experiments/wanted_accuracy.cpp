@@ -28,33 +28,47 @@ auto grid_printer(const Unit& time) {
   };
 }
 
-/// The answer on the last grid. Throws `NoStart` if the time is up between two grids.
-AdaptiveAnswer solve_on_grids(const SolveTask& asked, const AdaptiveOptions& options) {
-  const Case& the_case = asked.the_case;
-  const AdaptiveTask task{.problem = the_case.problem.get(),
-                          .method = the_case.method,
-                          .tableau = the_case.tableau,
-                          .stages = the_case.stages,
-                          .first = the_case.grid,
-                          .start = asked.start.motion};
-  const StopScope scope(asked.options.stop_requested, asked.options.most_seconds);
-  try {
-    AdaptiveAnswer answer = solve_adaptively(task, options, grid_printer(the_case.problem->card().time_unit));
-    print_line(fmt::format("solve: {}", answer.message));
-    return answer;
-  } catch (const Stopped&) {
-    const bool interrupted = asked.options.stop_requested && asked.options.stop_requested();
-    throw NoStart("The time was up between two grids.", interrupted ? Status::interrupted : Status::time_limit);
-  }
-}
-
 }  // namespace
+
+SolvedCase solve_accurately(Case the_case, const Start& start, const AdaptiveOptions& options,
+                            const std::function<void(const GridAttempt&)>& on_grid) {
+  const auto begin = Clock::now();
+  AdaptiveAnswer answer = solve_adaptively({.problem = the_case.problem.get(),
+                                            .method = the_case.method,
+                                            .tableau = the_case.tableau,
+                                            .stages = the_case.stages,
+                                            .first = the_case.grid,
+                                            .start = start.motion},
+                                           options, on_grid);
+  the_case.grid = answer.program->grid();
+  the_case.stages = static_cast<int>(answer.program->tableau().stages());
+  SolvedCase solved{.the_case = std::move(the_case), .program = std::move(answer.program)};
+  solved.solution = std::move(answer.solution);
+  const bool has_motion = answer.trajectory.node_times.size() > 0;
+  solved.start = sample(*solved.program, has_motion ? smooth_motion(answer.trajectory) : start.motion);
+  SolverOptions solver_options = options.solver_options;
+  solved.tolerance = options.solver_tolerance(solver_options.tolerance);
+  if (double& limit = solver_options.most_seconds; limit > 0.0) {
+    constexpr double moment = 1e-9;
+    limit = std::max(limit - seconds_since(begin), moment);
+    solved.seconds_left = limit;
+  }
+  judge_case(solved, start, solver_options);
+  if (answer.outcome == AdaptiveOutcome::reached) {
+    solved.estimated_error = answer.estimate.relative;
+    solved.note(answer.message);
+  } else {
+    if (is_solved(solved.solution.status)) solved.solution.status = Status::not_confirmed;
+    solved.solution.message = answer.message;
+  }
+  return solved;
+}
 
 void WantedAccuracy::add_to(CommandLine& line) {
   line.option(
       "--accuracy", accuracy_,
       "estimated relative error of q, p and cost at which to stop, 1e-14 to 0.1: refines one case grid by grid, "
-      "beginning with --intervals or --grid");
+      "beginning with --intervals or --grid; counts and times are of all grids together");
   line.option("--refine", refine_, "with --accuracy: h (steps) or hp (steps, and up to three stages); default: h");
 }
 
@@ -75,32 +89,22 @@ void WantedAccuracy::check(const std::vector<Case>& cases) {
 }
 
 SolvedCase WantedAccuracy::solve(SolveTask task) {
-  Case& the_case = task.the_case;
+  const Case& the_case = task.the_case;
   if (the_case.form != CostForm::bolza || the_case.derivatives != "tape") {
     throw Error("--accuracy refines with --form bolza and --derivatives tape");
   }
-  const auto begin = Clock::now();
+  if (task.repeats > 1) throw Error("--accuracy solves once on each grid; leave out --repeats");
   AdaptiveOptions options = adaptive_;
   options.solver = the_case.solver;
   options.solver_options = task.options;
   options.named_options = task.named_options;
-  const AdaptiveAnswer answer = solve_on_grids(task, options);
-  const double spent = seconds_since(begin);
-  const GridAttempt& last = answer.grids.back();
-  if (answer.outcome != AdaptiveOutcome::reached) {
-    throw NoStart(answer.message, is_solved(last.status) ? Status::not_confirmed : last.status);
+  const StopScope scope(task.options.stop_requested, task.options.most_seconds);
+  try {
+    return solve_accurately(the_case, task.start, options, grid_printer(the_case.problem->card().time_unit));
+  } catch (const Stopped&) {
+    const bool interrupted = task.options.stop_requested && task.options.stop_requested();
+    throw NoStart("The time was up between two grids.", interrupted ? Status::interrupted : Status::time_limit);
   }
-  the_case.grid = answer.program->grid();
-  the_case.stages = static_cast<int>(last.stages);
-  task.start.motion = smooth_motion(answer.trajectory);
-  task.start.with_costates = answer.trajectory;
-  constexpr double moment = 1e-9;
-  double& most_seconds = task.options.most_seconds;
-  if (most_seconds > 0.0) most_seconds = std::max(most_seconds - spent, moment);
-  task.options.tolerance = options.solver_tolerance(task.options.tolerance);
-  SolvedCase solved = task.by(*make_solver(the_case.solver, task.options, task.named_options));
-  solved.estimated_error = answer.estimate.relative;
-  return solved;
 }
 
 }  // namespace dmocbench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,13 @@
 #include "methods/adaptive/adaptive_solve.hpp"
 
 namespace dmocbench {
+
+/// Solves a case on grids that are refined until the estimated error is at most `options.accuracy`. The case is then
+/// the one on the last grid, its stages included, and counts and times are the sums over all grids. Where the accuracy
+/// is not reached, the status is not a solved one, and the message gives the reason. `on_grid` as `solve_adaptively`,
+/// which also throws `Error`.
+[[nodiscard]] SolvedCase solve_accurately(Case the_case, const Start& start, const AdaptiveOptions& options,
+                                          const std::function<void(const GridAttempt&)>& on_grid = nullptr);
 
 /// The options --accuracy and --refine: one case is refined grid by grid until its estimated error is small enough.
 class WantedAccuracy {
@@ -17,9 +25,8 @@ class WantedAccuracy {
   [[nodiscard]] bool is_wanted() const noexcept { return !accuracy_.empty(); }
   /// Reads the options. Throws `Error` if they do not fit each other or the cases.
   void check(const std::vector<Case>& cases);
-  /// Finds the grid and solves the case on it, from the answer there; prints a line for every grid. The case, its
-  /// stages included, is then the one on that grid, with its estimated error. Throws `NoStart` if no grid is fine
-  /// enough, or the time is up before.
+  /// Solves the case accurately (`solve_accurately`) and prints a line for every grid. Throws `NoStart` if the time is
+  /// up between two grids.
   [[nodiscard]] SolvedCase solve(SolveTask task);
 
  private:

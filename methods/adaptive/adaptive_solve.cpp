@@ -30,6 +30,28 @@ constexpr int most_stages = 3;
 /// The share of the accuracy that the next grid is made for.
 constexpr double margin = 0.9;
 
+/// Adds the counts and times of an earlier solve to a solution.
+void add_work(const Solution& earlier, Solution& solution) {
+  const auto add = [&](auto count) {
+    if (earlier.*count) solution.*count = *(earlier.*count) + (solution.*count).value_or(0);
+  };
+  add(&Solution::major_iterations);
+  add(&Solution::minor_iterations);
+  add(&Solution::phase_one_minor_iterations);
+  add(&Solution::phase_two_minor_iterations);
+  add(&Solution::linear_systems);
+  add(&Solution::linear_seconds);
+  solution.seconds += earlier.seconds;
+  solution.evaluation_seconds += earlier.evaluation_seconds;
+  if (!earlier.evaluations) return;
+  if (!solution.evaluations) solution.evaluations.emplace();
+  for (int EvaluationCounts::*count :
+       {&EvaluationCounts::objective, &EvaluationCounts::gradient, &EvaluationCounts::constraints,
+        &EvaluationCounts::jacobian, &EvaluationCounts::hessian}) {
+    *solution.evaluations.*count += *earlier.evaluations.*count;
+  }
+}
+
 /// Grid after grid.
 class AdaptiveRun {
  public:
@@ -79,7 +101,10 @@ class AdaptiveRun {
         std::make_unique<Transcription>(*task_.problem, *element_, make_tableau(task_.tableau, stages_), grid_);
     Transcription& program = *answer_.program;
     grid_ = program.grid();  // with nodes at the times of bounds, which later grids share
-    answer_.solution = solve(program);
+    Solution solved_here = solve(program);
+    const int iterations = solved_here.major_iterations.value_or(0);
+    add_work(answer_.solution, solved_here);
+    answer_.solution = std::move(solved_here);
     const Solution& solution = answer_.solution;
     const Eigen::VectorXd steps = program.guessed_horizon() * grid_.relative_widths();
     GridAttempt record{.intervals = steps.size(),
@@ -89,7 +114,7 @@ class AdaptiveRun {
                        .relative = std::numeric_limits<double>::infinity(),
                        .largest_step = steps.maxCoeff(),
                        .smallest_step = steps.minCoeff(),
-                       .iterations = solution.major_iterations.value_or(0)};
+                       .iterations = iterations};
     if (is_solved(solution.status)) {
       const Trajectory earlier =
           std::exchange(answer_.trajectory, read_trajectory(program, solution.primal, solution.multipliers));
@@ -130,7 +155,9 @@ class AdaptiveRun {
     const Eigen::VectorXd start = sample(program, smooth_motion(answer_.trajectory));
     Solution solution = solver->solve(program, start, sample_multipliers(program, answer_.trajectory));
     if (is_solved(solution.status) || must_stop()) return solution;
-    return solver->solve(program, start);
+    Solution from_motion = solver->solve(program, start);
+    add_work(solution, from_motion);
+    return from_motion;
   }
 
   [[nodiscard]] std::string failure() const {

@@ -76,7 +76,8 @@ struct AdaptiveAnswer {
   std::string message;                                    ///< a sentence
   std::vector<GridAttempt> grids;                         ///< all grids, in their order
   std::unique_ptr<Transcription> program;                 ///< of the last grid
-  Solution solution;                                      ///< of the last grid
+  /// Of the last grid; its counts and times are the sums over all solves.
+  Solution solution;
   Trajectory trajectory;   ///< of the last grid that was solved; without nodes if none was
   ErrorEstimate estimate;  ///< of it
 };

@@ -86,6 +86,21 @@ TEST(AdaptiveSolve, RaisesTheNumberOfStagesUpToThreeWhereStepsAloneWouldTakeMany
   EXPECT_LT(error_of_oscillation(answer.trajectory), 2e-9);
 }
 
+TEST(AdaptiveSolve, CountsTheWorkOnAllGrids) {
+  const auto problem = make_problem("two_link_manipulator");
+  AdaptiveOptions options;
+  options.accuracy = 1e-5;
+  int iterations = 0;
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 8), options,
+                                                 [&](const GridAttempt& grid) { iterations += grid.iterations; });
+  ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
+  ASSERT_GT(answer.grids.size(), 2U);
+  EXPECT_GT(iterations, answer.grids.back().iterations);
+  EXPECT_EQ(answer.solution.major_iterations, iterations);
+  EXPECT_GE(answer.solution.linear_systems, iterations);
+  EXPECT_GE(answer.solution.total_evaluations(), 5 * iterations);
+}
+
 TEST(AdaptiveSolve, SaysWhereAnAccuracyIsMoreThanDoublesCanGive) {
   const auto problem = make_problem("orbital_transfer");
   AdaptiveOptions options;

@@ -9,6 +9,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include "bench/experiments/wanted_accuracy.hpp"
 #include "bench/extensions/python/bindings.hpp"
 #include "bench/extensions/python/calls.hpp"
 #include "bench/extensions/python/handles.hpp"
@@ -90,39 +91,18 @@ SolverOptions solver_options(const Asked& asked, Call& call) {
   return options;
 }
 
-/// On grids that are refined until the estimated error is small enough; the case is then the one on the last grid.
-SolvedCase solve_accurately(Case the_case, const Start& start, const Asked& asked, SolverOptions options) {
+/// On grids that are refined until the estimated error is small enough.
+SolvedCase solve_on_grids(const Case& the_case, const Start& start, const Asked& asked, const SolverOptions& options) {
   AdaptiveOptions adaptive;
   adaptive.accuracy = *asked.accuracy;
   adaptive.refinement = refinement_named(asked.refinement);
   adaptive.solver = asked.solver;
   adaptive.solver_options = options;
   adaptive.named_options = asked.options;
-  adaptive.validate();
   if (the_case.form != CostForm::bolza || the_case.derivatives != "tape") {
     throw Error("accuracy= refines with form=\"bolza\" and derivatives=\"tape\"");
   }
-  AdaptiveAnswer answer = solve_adaptively({.problem = the_case.problem.get(),
-                                            .method = the_case.method,
-                                            .tableau = the_case.tableau,
-                                            .stages = the_case.stages,
-                                            .first = the_case.grid,
-                                            .start = start.motion},
-                                           adaptive);
-  if (!answer.program) throw Error(answer.message);
-  the_case.grid = answer.program->grid();
-  the_case.stages = static_cast<int>(answer.program->tableau().stages());
-  SolvedCase solved{.the_case = std::move(the_case), .program = std::move(answer.program)};
-  solved.solution = std::move(answer.solution);
-  solved.tolerance = adaptive.solver_tolerance(options.tolerance);
-  judge_case(solved, {.motion = start.motion}, options);
-  if (answer.outcome == AdaptiveOutcome::reached) {
-    solved.estimated_error = answer.estimate.relative;
-  } else {
-    if (is_solved(solved.solution.status)) solved.solution.status = Status::not_confirmed;
-    solved.solution.message = answer.message;
-  }
-  return solved;
+  return solve_accurately(the_case, start, adaptive);
 }
 
 std::unique_ptr<Answer> solve(const ProblemHandle& handle, const Asked& asked, const Answer* from) {
@@ -134,7 +114,7 @@ std::unique_ptr<Answer> solve(const ProblemHandle& handle, const Asked& asked, c
     const Start start =
         from == nullptr ? Start{.motion = guessed_motion(*handle.problem)} : start_from(*from, *handle.problem);
     auto answer = std::make_unique<Answer>();
-    answer->solved = asked.accuracy ? solve_accurately(the_case, start, asked, options)
+    answer->solved = asked.accuracy ? solve_on_grids(the_case, start, asked, options)
                                     : solve_case(the_case, start, *solver, asked.tolerance, 1);
     return answer;
   });

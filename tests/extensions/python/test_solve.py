@@ -64,6 +64,7 @@ class Pendulum(unittest.TestCase):
         solution = db.solve(PendulumSwingUp(), accuracy=1e-6, refinement="hp", intervals=16)
         self.assertTrue(solution.is_solved, solution)
         self.assertLess(solution.estimated_error(), 1e-6)
+        self.assertGreater(solution.iterations, db.solve(PendulumSwingUp(), intervals=16).iterations)
         fine = db.solve(PendulumSwingUp(), intervals=512, stages=2)
         self.assertLess(abs(solution.cost - fine.cost), 1e-5 * fine.cost)
 

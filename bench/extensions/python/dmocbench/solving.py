@@ -248,7 +248,8 @@ def solve(problem: AnyProblem, method: str = "dmoc", *, intervals: int = 128, ta
     problem: an instance of a class derived from Problem, or the name of a built-in problem. method: one of `methods()`.
     intervals: N of a uniform grid; nodes: relative node times from 0 to 1 instead. start: a Solution to begin with,
     else the guess of the problem. accuracy: refines the grid ("h"), or also the number of stages ("hp"), until the
-    estimated relative error is at most that. options: the solver's, by name. Throws Error on misuse.
+    estimated relative error is at most that; iterations and seconds are then of all grids together. options: the
+    solver's, by name. Throws Error on misuse.
     """
     if start is not None and not isinstance(start, Solution):
         raise Error(f"start= takes a Solution, not {type(start).__name__}; state a guess in the problem")
