@@ -36,28 +36,6 @@ std::vector<std::string> answer_columns(bool with_horizon, bool with_estimate) {
   return columns;
 }
 
-/// "3e-05 m, 1e-06 rad, 2e-04 m/s": the largest error of the replayed end, by unit; without units the norm of all.
-std::string replay_in_words(const Problem& problem, const ReplayError& replay) {
-  const ProblemCard card = problem.card();
-  const std::vector<std::string>& units = card.configuration_units;
-  if (units.empty()) return fmt::format("{:.1e}", replay.norm());
-  std::vector<std::pair<std::string, double>> by_unit;
-  const auto add = [&](const std::string& unit, double error) {
-    const auto found = std::ranges::find(by_unit, unit, &std::pair<std::string, double>::first);
-    auto& entry = found == by_unit.end() ? by_unit.emplace_back(unit, 0.0) : *found;
-    entry.second = std::max(entry.second, std::abs(error));
-  };
-  const std::string per_time = card.time_unit.name.empty() ? "" : "/" + card.time_unit.name;
-  for (Eigen::Index i = 0; i < replay.q.size(); ++i) add(units[static_cast<std::size_t>(i)], replay.q[i]);
-  // Velocities per unit of time as shown.
-  for (Eigen::Index i = 0; i < replay.v.size(); ++i)
-    add(units[static_cast<std::size_t>(i)] + per_time, replay.v[i] / card.time_unit.factor);
-  std::vector<std::string> words;
-  for (const auto& [unit, error] : by_unit)
-    words.push_back(fmt::format("{:.1e}{}{}", error, unit.empty() ? "" : " ", unit));
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
 /// "path_constraints[0] (height) by 2e-03 at t = 0.4", the constraint that is left farthest relative to its scale.
 std::string violation_in_words(const SolvedCase& solved) {
   if (!solved.between_stages) return "not checked";
@@ -167,7 +145,8 @@ class Solve final : public ExperimentOf<Measured> {
                          output.prefix.string() + ".csv");
     std::set<std::string> doubts;
     for (const Answer& answer : answers_) {
-      if (is_solved(answer.solved.solution.status)) doubts.insert(doubt_about_units(*answer.solved.the_case.problem));
+      const Status status = answer.solved.solution.status;
+      if (is_solved(status) || is_no_motion(status)) doubts.insert(doubt_about_units(*answer.solved.the_case.problem));
     }
     for (const std::string& doubt : doubts) {
       if (!doubt.empty()) output.findings.say(doubt);

@@ -1,11 +1,14 @@
 #include "bench/run/advice.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "methods/mechanics/point_function.hpp"
 
@@ -83,6 +86,27 @@ std::string doubt_about_units(const Problem& problem) {
     return unit == "rad" || ((unit.empty() || unit == "deg") && has_period_of_angle(problem, i));
   };
   return angle_in_degrees(problem, is_angle).value_or("");
+}
+
+std::string replay_in_words(const Problem& problem, const ReplayError& replay) {
+  const ProblemCard card = problem.card();
+  const std::vector<std::string>& units = card.configuration_units;
+  if (units.empty()) return fmt::format("{:.1e}", replay.norm());
+  std::vector<std::pair<std::string, double>> by_unit;
+  const auto add = [&](const std::string& unit, double error) {
+    const auto found = std::ranges::find(by_unit, unit, &std::pair<std::string, double>::first);
+    auto& entry = found == by_unit.end() ? by_unit.emplace_back(unit, 0.0) : *found;
+    entry.second = std::max(entry.second, std::abs(error));
+  };
+  const std::string per_time = card.time_unit.name.empty() ? "" : "/" + card.time_unit.name;
+  for (Eigen::Index i = 0; i < replay.q.size(); ++i) add(units[static_cast<std::size_t>(i)], replay.q[i]);
+  // Velocities per unit of time as shown.
+  for (Eigen::Index i = 0; i < replay.v.size(); ++i)
+    add(units[static_cast<std::size_t>(i)] + per_time, replay.v[i] / card.time_unit.factor);
+  std::vector<std::string> words;
+  for (const auto& [unit, error] : by_unit)
+    words.push_back(fmt::format("{:.1e}{}{}", error, unit.empty() ? "" : " ", unit));
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 std::string next_to_try(const SolvedCase& solved, const std::string& start) {

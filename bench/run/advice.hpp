@@ -15,4 +15,7 @@ namespace dmocbench {
 /// number that looks like an angle in degrees. Such a problem may be solved all the same. Empty if there is none.
 [[nodiscard]] std::string doubt_about_units(const Problem& problem);
 
+/// "3e-05 m, 1e-06 rad, 2e-04 m/s": the largest error of the replayed end, by unit; without units the norm of all.
+[[nodiscard]] std::string replay_in_words(const Problem& problem, const ReplayError& replay);
+
 }  // namespace dmocbench

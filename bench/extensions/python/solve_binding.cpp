@@ -13,6 +13,7 @@
 #include "bench/extensions/python/bindings.hpp"
 #include "bench/extensions/python/calls.hpp"
 #include "bench/extensions/python/handles.hpp"
+#include "bench/run/advice.hpp"
 #include "bench/run/solve_case.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/adaptive/error_estimate.hpp"
@@ -188,6 +189,10 @@ void bind_numbers(py::class_<Answer>& answer) {
   number("solver", [](const SolvedCase& solved) { return solved.solution.solver; });
   number("status", [](const SolvedCase& solved) { return std::string(name_of(solved.solution.status)); });
   number("message", [](const SolvedCase& solved) { return solved.solution.message; });
+  number("advice", [](const SolvedCase& solved) {
+    const std::string next = next_to_try(solved, "");
+    return next.empty() ? doubt_about_units(*solved.the_case.problem) : next;
+  });
   number("is_solved", [](const SolvedCase& solved) { return is_solved(solved.solution.status); });
   number("cost", [](const SolvedCase& solved) {
     return solved.trajectory ? std::optional(solved.trajectory->cost) : std::nullopt;
@@ -271,6 +276,10 @@ void bind_solve(py::module_& module) {
   answer.def_property_readonly("replay_error", [](Answer& one) {
     const IndependentChecks& checks = checks_of(one);
     return checks.replay ? std::optional(checks.replay->norm()) : std::nullopt;
+  });
+  answer.def_property_readonly("replay_in_words", [](Answer& one) {
+    const IndependentChecks& checks = checks_of(one);
+    return checks.replay ? replay_in_words(*one.solved.the_case.problem, *checks.replay) : "none";
   });
   answer.def_property_readonly("largest_violation", [](Answer& one) { return checks_of(one).violation_between_nodes; });
   answer.def("estimated_error", &estimated_error);

@@ -60,6 +60,23 @@ class Pendulum(unittest.TestCase):
         self.assertTrue(np.array_equal(solution.column("theta"), solution.q[:, 0]))
         self.assertRegex(repr(solution), "(?s)solved.*cost.*iterations.*replay error.*largest violation")
 
+    def test_prints_the_replay_error_by_unit_and_counts_in_the_singular(self):
+        printed = repr(db.solve(PendulumSwingUp(), intervals=32))
+        self.assertRegex(printed, r"\(gauss, 1 stage, 32 intervals\): solved")
+        self.assertRegex(printed, r"replay error [0-9.e-]+ rad, [0-9.e-]+ rad/s; largest violation")
+        self.assertIn(", 2 stages, ", repr(db.solve(PendulumSwingUp(), intervals=32, stages=2)))
+
+    def test_doubts_angles_that_look_like_degrees(self):
+        class InDegrees(PendulumSwingUp):
+            horizon = 20.0
+            end = db.at_rest(theta=180.0)
+
+        self.assertIn("Try radians: theta changes by 180", repr(db.solve(InDegrees(), intervals=64)))
+        self.assertNotIn("Try", repr(db.solve(PendulumSwingUp(), intervals=32)))
+
+    def test_advises_after_a_failure_in_words_of_python(self):
+        self.assertIn("Try solver=\"auto\"", repr(db.solve(PendulumSwingUp(), solver="ipopt", most_iterations=2)))
+
     def test_reaches_an_accuracy(self):
         solution = db.solve(PendulumSwingUp(), accuracy=1e-6, refinement="hp", intervals=16)
         self.assertTrue(solution.is_solved, solution)

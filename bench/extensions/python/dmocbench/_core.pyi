@@ -133,6 +133,8 @@ class Answer:
     setup_seconds: float | None
     relative_jump: float | None
     replay_error: float | None
+    replay_in_words: str
+    advice: str
     largest_violation: float | None
     coordinates: list[str]
     controls: list[str]

@@ -118,8 +118,9 @@ class Solution:
     """An answer: numbers, and arrays of the motion with a row per node (a row per stage in `stages`).
 
     status, message, is_solved; cost, iterations, seconds, setup_seconds, kkt_residual, constraint_violation,
-    relative_jump, replay_error (distance from the end when the controls are replayed), largest_violation (of bounds and
-    path constraints anywhere on the motion); t, q, v, p, psi_q, psi_p, psi = (psi_q, psi_p); stages.t, .q, .v, .u, .p.
+    relative_jump, replay_error (norm of the distance from the end when the controls are replayed; printed by unit),
+    largest_violation (of bounds and path constraints anywhere on the motion); t, q, v, p, psi_q, psi_p,
+    psi = (psi_q, psi_p); stages.t, .q, .v, .u, .p.
     With first-order states y, psi_y and stages.y; unknowns: a dict of the parameters that the solve chose; integrals, and
     integral_prices: by how much the least cost grows per unit of the bound that acts; prices: of all other bounds (`Prices`).
     None where the solve ended without it. Arrays are views of C++ results; they may outlive the solution.
@@ -226,15 +227,20 @@ class Solution:
         def text(value, form):
             return "none" if value is None else format(value, form)
 
-        lines = [f"{self.problem} by {self.method} ({self.tableau}, {self.stage_count} stages, {self.intervals} intervals): "
-                 f"{self.status}"]
-        lines.append(f"  cost {text(self.cost, '.12g')}, {text(self.iterations, 'd')} iterations of {self.solver}, "
+        def counted(count, noun):
+            return f"{text(count, 'd')} {noun}{'' if count == 1 else 's'}"
+
+        lines = [f"{self.problem} by {self.method} ({self.tableau}, {counted(self.stage_count, 'stage')}, "
+                 f"{counted(self.intervals, 'interval')}): {self.status}"]
+        lines.append(f"  cost {text(self.cost, '.12g')}, {counted(self.iterations, 'iteration')} of {self.solver}, "
                      f"{self.seconds * 1e3:.3g} ms")
         if self.is_solved:
-            lines.append(f"  replay error {text(self.replay_error, '.2g')}, largest violation "
+            lines.append(f"  replay error {self._answer.replay_in_words}; largest violation "
                          f"{text(self.largest_violation, '.2g')}")
         else:
             lines.append(f"  {self.message}")
+        if self._answer.advice:
+            lines.append(f"  {in_words_of_python(self._answer.advice)}")
         return "\n".join(lines)
 
 
