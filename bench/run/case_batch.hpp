@@ -30,9 +30,6 @@ class KnownAnswers {
   /// problem, program and tolerance.
   [[nodiscard]] std::shared_ptr<JudgedAnswer> find(const SolvedCase& solved);
 
-  /// How many different ones there were.
-  [[nodiscard]] std::size_t size() const noexcept { return answers_.size(); }
-
  private:
   std::map<std::vector<double>, std::shared_ptr<JudgedAnswer>> answers_;  // by the rounded one
 };

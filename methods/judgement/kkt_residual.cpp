@@ -225,11 +225,11 @@ Eigen::VectorXd least_squares_multipliers(NonlinearProgram& program, const Eigen
 }
 
 Eigen::VectorXd complete_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal,
-                                     const Eigen::VectorXd& known, double activity) {
+                                     const Eigen::VectorXd& known) {
   require_size(primal.size(), program.variable_count(), "variables");
   require_size(known.size(), program.constraint_count(), "multipliers");
   if (!known.hasNaN()) return known;
-  Eigen::VectorXd multipliers = found_multipliers(program, primal, known, activity);
+  Eigen::VectorXd multipliers = found_multipliers(program, primal, known, 1e-3);
   const Eigen::VectorXd constraints = constraints_at(program, primal);
   for (Eigen::Index i = 0; i < known.size(); ++i) {
     const double lower = program.constraint_lower()[i];

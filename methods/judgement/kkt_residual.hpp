@@ -68,10 +68,10 @@ void kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const
 [[nodiscard]] Eigen::VectorXd least_squares_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal);
 
 /// The same where some multipliers are known. Entries of `known` (constraint_count() of them) that are NaN are chosen
-/// to minimise the remaining gradient. An inequality that comes no nearer to a bound than `activity` · max(1, |bound|)
+/// to minimise the remaining gradient. An inequality that comes no nearer to a bound than 1e-3 · max(1, |bound|)
 /// gets 0, as does one whose multiplier would have the wrong sign; variables that near to a bound do not count.
 [[nodiscard]] Eigen::VectorXd complete_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal,
-                                                   const Eigen::VectorXd& known, double activity = 1e-3);
+                                                   const Eigen::VectorXd& known);
 
 /// The distance from a bound below which a variable or a constraint counts as active; see above.
 inline constexpr double activity_tolerance = 1e-8;

@@ -5,7 +5,6 @@
 #include <exception>
 
 #include "methods/judgement/linearised_conditions.hpp"
-#include "methods/kkt/sparse_kkt.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
@@ -13,8 +12,6 @@ namespace dmocbench {
 namespace {
 
 using kkt::FactorisationStatus;
-using kkt::KktSystem;
-using kkt::SparseKkt;
 
 double largest(const Eigen::VectorXd& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0.0; }
 
@@ -22,6 +19,7 @@ double largest(const Eigen::VectorXd& x) { return x.size() > 0 ? x.lpNorm<Eigen:
 
 NewtonCorrections::NewtonCorrections(NonlinearProgram& program, Factorisation factorisation)
     : program_(program),
+      factorisation_(factorisation),
       system_(factorisation == Factorisation::sparse ? kkt_system_of_any_point(program) : kkt_system_of(program)) {}
 NewtonCorrections::~NewtonCorrections() = default;
 
@@ -46,7 +44,8 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
     }
   };
   FactorisationStatus status = solved_or_failed();
-  if (status != FactorisationStatus::solved && dynamic_cast<SparseKkt*>(system_.get()) == nullptr) {
+  if (status != FactorisationStatus::solved && factorisation_ != Factorisation::sparse) {
+    factorisation_ = Factorisation::sparse;
     system_ = kkt_system_of_any_point(program_);
     status = solved_or_failed();
   }

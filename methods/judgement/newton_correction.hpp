@@ -71,6 +71,7 @@ class NewtonCorrections {
   void measure_step(const Eigen::VectorXd& primal, const Eigen::VectorXd& gradient);
 
   NonlinearProgram& program_;
+  Factorisation factorisation_;
   std::unique_ptr<kkt::KktSystem> system_;
   LinearisedConditions conditions_;
   NewtonCorrection step_;  // the last one
