@@ -77,11 +77,6 @@ class Acrobot : public Problem {
     return bounds;
   }
 
-  /// 4b₂ΔV, a lower bound of the cost.
-  [[nodiscard]] double energy_bound() const {
-    return 4.0 * parameter("friction") * 2.0 * (upper_weight() + lower_weight());
-  }
-
   /// Optima are between 40 and 100.
   [[nodiscard]] double cost_scale() const override { return 1e-2; }
 

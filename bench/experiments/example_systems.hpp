@@ -106,12 +106,11 @@ class MeridianPendulum final : public ExampleSystem {
 };
 
 /// The Kepler problem in Cartesian coordinates, L = ½|q̇|² + 1/|q|: L_vv is constant. From the pericentre of an ellipse
-/// with semi-major axis 1 and eccentricity 0.3, period 2π. The control is a thrust along q.
-class Kepler final : public ExampleSystem {
+/// with semi-major axis 1, period 2π. The control is a thrust along q.
+class Kepler : public ExampleSystem {
  public:
-  static constexpr double eccentricity = 0.3;
   static constexpr double period = 2.0 * std::numbers::pi;
-  Kepler()
+  explicit Kepler(double eccentricity = 0.3)
       : ExampleSystem("kepler", {"x", "y"},
                       {Eigen::Vector2d(1.0 - eccentricity, 0.0),
                        Eigen::Vector2d(0.0, std::sqrt((1.0 + eccentricity) / (1.0 - eccentricity)))},

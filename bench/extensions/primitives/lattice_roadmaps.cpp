@@ -1,6 +1,8 @@
 // Roadmaps of systems without a symmetry: lattices of states between the ends of the problem.
 
+#include <map>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -94,40 +96,13 @@ StoredRoadmap roadmap_along_a_motion(const Problem& problem, const PrimitiveOpti
                          options);
 }
 
-StoredRoadmap two_link_roadmap(const Problem& problem, const PrimitiveOptions& options) {
-  return lattice_roadmap(problem,
-                         {.time_steps = 4,
-                          .intervals_per_step = 16,
-                          .connection = 1,
-                          .controls = spread_controls(2, 30.0, 5),
-                          .cell = cells(2, 0.3, 1.0),
-                          .most_states = 1500,
-                          .most_connections = 200},
-                         options);
-}
-
-StoredRoadmap cart_pole_roadmap(const Problem& problem, const PrimitiveOptions& options) {
-  return lattice_roadmap(problem,
-                         {.time_steps = 10,
-                          .intervals_per_step = 13,
-                          .connection = 2,
-                          .controls = spread_controls(1, 12.0, 7),
-                          .cell = cells(2, 0.1, 0.4),
-                          .most_states = 1500,
-                          .most_connections = 200},
-                         options);
-}
-
-StoredRoadmap acrobot_roadmap(const Problem& problem, const PrimitiveOptions& options) {
-  return lattice_roadmap(problem,
-                         {.time_steps = 24,
-                          .intervals_per_step = 11,
-                          .connection = 4,
-                          .controls = spread_controls(1, 6.0, 5),
-                          .cell = cells(2, 0.2, 0.5),
-                          .most_states = 3000,
-                          .most_connections = 300},
-                         options);
+StoredRoadmap chosen_lattice_roadmap(const Problem& problem, const PrimitiveOptions& options) {
+  const std::map<std::string, LatticeOptions> lattices{
+      // time steps, intervals in each, time steps of a connection, controls, cells, most states, most connections
+      {"two_link_manipulator", {4, 16, 1, spread_controls(2, 30.0, 5), cells(2, 0.3, 1.0), 1500, 200}},
+      {"cart_pole", {10, 13, 2, spread_controls(1, 12.0, 7), cells(2, 0.1, 0.4), 1500, 200}},
+      {"acrobot", {24, 11, 4, spread_controls(1, 6.0, 5), cells(2, 0.2, 0.5), 3000, 300}}};
+  return lattice_roadmap(problem, lattices.at(problem.name()), options);
 }
 
 }  // namespace dmocbench

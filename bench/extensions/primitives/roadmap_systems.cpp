@@ -10,9 +10,9 @@ const std::vector<RoadmapSystem>& roadmap_systems() {
       {"spherical_pendulum", "steady cones", rotating_roadmap},
       {"hovercraft", "rest and gliding", hovercraft_roadmap},
       {"planar_quadrotor", "level flight", quadrotor_roadmap},
-      {"two_link_manipulator", "lattice of states", two_link_roadmap, 64, 2, true},
-      {"cart_pole", "lattice of states", cart_pole_roadmap, 64, 2, true},
-      {"acrobot", "lattice of states", acrobot_roadmap, 256, 2, true},
+      {"two_link_manipulator", "lattice of states", chosen_lattice_roadmap, 64, 2, true},
+      {"cart_pole", "lattice of states", chosen_lattice_roadmap, 64, 2, true},
+      {"acrobot", "lattice of states", chosen_lattice_roadmap, 256, 2, true},
   };
   return systems;
 }

@@ -39,9 +39,7 @@ struct RoadmapSystem {
 [[nodiscard]] StoredRoadmap quadrotor_roadmap(const Problem& problem, const PrimitiveOptions& options);
 
 /// Systems without a symmetry, on lattices of states: the two-link manipulator, the cart with a pole, the acrobot.
-[[nodiscard]] StoredRoadmap two_link_roadmap(const Problem& problem, const PrimitiveOptions& options);
-[[nodiscard]] StoredRoadmap cart_pole_roadmap(const Problem& problem, const PrimitiveOptions& options);
-[[nodiscard]] StoredRoadmap acrobot_roadmap(const Problem& problem, const PrimitiveOptions& options);
+[[nodiscard]] StoredRoadmap chosen_lattice_roadmap(const Problem& problem, const PrimitiveOptions& options);
 
 /// Any problem: a lattice of states, whose cells are a share of the ranges of the motion that DMOC finds from the
 /// problem's guess, and whose controls go a little beyond that motion's. Throws `Error` if DMOC finds

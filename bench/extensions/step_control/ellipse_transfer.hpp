@@ -11,41 +11,31 @@ namespace dmocbench {
 /// The transfer from the pericentre of an ellipse with semi-major axis 1 to the pericentre of one with semi-major
 /// axis 1.2 and the same eccentricity and direction, after one revolution, with the least C = ½|u|²: L = ½|q̇|² + 1/|q|,
 /// f = u in the plane.
-class EllipseTransfer final : public Problem {
+class EllipseTransfer final : public KeplerEllipse {
  public:
-  explicit EllipseTransfer(double eccentricity) : ellipse_(eccentricity) {}
+  explicit EllipseTransfer(double eccentricity) : KeplerEllipse(eccentricity) {}
 
   [[nodiscard]] std::string name() const override { return "ellipse_transfer"; }
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_x", "u_y"}; }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return ellipse_.lagrangian(x); }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
-  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
-    return ellipse_.symmetry(q);
-  }
-
-  [[nodiscard]] BoundaryState initial_state() const override { return ellipse_.initial_state(); }
   [[nodiscard]] BoundaryState final_state() const override {
-    const BoundaryState start = ellipse_.initial_state();
+    const BoundaryState start = initial_state();
     return {.q = last_axis * start.q, .v = start.v / std::sqrt(last_axis)};
   }
   /// The period of the ellipse between both.
-  [[nodiscard]] double horizon() const override {
-    return KeplerEllipse::period * std::pow(0.5 * (1.0 + last_axis), 1.5);
-  }
+  [[nodiscard]] double horizon() const override { return period * std::pow(0.5 * (1.0 + last_axis), 1.5); }
   /// The free motion along an ellipse that grows at a constant rate.
   [[nodiscard]] MotionPoint guess(double t) const override {
-    const double rate = KeplerEllipse::period / horizon();
+    const double rate = period / horizon();
     const double growth = (last_axis - 1.0) / horizon();
     const double axis = 1.0 + growth * t;
-    const MotionPoint free = ellipse_.free_motion(rate * t);
+    const MotionPoint free = free_motion(rate * t);
     return {.q = axis * free.q, .v = growth * free.q + axis * rate * free.v, .u = Eigen::Vector2d::Zero()};
   }
 
  private:
   static constexpr double last_axis = 1.2;
-  KeplerEllipse ellipse_;
 };
 
 }  // namespace dmocbench

@@ -1,31 +1,16 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
 
 #include "bench/experiments/example_systems.hpp"
 
 namespace dmocbench {
 
-/// The Kepler problem in Cartesian coordinates, L = ½|q̇|² + 1/|q|, from the pericentre of an ellipse with semi-major
-/// axis 1 and some eccentricity e; its period is 2π. The control is a thrust across q, f = u (-y, x)/|q|, which does
-/// work along the rotations ξ = (-y, x).
-class KeplerEllipse final : public ExampleSystem {
+/// `Kepler` with a thrust across q, f = u (-y, x)/|q|, which does work along the rotations ξ = (-y, x).
+class KeplerEllipse : public Kepler {
  public:
-  static constexpr double period = 2.0 * std::numbers::pi;
+  explicit KeplerEllipse(double eccentricity) : Kepler(eccentricity), eccentricity_(eccentricity) {}
 
-  explicit KeplerEllipse(double eccentricity)
-      : ExampleSystem("kepler", {"x", "y"},
-                      {Eigen::Vector2d(1.0 - eccentricity, 0.0),
-                       Eigen::Vector2d(0.0, std::sqrt((1.0 + eccentricity) / (1.0 - eccentricity)))},
-                      period),
-        eccentricity_(eccentricity) {}
-
-  [[nodiscard]] Expression lagrangian(const State& x) const override {
-    return 0.5 * x.v.dot(x.v) + 1.0 / sqrt(x.q.dot(x.q));
-  }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     const Expression thrust_by_radius = x.u[0] / sqrt(x.q.dot(x.q));
     return ExpressionVector{{-thrust_by_radius * x.q[1], thrust_by_radius * x.q[0]}};

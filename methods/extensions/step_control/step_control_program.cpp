@@ -266,8 +266,4 @@ Trajectory StepControlProgram::read(const Eigen::VectorXd& x) {
   return motion;
 }
 
-Eigen::VectorXd StepControlProgram::multipliers_of_steps(const Eigen::VectorXd& x) const {
-  return x.segment(head(columns_.multiplier, 0, 0), intervals_);
-}
-
 }  // namespace dmocbench

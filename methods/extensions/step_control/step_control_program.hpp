@@ -52,8 +52,6 @@ class StepControlProgram final : public NonlinearProgram {
   [[nodiscard]] Trajectory read(const Eigen::VectorXd& x);
   /// Δτ of a point.
   [[nodiscard]] double pace(const Eigen::VectorXd& x) const { return x[static_cast<Eigen::Index>(columns_.pace)]; }
-  /// λ_k of a point: the discrete energy of interval k less the energy that the work accounts for.
-  [[nodiscard]] Eigen::VectorXd multipliers_of_steps(const Eigen::VectorXd& x) const;
 
  private:
   /// Heads of series, as in `Layout`.
