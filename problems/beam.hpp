@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "methods/mechanics/problem.hpp"
-#include "problems/closed_form.hpp"
 
 namespace dmocbench {
 
@@ -16,7 +15,7 @@ namespace dmocbench {
 ///   l <= 1/6: x lies on it for 3l <= t <= 1 - 3l, u = -2/(3l)(1 - t/(3l)) before and 0 there, J = 8/(9l).
 /// ψ^p = -2u; ψ^q = -ψ̇^p jumps where x reaches the bound and where it leaves it. (With the factor ½ that some authors
 /// write before u², costs and costates are half of these.)
-class Beam : public Problem, public ClosedForm {
+class Beam : public Problem {
  public:
   Beam() : Problem({{"bound", 0.1, "", "bound l of x", 1e-3, 1.0}}) {}
 
@@ -89,17 +88,18 @@ class Beam : public Problem, public ClosedForm {
   [[nodiscard]] OptimalPoint left_half(double t) const {
     const double l = parameter("bound");
     if (l <= 1.0 / 6.0) {
-      if (t >= 3.0 * l) return scalar_point(l, 0.0, 0.0, 0.0, 0.0);
+      if (t >= 3.0 * l) return OptimalPoint::of_numbers(l, 0.0, 0.0, 0.0, 0.0);
       const double left = 1.0 - t / (3.0 * l);
       const double bending = -2.0 / (3.0 * l) * left;
-      return scalar_point(l * (1.0 - left * left * left), left * left, bending, 4.0 / (9.0 * l * l), -2.0 * bending);
+      return OptimalPoint::of_numbers(l * (1.0 - left * left * left), left * left, bending, 4.0 / (9.0 * l * l),
+                                      -2.0 * bending);
     }
     const double bound = std::min(l, 0.25);
     const double a = 4.0 * (1.0 - 3.0 * bound);
     const double b = 4.0 * (1.0 - 4.0 * bound);
     const double bending = -2.0 * a + 6.0 * b * t;
-    return scalar_point(t - a * t * t + b * t * t * t, 1.0 - 2.0 * a * t + 3.0 * b * t * t, bending, 12.0 * b,
-                        -2.0 * bending);
+    return OptimalPoint::of_numbers(t - a * t * t + b * t * t * t, 1.0 - 2.0 * a * t + 3.0 * b * t * t, bending,
+                                    12.0 * b, -2.0 * bending);
   }
 };
 

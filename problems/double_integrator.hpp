@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "methods/mechanics/problem.hpp"
-#include "problems/closed_form.hpp"
 #include "problems/common_parameters.hpp"
 
 namespace dmocbench {
@@ -15,7 +14,7 @@ namespace dmocbench {
 ///
 /// A force of at most U < 6d/T² is a bound that is active: u = U until ½ - σ, -U from ½ + σ on and between them a line,
 /// with σ² = ¾ - 3d/(T²U), and J = TU²(½ - ⅔σ). Below 4d/T² no motion is left.
-class DoubleIntegrator : public Problem, public ClosedForm {
+class DoubleIntegrator : public Problem {
  public:
   DoubleIntegrator()
       : Problem({
@@ -77,8 +76,8 @@ class DoubleIntegrator : public Problem, public ClosedForm {
                              (sigma * sigma * along - (sigma * sigma * sigma - magnitude * magnitude * magnitude) / 3.0)
                    : 0.5 * peak * rest * rest;
     const double travelled = duration * duration * gone;
-    return scalar_point(s >= 0.0 ? travelled : parameter("distance") - travelled, duration * v,
-                        is_on_ramp ? slope * s : std::copysign(peak, s), -slope / duration, -slope * s);
+    return OptimalPoint::of_numbers(s >= 0.0 ? travelled : parameter("distance") - travelled, duration * v,
+                                    is_on_ramp ? slope * s : std::copysign(peak, s), -slope / duration, -slope * s);
   }
 
   /// Translations; without a potential the momentum changes by the work of the control alone.

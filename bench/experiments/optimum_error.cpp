@@ -7,7 +7,6 @@
 #include "methods/indirect/control_from_costate.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
-#include "problems/closed_form.hpp"
 
 namespace dmocbench {
 
@@ -17,8 +16,7 @@ double largest_row(const Eigen::MatrixXd& difference) { return difference.rowwis
 
 /// Throws `Error` if the problem has no closed form.
 OptimalPoint closed_form_point(const Problem& problem, double t) {
-  const auto* closed = dynamic_cast<const ClosedForm*>(&problem);
-  std::optional<OptimalPoint> point = closed != nullptr ? closed->optimum(t) : std::nullopt;
+  std::optional<OptimalPoint> point = problem.optimum(t);
   if (!point) throw Error(problem.name() + " has no optimum in closed form");
   return *std::move(point);
 }

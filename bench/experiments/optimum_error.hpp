@@ -22,8 +22,8 @@ struct OptimumError {
 /// The optimum that errors are measured against: a closed form, or a solution on a much finer grid.
 class KnownOptimum {
  public:
-  /// The closed form of a problem that has one (`ClosedForm`); otherwise the finer motion is needed. Throws `Error` if
-  /// there is neither.
+  /// The closed form of a problem that has one (`Problem::optimum`); otherwise the finer motion is needed. Throws
+  /// `Error` if there is neither.
   KnownOptimum(const Problem& problem, std::optional<Trajectory> finer);
 
   [[nodiscard]] bool is_exact() const noexcept { return finer_ == nullptr; }

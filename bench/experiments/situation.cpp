@@ -8,7 +8,6 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/mechanics/point_function.hpp"
-#include "problems/closed_form.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {
@@ -108,13 +107,12 @@ Situation situation_of(const std::shared_ptr<const Problem>& problem) {
     throw Error("smoothness compares motions at equal times, and " + problem->name() +
                 " has a free horizon: take `convergence` for it");
   }
-  const auto* closed = dynamic_cast<const ClosedForm*>(problem.get());
   return {.name = problem->name(),
           .active = {},
           .end = bounds.last.all_fixed() ? "fixed" : "free",
           .base = problem,
           .problem = problem,
-          .has_closed_form = closed != nullptr && closed->optimum(0.0) && problem->card().reference};
+          .has_closed_form = problem->optimum(0.0) && problem->card().reference};
 }
 
 std::string active_bounds(const Problem& problem, const Trajectory& motion) {

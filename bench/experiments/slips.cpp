@@ -13,7 +13,6 @@
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
-#include "problems/closed_form.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::slips_program {
@@ -118,13 +117,12 @@ Misprint transversality(StartProvider& starts) {
 /// with λ_p = u* and λ̇_q = 0.
 Misprint saddle_point() {
   const auto problem = make_problem("double_integrator");
-  const auto& closed = dynamic_cast<const ClosedForm&>(*problem);
   constexpr int points = 2000;
   constexpr double pi = std::numbers::pi;
   double difference = 0.0;
   for (int i = 0; i < points; ++i) {
     const double t = (i + 0.5) / points;
-    const std::optional<OptimalPoint> at = closed.optimum(t);
+    const std::optional<OptimalPoint> at = problem->optimum(t);
     if (!at) throw Error("the double integrator has no closed form with these parameters");
     const double u = at->motion.u[0];
     const double lambda_q = -at->psi_q[0];  // λ = -ψ

@@ -191,8 +191,6 @@ BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::V
   return result;
 }
 
-ExpressionVector EmbeddedProblem::lifted(const ExpressionVector& theta) const { return formulas_of(embedding_, theta); }
-
 BoundaryState EmbeddedProblem::lifted(const BoundaryState& state) const {
   const Chart at = chart_at(state.q);
   return {.q = at.q, .v = at.jacobian * state.v, .y = state.y};

@@ -26,9 +26,7 @@ class EmbeddedProblem final : public Problem {
   explicit EmbeddedProblem(std::shared_ptr<const Problem> redundant);
 
   /// The statement with constraints.
-  [[nodiscard]] const Problem& redundant() const noexcept { return *redundant_; }
-  /// Φ(θ), n entries.
-  [[nodiscard]] ExpressionVector lifted(const ExpressionVector& theta) const;
+  [[nodiscard]] const Problem* redundant() const override { return redundant_.get(); }
   /// (Φ(θ), Φ'(θ) θ̇).
   [[nodiscard]] BoundaryState lifted(const BoundaryState& state) const;
 

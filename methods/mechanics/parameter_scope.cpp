@@ -32,13 +32,15 @@ Eigen::VectorXd checked(const Problem& problem, Eigen::VectorXd values) {
 }  // namespace
 
 ParameterScope::ParameterScope(const Problem& problem, Eigen::VectorXd values)
-    : problem_(problem), values_(checked(problem, std::move(values))), outer_(std::exchange(innermost(), this)) {}
+    : parameters_(problem.parameters()),
+      values_(checked(problem, std::move(values))),
+      outer_(std::exchange(innermost(), this)) {}
 
 ParameterScope::~ParameterScope() { innermost() = outer_; }
 
 ParameterScope* ParameterScope::of(const Problem& problem) noexcept {
   ParameterScope* scope = innermost();
-  while (scope != nullptr && &scope->problem_ != &problem) scope = scope->outer_;
+  while (scope != nullptr && &scope->parameters_ != &problem.parameters()) scope = scope->outer_;
   return scope;
 }
 

@@ -11,11 +11,12 @@
 namespace dmocbench {
 
 class Problem;
+struct Parameter;
 
 /// As long as it exists, `parameter` and `varying` of a problem have other values for this thread: everything read from
 /// the problem (ends, bounds, guess, diagnostics) uses these values, while the problem itself is unchanged and
-/// other threads may read it. The innermost scope of a problem counts. Values are one per parameter, in the order of
-/// `Problem::parameters`.
+/// other threads may read it. The innermost scope of a problem counts, also a `ForwardingProblem` of it. Values are one
+/// per parameter, in the order of `Problem::parameters`.
 class ParameterScope {
  public:
   /// Throws `Error` if there is not one value per parameter, or a value is not allowed (`Parameter::check`).
@@ -41,7 +42,7 @@ class ParameterScope {
  private:
   friend class Problem;
 
-  const Problem& problem_;
+  const std::vector<Parameter>& parameters_;
   Eigen::VectorXd values_;
   ParameterScope* outer_;
 };

@@ -136,6 +136,8 @@ ExpressionVector Problem::constraints(const ExpressionVector& /*q*/) const { ret
 
 ExpressionVector Problem::embedding(const ExpressionVector& /*theta*/) const { return {}; }
 
+const Problem* Problem::redundant() const { return nullptr; }
+
 ExpressionVector Problem::integrands(const ControlledState& /*x*/) const { return {}; }
 
 ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }
@@ -154,10 +156,12 @@ MotionPoint Problem::guess(double t) const {
           .y = first.y + relative * (last.y - first.y)};
 }
 
+std::optional<OptimalPoint> Problem::optimum(double /*t*/) const { return std::nullopt; }
+
 double Problem::parameter(std::string_view name) const {
   const std::size_t number = parameter_number(*this, name);
   ParameterScope* const scope = ParameterScope::of(*this);
-  if (scope == nullptr) return parameters_[number].value;
+  if (scope == nullptr) return parameters()[number].value;
   scope->read_as_number(number);
   return scope->value(number);
 }
@@ -165,21 +169,24 @@ double Problem::parameter(std::string_view name) const {
 Expression Problem::varying(std::string_view name) const {
   const std::size_t number = parameter_number(*this, name);
   ParameterScope* const scope = ParameterScope::of(*this);
-  if (scope == nullptr) return {parameters_[number].value};
+  if (scope == nullptr) return {parameters()[number].value};
   const auto input = scope->read_varying(number);
   return input ? Expression::input(*input) : Expression(scope->value(number));
 }
 
 std::vector<std::size_t> Problem::unknowns() const {
   std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    if (parameters_[i].is_unknown) numbers.push_back(i);
+  for (std::size_t i = 0; i < parameters().size(); ++i) {
+    if (parameters()[i].is_unknown) numbers.push_back(i);
   }
   return numbers;
 }
 
 void Problem::set_parameter(std::string_view name, double value) {
-  Parameter& parameter = parameters_[parameter_number(*this, name)];
+  const std::size_t number = parameter_number(*this, name);
+  if (&parameters() != &parameters_)
+    throw Error(this->name() + " has the parameters of another problem; set them there");
+  Parameter& parameter = parameters_[number];
   parameter.check(value);
   parameter.value = value;
 }

@@ -107,6 +107,9 @@ class Problem {
   /// q = Φ(θ), n entries, of n - c coordinates θ with g(Φ(θ)) = 0: `EmbeddedProblem` takes it in the place of
   /// multipliers. Default: none.
   [[nodiscard]] virtual ExpressionVector embedding(const ExpressionVector& theta) const;
+  /// The problem with constraints whose `embedding` has the coordinates of this one, an `EmbeddedProblem`: stages are
+  /// in its coordinates. Default: null.
+  [[nodiscard]] virtual const Problem* redundant() const;
   /// c(q, q̇, u, t) of the integral constraints lower <= ∫₀ᵀ c dt <= upper, whose bounds are
   /// `ProblemBounds::integrals`: as many entries as there are. Every method integrates them as it does the cost.
   [[nodiscard]] virtual ExpressionVector integrands(const ControlledState& x) const;
@@ -132,12 +135,16 @@ class Problem {
   /// words.
   [[nodiscard]] virtual MotionPoint guess(double t) const;
 
+  /// The optimal motion at time 0 <= t <= T in closed form, at a jump of the costate its value after the jump. Default:
+  /// empty, as where the parameters permit no motion.
+  [[nodiscard]] virtual std::optional<OptimalPoint> optimum(double t) const;
+
   [[nodiscard]] Eigen::Index configuration_size() const;  ///< n.
   [[nodiscard]] Eigen::Index control_size() const;        ///< m.
   [[nodiscard]] Eigen::Index first_order_size() const;    ///< l.
 
-  /// All parameters with their values, in the order of the constructor.
-  [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
+  /// All parameters with their values, in the order of the constructor; of a `ForwardingProblem` the original's.
+  [[nodiscard]] virtual const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
   /// The value of a parameter, as this thread sees it (`ParameterScope`). Throws `Error` if the name is unknown.
   [[nodiscard]] double parameter(std::string_view name) const;
   /// A parameter for formulas whose value may change without a new trace. In a transcription that keeps the parameter
@@ -146,7 +153,7 @@ class Problem {
   [[nodiscard]] Expression varying(std::string_view name) const;
   /// The indices of the unknown parameters (`Parameter::is_unknown`) among all parameters.
   [[nodiscard]] std::vector<std::size_t> unknowns() const;
-  /// Sets a parameter. Throws `Error` if the name is unknown or the value is not allowed.
+  /// Sets a parameter. Throws `Error` if the name is unknown, the value is not allowed or it is another problem's.
   void set_parameter(std::string_view name, double value);
   /// True if every parameter, except the ones named in `except`, has its default value. A certified optimum holds only
   /// for the data with which it was computed.

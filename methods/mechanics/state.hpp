@@ -51,4 +51,17 @@ struct MotionPoint {
   Eigen::VectorXd y = {};  ///< first-order states, l entries
 };
 
+/// A point of an optimal motion with its costate ψ = ∂V/∂(q, p), the gradient of the optimal cost-to-go.
+struct OptimalPoint {
+  MotionPoint motion;     ///< q*, q̇*, u*
+  Eigen::VectorXd psi_q;  ///< n entries
+  Eigen::VectorXd psi_p;  ///< n entries
+
+  /// A point of a problem with one coordinate and one control.
+  [[nodiscard]] static OptimalPoint of_numbers(double q, double v, double u, double psi_q, double psi_p) {
+    const auto one = [](double entry) { return Eigen::VectorXd(Eigen::VectorXd::Constant(1, entry)); };
+    return {.motion = {.q = one(q), .v = one(v), .u = one(u)}, .psi_q = one(psi_q), .psi_p = one(psi_p)};
+  }
+};
+
 }  // namespace dmocbench

@@ -12,7 +12,6 @@
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/asked.hpp"
 #include "methods/mechanics/column_names.hpp"
-#include "methods/mechanics/embedded_problem.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 
 namespace dmocbench {
@@ -94,9 +93,9 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
   trace_holonomic(problem);
   trace_formulas(problem);
   trace_ends(problem);
-  if (const auto* embedded = dynamic_cast<const EmbeddedProblem*>(&problem); embedded != nullptr) {
-    embedding_ = Schedule(embedded->lifted(input_vector(0, n_)));
-    of_stages_ = std::make_shared<const TracedProblem>(embedded->redundant());
+  if (const Problem* const redundant = problem.redundant(); redundant != nullptr) {
+    embedding_ = Schedule(redundant->embedding(input_vector(0, n_)));
+    of_stages_ = std::make_shared<const TracedProblem>(*redundant);
   }
   parameters.require_unknowns_read();
   require_as_many_names(card.path_constraint_names, path_constraints_, problem, "path_constraint_names");

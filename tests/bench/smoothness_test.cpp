@@ -3,12 +3,13 @@
 #include "bench/experiments/optimum_error.hpp"
 #include "bench/experiments/situation.hpp"
 #include "bench/run/restated_problem.hpp"
-#include "problems/closed_form.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 #include "problems/double_integrator.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 #include "tests/support/value_of.hpp"
+#include "tests/support/wider_problems.hpp"
 
 namespace dmocbench {
 namespace {
@@ -21,17 +22,16 @@ std::unique_ptr<Problem> bounded_integrator() {
 
 /// A solve whose numbers are replaced by those of the closed form.
 Trajectory exact_on_eight_intervals(const Problem& problem) {
-  const auto& closed = dynamic_cast<const ClosedForm&>(problem);
   Trajectory motion = tests::solve(problem, {"dmoc", 2}, Grid::uniform(8), guessed_motion(problem)).trajectory;
   for (Eigen::Index k = 0; k < motion.q.rows(); ++k) {
-    const OptimalPoint point = tests::value_of(closed.optimum(motion.node_times[k]));
+    const OptimalPoint point = tests::value_of(problem.optimum(motion.node_times[k]));
     motion.q.row(k) = point.motion.q;
     motion.v.row(k) = motion.p.row(k) = point.motion.v;  // unit mass
     motion.psi_q.row(k) = point.psi_q;
     motion.psi_p.row(k) = point.psi_p;
   }
   for (Eigen::Index i = 0; i < motion.stage_u.rows(); ++i) {
-    motion.stage_u.row(i) = tests::value_of(closed.optimum(motion.stage_times[i])).motion.u;
+    motion.stage_u.row(i) = tests::value_of(problem.optimum(motion.stage_times[i])).motion.u;
   }
   motion.cost = tests::value_of(problem.card().reference).objective;
   return motion;
@@ -85,6 +85,19 @@ TEST(RestatedProblem, LeavesTheFinalStateFreeAtThePriceOfItsDistance) {
   const Trajectory motion = tests::solve(problem, {"dmoc", 2}, Grid::uniform(4), guessed_motion(problem)).trajectory;
   EXPECT_NEAR(motion.q(4, 0), 0.25, 1e-9);
   EXPECT_NEAR(motion.v(4, 0), 0.25, 1e-9);
+}
+
+TEST(RestatedProblem, KeepsTheUnknownsOfTheProblem) {
+  const auto base = std::make_shared<const tests::UnknownMass>();
+  const BoundaryState wanted{.q = Eigen::VectorXd::Constant(1, 1.5), .v = Eigen::VectorXd::Ones(1)};
+  const RestatedProblem problem(base, {.final = wanted});
+  // q = t + d (3t² - 2t³) with d = q(1) - 1 and J = 6 m² d² + (m - 3)², hence m = 3/(1 + 6 d²).
+  const Trajectory motion = tests::solve(problem, {"dmoc", 2}, Grid::uniform(8), guessed_motion(problem)).trajectory;
+  ASSERT_EQ(motion.unknowns.size(), 1);
+  EXPECT_NEAR(motion.unknowns[0], 1.2, 1e-8);
+  EXPECT_NEAR(motion.p(0, 0), 1.2, 1e-8);
+  const ParameterScope found = with_unknowns(problem, motion.unknowns);
+  EXPECT_EQ(base->parameter("mass"), motion.unknowns[0]) << "formulas of the base read it";
 }
 
 /// Which bounds are active at the optimum that DMOC finds on 40 intervals.

@@ -44,16 +44,12 @@ class WithCost final : public SmallProblem {
 };
 
 /// Another problem with twice its running cost.
-class WithDoubleCost final : public tests::WithEnds {
+class WithDoubleCost final : public ForwardingProblem {
  public:
-  explicit WithDoubleCost(const Problem& base)
-      : WithEnds(base, base.initial_state(), base.final_state()), base_of_cost_(base) {}
+  explicit WithDoubleCost(const Problem& base) : ForwardingProblem(base) {}
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
-    return 2.0 * base_of_cost_.running_cost(x);
+    return 2.0 * original().running_cost(x);
   }
-
- private:
-  const Problem& base_of_cost_;
 };
 
 Trajectory direct_solution(const Problem& problem) {

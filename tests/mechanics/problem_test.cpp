@@ -221,5 +221,13 @@ TEST(Parameter, RefusesInfinityEvenWithoutARange) {
   EXPECT_THROW(free.check(std::numeric_limits<double>::infinity()), Error);
 }
 
+TEST(ForwardingProblem, ReadsTheParametersOfItsOriginalAndDoesNotSetThem) {
+  Tunable original;
+  tests::WithEnds forwarding(original, original.initial_state(), original.final_state());
+  original.set_parameter("mass", 2.0);
+  EXPECT_EQ(forwarding.parameter("mass"), 2.0);
+  tests::expect_error_naming({"tunable", "another problem"}, [&] { forwarding.set_parameter("mass", 1.0); });
+}
+
 }  // namespace
 }  // namespace dmocbench

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/conserved_quantities.hpp"
+#include "methods/mechanics/forwarding_problem.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench {
@@ -81,19 +82,9 @@ TEST(SatelliteDirectors, HaveTheOptimumOfEulersAnglesAwayFromTheirSingularity) {
 }
 
 /// The same slew with the momentum about another axis of space.
-class AboutAxis final : public Problem {
+class AboutAxis final : public ForwardingProblem {
  public:
-  AboutAxis(const SatelliteDirectors& base, Eigen::Index axis) : base_(base), axis_(axis) {}
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return base_.configuration_names(); }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return base_.control_names(); }
-  [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override { return base_.constraints(q); }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return base_.lagrangian(x); }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return base_.force(x); }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return base_.running_cost(x); }
-  [[nodiscard]] BoundaryState initial_state() const override { return base_.initial_state(); }
-  [[nodiscard]] BoundaryState final_state() const override { return base_.final_state(); }
-  [[nodiscard]] double horizon() const override { return base_.horizon(); }
-  [[nodiscard]] MotionPoint guess(double t) const override { return base_.guess(t); }
+  AboutAxis(const SatelliteDirectors& base, Eigen::Index axis) : ForwardingProblem(base), axis_(axis) {}
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
     ExpressionVector generator(9);
     for (Eigen::Index i = 0; i < 9; i += 3) {
@@ -104,7 +95,6 @@ class AboutAxis final : public Problem {
   }
 
  private:
-  const SatelliteDirectors& base_;
   Eigen::Index axis_;
 };
 

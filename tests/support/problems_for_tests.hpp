@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "methods/mechanics/problem.hpp"
+#include "methods/mechanics/forwarding_problem.hpp"
 
 namespace dmocbench::tests {
 
@@ -160,27 +160,17 @@ class BlowUp final : public SmallProblem {
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
-/// Another problem with its ends replaced.
-class WithEnds : public Problem {
+/// Another problem with its ends replaced, and nothing else bounded.
+class WithEnds : public ForwardingProblem {
  public:
   WithEnds(const Problem& base, BoundaryState first, BoundaryState last)
-      : base_(base), first_(std::move(first)), last_(std::move(last)) {}
-  [[nodiscard]] std::string name() const override { return base_.name(); }
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return base_.configuration_names(); }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return base_.control_names(); }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return base_.lagrangian(x); }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return base_.force(x); }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return base_.running_cost(x); }
+      : ForwardingProblem(base), first_(std::move(first)), last_(std::move(last)) {}
   [[nodiscard]] BoundaryState initial_state() const override { return first_; }
   [[nodiscard]] BoundaryState final_state() const override { return last_; }
-  [[nodiscard]] double horizon() const override { return base_.horizon(); }
-  [[nodiscard]] double cost_scale() const override { return base_.cost_scale(); }
-  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
-    return base_.symmetry(q);
-  }
+  [[nodiscard]] ProblemBounds bounds() const override { return Problem::bounds(); }
+  [[nodiscard]] MotionPoint guess(double t) const override { return Problem::guess(t); }
 
  private:
-  const Problem& base_;
   BoundaryState first_;
   BoundaryState last_;
 };

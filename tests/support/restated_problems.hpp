@@ -3,12 +3,13 @@
 #include <functional>
 #include <limits>
 
+#include "methods/mechanics/forwarding_problem.hpp"
 #include "tests/support/problems_for_tests.hpp"
 
 namespace dmocbench::tests {
 
 /// Another problem with some of what it prescribes said in another way; `state` changes what is to be changed.
-class Restated final : public Problem {
+class Restated final : public ForwardingProblem {
  public:
   struct Statement : ProblemBounds {
     std::function<ExpressionVector(const ControlledState&)> path_constraints;
@@ -18,28 +19,18 @@ class Restated final : public Problem {
     std::function<ExpressionVector(const ControlledState&)> integrands;
   };
 
-  explicit Restated(const Problem& base, const std::function<void(Statement&)>& state) : base_(base) {
+  explicit Restated(const Problem& base, const std::function<void(Statement&)>& state) : ForwardingProblem(base) {
     const ProblemBounds bounds = base.bounds();
     statement_.first = bounds.first;
     statement_.last = bounds.last;
     statement_.horizon = bounds.horizon;
     state(statement_);
   }
-  [[nodiscard]] std::string name() const override { return base_.name(); }
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return base_.configuration_names(); }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return base_.control_names(); }
-  [[nodiscard]] std::vector<std::string> first_order_names() const override { return base_.first_order_names(); }
-  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
-    return base_.first_order_rates(x);
-  }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return base_.lagrangian(x); }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return base_.force(x); }
+  /// Without the names of other constraints.
+  [[nodiscard]] ProblemCard card() const override { return Problem::card(); }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
-    return statement_.running_cost ? statement_.running_cost(x) : base_.running_cost(x);
+    return statement_.running_cost ? statement_.running_cost(x) : original().running_cost(x);
   }
-  [[nodiscard]] BoundaryState initial_state() const override { return base_.initial_state(); }
-  [[nodiscard]] BoundaryState final_state() const override { return base_.final_state(); }
-  [[nodiscard]] double horizon() const override { return base_.horizon(); }
   [[nodiscard]] ProblemBounds bounds() const override { return static_cast<const ProblemBounds&>(statement_); }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return statement_.path_constraints ? statement_.path_constraints(x) : ExpressionVector();
@@ -53,10 +44,9 @@ class Restated final : public Problem {
   [[nodiscard]] Expression final_cost(const State& last) const override {
     return statement_.final_cost ? statement_.final_cost(last) : Expression(0.0);
   }
-  [[nodiscard]] double cost_scale() const override { return base_.cost_scale(); }
+  [[nodiscard]] MotionPoint guess(double t) const override { return Problem::guess(t); }
 
  private:
-  const Problem& base_;
   Statement statement_;
 };
 
