@@ -108,7 +108,7 @@ TEST(StepControlProgram, HasMotionsThatTheMapWithTheSameControlsAndPaceSimulates
       const auto step = map.advance(at, motion.stage_u.middleRows(k * stages, stages), program.pace(primal));
       EXPECT_NEAR(step.end.t, motion.node_times[k + 1], 1e-8);
       EXPECT_LT((step.end.q - motion.q.row(k + 1).transpose()).norm(), 1e-8);
-      EXPECT_NEAR(step.multiplier, primal[primal.size() - 9 + k], 1e-7) << "the last unknowns are λ and the pace");
+      EXPECT_NEAR(step.multiplier, primal[primal.size() - 9 + k], 1e-7) << "the last unknowns are λ and the pace";
       at = step.end;
     }
   }
