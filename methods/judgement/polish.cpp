@@ -99,13 +99,11 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
 
 namespace {
 
-constexpr int most_settling_steps = 10;
-
 /// Newton steps as long as each leaves less than half of the residual; how many there were.
-int steps_to_rounding(NonlinearProgram& program, Solution& solution) {
+int steps_to_rounding(NonlinearProgram& program, Solution& solution, int most_steps) {
   constexpr double less = 0.5;
   NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
-  for (int steps = 0; steps < most_settling_steps; ++steps) {
+  for (int steps = 0; steps < most_steps; ++steps) {
     if (must_stop()) return steps;
     const auto correction = correction_in_time(corrections, solution);
     if (!correction) return steps;
@@ -113,16 +111,16 @@ int steps_to_rounding(NonlinearProgram& program, Solution& solution) {
     if (!(residual_of(next) < less * residual_of(solution))) return steps;
     solution = std::move(next);
   }
-  return most_settling_steps;
+  return most_steps;
 }
 
 /// Newton steps until the answer is confirmed; none, and the answer as it was, where they do not get there.
-int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution& solution) {
+int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
   NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
   Confirmation confirmation(program);
   const bool was_unsettled = is_unsettled(solution);
   Solution next = solution;
-  for (int steps = 1; steps <= most_settling_steps; ++steps) {
+  for (int steps = 1; steps <= most_steps; ++steps) {
     const auto correction = correction_in_time(corrections, next);
     if (must_stop()) {
       if (solution.status == Status::not_confirmed) tell_of_stop(solution);
@@ -147,13 +145,13 @@ int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution&
 
 }  // namespace
 
-int settle(NonlinearProgram& program, double tolerance, Solution& solution) {
+int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
   if (!has_own_multipliers(program, solution)) return 0;
   int steps = 0;
   if (is_unsettled(solution) || is_near(program, tolerance, solution)) {
-    steps = steps_to_confirmation(program, tolerance, solution);
+    steps = steps_to_confirmation(program, tolerance, solution, most_steps);
   }
-  if (is_solved_to_rounding(tolerance, solution)) steps += steps_to_rounding(program, solution);
+  if (is_solved_to_rounding(tolerance, solution)) steps += steps_to_rounding(program, solution, most_steps);
   return steps;
 }
 
