@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/experiments/minor_trace.hpp"
@@ -140,6 +139,8 @@ class Solve final : public ExperimentOf<Measured> {
       write_motion(file, solved, output.metadata);
       if (solved.estimated_error) output.metadata["motions"].back()["estimated_error"] = *solved.estimated_error;
     }
+    if (accuracy_.is_wanted())
+      output.findings.show("grids", accuracy_.grids(), {}, "", accuracy_.grids().rows().size());
     output.findings.show("answers", summary,
                          answer_columns(std::ranges::any_of(answers_, has_free_horizon), accuracy_.is_wanted()),
                          output.prefix.string() + ".csv");

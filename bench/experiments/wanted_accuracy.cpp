@@ -13,23 +13,6 @@
 
 namespace dmocbench {
 
-namespace {
-
-/// Prints a line for each grid as soon as it is solved.
-auto grid_printer(const Unit& time) {
-  return [time, number = 0](const GridAttempt& grid) mutable {
-    if (number == 0) {
-      fmt::print("solve: grid intervals stages estimated_error largest_step smallest_step{} iterations seconds\n",
-                 time.name.empty() ? "" : " [" + time.name + "]");
-    }
-    fmt::print("solve: {:4} {:9} {:6} {:>15} {:12.4g} {:13.4g} {:10} {:.4f}\n", ++number, grid.intervals, grid.stages,
-               is_solved(grid.status) ? fmt::format("{:.2e}", grid.relative) : std::string(name_of(grid.status)),
-               time.factor * grid.largest_step, time.factor * grid.smallest_step, grid.iterations, grid.seconds);
-  };
-}
-
-}  // namespace
-
 SolvedCase solve_accurately(Case the_case, const Start& start, const AdaptiveOptions& options,
                             const std::function<void(const GridAttempt&)>& on_grid) {
   const auto begin = Clock::now();
@@ -88,6 +71,24 @@ void WantedAccuracy::check(const std::vector<Case>& cases) {
   }
 }
 
+void WantedAccuracy::note(const GridAttempt& grid, const Case& the_case) {
+  const Unit time = the_case.problem->card().time_unit;
+  const auto in_unit = [&](double step) {
+    return fmt::format("{:.4g}{}{}", time.factor * step, time.name.empty() ? "" : " ", time.name);
+  };
+  Row row;
+  row.set("grid", grids_.rows().size() + 1);
+  row.set("N", grid.intervals);
+  row.set("stages", grid.stages);
+  row.set("estimated error",
+          is_solved(grid.status) ? fmt::format("{:.2e}", grid.relative) : std::string(name_of(grid.status)));
+  row.set("largest step", in_unit(grid.largest_step));
+  row.set("smallest step", in_unit(grid.smallest_step));
+  row.set("iterations", grid.iterations);
+  row.set("seconds", fmt::format("{:.2g}", grid.seconds));
+  grids_.append(std::move(row));
+}
+
 SolvedCase WantedAccuracy::solve(SolveTask task) {
   const Case& the_case = task.the_case;
   if (the_case.form != CostForm::bolza || the_case.derivatives != "tape") {
@@ -100,7 +101,7 @@ SolvedCase WantedAccuracy::solve(SolveTask task) {
   options.named_options = task.named_options;
   const StopScope scope(task.options.stop_requested, task.options.most_seconds);
   try {
-    return solve_accurately(the_case, task.start, options, grid_printer(the_case.problem->card().time_unit));
+    return solve_accurately(the_case, task.start, options, [&](const GridAttempt& grid) { note(grid, the_case); });
   } catch (const Stopped&) {
     const bool interrupted = task.options.stop_requested && task.options.stop_requested();
     throw NoStart("The time was up between two grids.", interrupted ? Status::interrupted : Status::time_limit);

@@ -25,14 +25,18 @@ class WantedAccuracy {
   [[nodiscard]] bool is_wanted() const noexcept { return !accuracy_.empty(); }
   /// Reads the options. Throws `Error` if they do not fit each other or the cases.
   void check(const std::vector<Case>& cases);
-  /// Solves the case accurately (`solve_accurately`) and prints a line for every grid. Throws `NoStart` if the time is
-  /// up between two grids.
+  /// Solves the case accurately (`solve_accurately`). Throws `NoStart` if the time is up between two grids.
   [[nodiscard]] SolvedCase solve(SolveTask task);
+  /// A row for every grid of that solve.
+  [[nodiscard]] const Table& grids() const noexcept { return grids_; }
 
  private:
+  void note(const GridAttempt& grid, const Case& the_case);
+
   std::string accuracy_;  // empty: one grid
   std::string refine_;
   AdaptiveOptions adaptive_;
+  Table grids_{{"grid", "N", "stages", "estimated error", "largest step", "smallest step", "iterations", "seconds"}};
 };
 
 }  // namespace dmocbench
