@@ -52,8 +52,10 @@ Table orders_by_curve(const Table& orders) {
       std::ranges::any_of(orders.rows(), [](const Row& row) { return !row.text("active").empty(); });
   if (has_bounds) columns.emplace_back("active bounds");
   Table summary(columns);
-  for (const Selection& curve : Selection(orders).group_by({"problem", "method", "tableau", "stages"})) {
-    Row row = fields_of(curve.front(), {"problem", "method", "tableau"});
+  summary.set_key({"problem", "method", "tableau", "s", "solver", "derivatives"});
+  for (const Selection& curve :
+       Selection(orders).group_by({"problem", "method", "tableau", "stages", "solver", "derivatives"})) {
+    Row row = fields_of(curve.front(), summary.key());
     row.set("s", curve.front().text("stages"));
     for (const std::string& quantity : quantities) {
       const Selection fitted = curve.where("quantity", quantity);

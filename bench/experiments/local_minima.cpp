@@ -25,7 +25,7 @@ struct Measured {
 /// How often each method finds the best minimum, and at which cost.
 Table minima_found(const Table& minima, const Table& shares) {
   const ColumnNames group{"problem", "tableau", "stages", "solver", "derivatives", "intervals"};
-  Table found;
+  Table found({"problem", "N", "method", "minima", "best cost", "best in", "95 % interval", "no motion", "not solved"});
   found.set_key({"problem", "N", "method", "tableau", "stages", "solver", "derivatives"});
   for (const Row& share : shares.rows()) {
     const Selection of_group = Selection(minima).matching(share, group);
@@ -116,10 +116,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
       metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
     }
     for (const auto& [problem, words] : varied_) metadata["starts"]["varied"][problem] = words;
-    output.findings.show(
-        "minima", minima_found(minima, shares),
-        {"problem", "N", "method", "minima", "best cost", "best in", "95 % interval", "no motion", "not solved"},
-        output.prefix.string() + "_shares.csv");
+    output.findings.show("minima", minima_found(minima, shares), {}, output.prefix.string() + "_shares.csv");
   }
 
  private:

@@ -12,7 +12,7 @@ namespace dmocbench::objective_program {
 
 /// The cost of each curve on its finest grid, and by how much the grid before differs from it.
 Table finest_costs(const Table& rows) {
-  Table costs;
+  Table costs({"problem", "method", "N", "cost", "change from", "relative change"});
   costs.set_key({"problem", "method", "tableau", "stages", "solver", "derivatives"});
   for (const Selection& curve : Selection(rows).usable().group_by(costs.key())) {
     const Selection grids = curve.sorted_by("intervals");
@@ -54,9 +54,7 @@ class Objective final : public ExperimentOf<Measured> {
     }
   }
   void finish(Table& table, FurtherOutput& output) override {
-    output.findings.show("costs", finest_costs(table),
-                         {"problem", "method", "N", "cost", "change from", "relative change"},
-                         output.prefix.string() + ".csv");
+    output.findings.show("costs", finest_costs(table), {}, output.prefix.string() + ".csv");
   }
 
  private:

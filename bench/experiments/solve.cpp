@@ -130,7 +130,7 @@ class Solve final : public ExperimentOf<Measured> {
   }
   void finish(Table& /*table*/, FurtherOutput& output) override {
     trace_.describe(output);
-    Table summary;
+    Table summary(answer_columns(std::ranges::any_of(answers_, has_free_horizon), accuracy_.is_wanted()));
     summary.set_key({"problem", "method", "tableau", "stages", "solver", "derivatives", "N"});
     for (const auto& [solved, checks] : answers_) {
       const std::string file = output.prefix.string() + label_of_(solved.the_case);
@@ -141,9 +141,7 @@ class Solve final : public ExperimentOf<Measured> {
     }
     if (accuracy_.is_wanted())
       output.findings.show("grids", accuracy_.grids(), {}, "", accuracy_.grids().rows().size());
-    output.findings.show("answers", summary,
-                         answer_columns(std::ranges::any_of(answers_, has_free_horizon), accuracy_.is_wanted()),
-                         output.prefix.string() + ".csv");
+    output.findings.show("answers", summary, {}, output.prefix.string() + ".csv");
     std::set<std::string> doubts;
     for (const Answer& answer : answers_) {
       const Status status = answer.solved.solution.status;

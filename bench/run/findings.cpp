@@ -84,7 +84,7 @@ void Findings::say(const std::string& sentence) {
 void Findings::show(const std::string& name, const Table& table, const std::vector<std::string>& columns,
                     const std::string& file, std::size_t most_rows) {
   Json rows = Json::array();
-  const std::vector<std::string> chosen = columns.empty() ? table.columns() : with_distinguishing(columns, table);
+  const std::vector<std::string> chosen = with_distinguishing(columns.empty() ? table.columns() : columns, table);
   std::vector<std::vector<std::string>> lines{chosen};
   for (const Row& row : table.rows()) {
     Json object = Json::object();

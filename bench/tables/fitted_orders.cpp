@@ -37,7 +37,6 @@ constexpr std::array fitted_quantities{"state",
                                        "first_order",
                                        "first_order_costate"};
 
-const ColumnNames scheme_names{"problem", "method", "tableau", "stages"};
 /// Rows that agree in these differ in their grid only.
 const ColumnNames curve_columns{"problem", "method", "tableau", "stages", "solver", "derivatives"};
 
@@ -149,7 +148,7 @@ struct FittedCurve {
 
 Columns<FittedCurve> order_columns() {
   using Curve = FittedCurve;
-  return head_columns<Curve>(scheme_names, in_key) +
+  return head_columns<Curve>(curve_columns, in_key) +
          Columns<Curve>{
              {"quantity", "", "the error whose order is fitted: the column with that name and the suffix _error",
               &Curve::quantity, in_key},
@@ -223,7 +222,7 @@ double error_of_jumps(const Row& grid) {
 
 Columns<JumpsOfCurve> jump_columns() {
   constexpr auto orders = &JumpsOfCurve::orders;
-  return head_columns<JumpsOfCurve>(scheme_names, in_key) +
+  return head_columns<JumpsOfCurve>(curve_columns, in_key) +
          Columns<JumpsOfCurve>{
              {"jump_slope", "", "fitted order of the largest jump of an interval that is replayed alone",
               from(orders, &TwoOrders::jump, &FittedOrder::order)},
