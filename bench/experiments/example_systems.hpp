@@ -25,8 +25,10 @@ class ExampleSystem : public Problem {
   [[nodiscard]] double horizon() const override { return horizon_; }
 
  protected:
+  /// A system whose coordinates have these names, with the same state at both ends.
   ExampleSystem(std::string name, std::vector<std::string> names, const BoundaryState& start, double horizon)
       : ExampleSystem(std::move(name), std::move(names), start, start, horizon) {}
+  /// The same with a state of its own at the end.
   ExampleSystem(std::string name, std::vector<std::string> names, BoundaryState start, BoundaryState goal,
                 double horizon)
       : name_(std::move(name)),
@@ -109,7 +111,8 @@ class MeridianPendulum final : public ExampleSystem {
 /// with semi-major axis 1, period 2π. The control is a thrust along q.
 class Kepler : public ExampleSystem {
  public:
-  static constexpr double period = 2.0 * std::numbers::pi;
+  static constexpr double period = 2.0 * std::numbers::pi;  ///< of the ellipse
+  /// From the pericentre of an ellipse with this eccentricity, below 1.
   explicit Kepler(double eccentricity = 0.3)
       : ExampleSystem("kepler", {"x", "y"},
                       {Eigen::Vector2d(1.0 - eccentricity, 0.0),
@@ -128,6 +131,7 @@ class SystemInSpace : public ExampleSystem {
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
 
  protected:
+  /// With coordinates x, y, z, over 20 units of time.
   explicit SystemInSpace(std::string name)
       : ExampleSystem(std::move(name), {"x", "y", "z"},
                       {Eigen::Vector3d(1.0, 0.2, -0.3), Eigen::Vector3d(0.1, 0.8, 0.4)}, 20.0) {}

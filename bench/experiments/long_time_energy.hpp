@@ -11,12 +11,13 @@ namespace dmocbench {
 
 /// An integrator of the unforced Kepler ellipse that is followed for many periods.
 struct LongTimeMethod {
+  /// The rules of one step.
   enum class Kind : std::uint8_t { dmoc, radau, explicit_midpoint, runge_kutta_4 };
-  Kind kind = Kind::dmoc;
-  std::string name;     ///< of the kind
-  std::string tableau;  ///< of the implicit ones; empty for the others
-  int stages = 0;
-  int order = 0;
+  Kind kind = Kind::dmoc;  ///< the rule of a step
+  std::string name;        ///< of the kind
+  std::string tableau;     ///< of the implicit ones; empty for the others
+  int stages = 0;          ///< of a step
+  int order = 0;           ///< of convergence
 };
 
 /// DMOC with one and two Gauss stages, explicit Runge-Kutta methods of the same orders, and Radau IIA of order 5: the
@@ -25,10 +26,10 @@ struct LongTimeMethod {
 
 /// The error of the energy during one period, over its steps.
 struct PeriodEnergy {
-  long long period = 0;  ///< 0 is the first
-  double smallest = 0.0;
-  double mean = 0.0;
-  double largest = 0.0;
+  long long period = 0;   ///< 0 is the first
+  double smallest = 0.0;  ///< over the steps of the period
+  double mean = 0.0;      ///< over the same
+  double largest = 0.0;   ///< over the same
 };
 
 /// Energy minus the initial energy along the ellipse of `Kepler`, period by period; of many periods the first ten and
@@ -45,6 +46,7 @@ struct EnergyBehaviour {
   double change = 0.0;            ///< last mean minus first mean
 };
 
+/// The behaviour over the watched periods, of which there must be two or more.
 [[nodiscard]] EnergyBehaviour energy_behaviour(const std::vector<PeriodEnergy>& periods);
 
 }  // namespace dmocbench

@@ -23,7 +23,8 @@ class RecedingHorizon final : public Neighbours {
   [[nodiscard]] std::string name() const override { return "receding_horizon"; }
   [[nodiscard]] bool moves_on() const override { return true; }
   [[nodiscard]] std::shared_ptr<const Problem> next(int /*step*/, const Trajectory& last) override {
-    initial_ = {last.q.row(1).transpose(), last.v.row(1).transpose()};
+    const MotionPoint node = last.node(1);
+    initial_ = {node.q, node.v, node.y};
     disturb(initial_.q, range_q_);
     disturb(initial_.v, range_v_);
     final_.q += last.step(0) * final_.v;

@@ -100,8 +100,14 @@ SolvedCase WantedAccuracy::solve(SolveTask task) {
   options.solver_options = task.options;
   options.named_options = task.named_options;
   const StopScope scope(task.options.stop_requested, task.options.most_seconds);
+  ProgressLine progress("solve");
+  const auto on_grid = [&](const GridAttempt& grid) {
+    note(grid, the_case);
+    const std::string& error = grids_.rows().back().text("estimated error");
+    if (progress.is_shown()) progress.show(fmt::format("N = {}, estimated error {}", grid.intervals, error));
+  };
   try {
-    return solve_accurately(the_case, task.start, options, [&](const GridAttempt& grid) { note(grid, the_case); });
+    return solve_accurately(the_case, task.start, options, on_grid);
   } catch (const Stopped&) {
     const bool interrupted = task.options.stop_requested && task.options.stop_requested();
     throw NoStart("The time was up between two grids.", interrupted ? Status::interrupted : Status::time_limit);

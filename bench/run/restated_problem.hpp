@@ -72,6 +72,7 @@ class RestatedProblem final : public ForwardingProblem {
     };
     move_part(end.q, state.q);
     move_part(end.v, state.v);
+    move_part(end.y, state.y);
   }
 
   std::shared_ptr<const Problem> base_;

@@ -21,10 +21,10 @@ inline constexpr std::size_t resamples = 1000;
 /// replacement, `resamples` times from a fixed seed, and the interval holds 99 % of the medians. Equal numbers of
 /// rounds draw the same rounds, so that `resampled[b]` of several ratios belong together.
 struct RatioInterval {
-  double ratio = 0.0;
-  double lower = 0.0;
-  double upper = 0.0;
-  std::size_t rounds = 0;
+  double ratio = 0.0;             ///< the median
+  double lower = 0.0;             ///< end of the interval
+  double upper = 0.0;             ///< end of the interval
+  std::size_t rounds = 0;         ///< number of ratios
   std::vector<double> resampled;  ///< the medians, in the order of drawing
 };
 
@@ -45,10 +45,10 @@ struct MedianOfRounds {
   /// Throws `Error` as `ratio_interval` does.
   explicit MedianOfRounds(std::span<const double> of_rounds);
 
-  std::optional<double> median;
-  std::optional<double> lower;
-  std::optional<double> upper;
-  std::string rounds;
+  std::optional<double> median;  ///< of the rounds
+  std::optional<double> lower;   ///< end of its interval
+  std::optional<double> upper;   ///< end of its interval
+  std::string rounds;            ///< all of them, with spaces between them
 };
 
 /// ratio_lower, ratio_upper and round_ratios, from which the interval comes; `ratios` is a member of the record, or

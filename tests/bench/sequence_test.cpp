@@ -83,6 +83,17 @@ TEST_F(SequenceOfProblems, OfTheOrbitMovesItsEndAlongTheCircle) {
   EXPECT_EQ(next->final_state().v, orbit->final_state().v);
 }
 
+TEST_F(SequenceOfProblems, BeginsWithTheFirstOrderStatesOfTheLastSolution) {
+  const std::shared_ptr<const Problem> burning = make_problem("orbital_transfer_with_mass");
+  Trajectory motion;
+  motion.node_times = Eigen::VectorXd::LinSpaced(3, 0.0, 2.0);
+  motion.q = motion.v = Eigen::MatrixXd::Ones(3, 2);
+  motion.y = Eigen::MatrixXd::Constant(3, 1, 0.9);
+  const auto next = receding_horizon(burning, motion, 0.0, 1)->next(1, motion);
+  EXPECT_EQ(next->initial_state().y, Eigen::VectorXd::Constant(1, 0.9));
+  EXPECT_EQ(next->bounds().first.y.upper, Eigen::VectorXd::Constant(1, 0.9));
+}
+
 TEST_F(SequenceOfProblems, IsSolvedWarmInFewerIterationsThanCold) {
   for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
