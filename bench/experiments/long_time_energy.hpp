@@ -46,7 +46,7 @@ struct EnergyBehaviour {
   double change = 0.0;            ///< last mean minus first mean
 };
 
-/// The behaviour over the watched periods, of which there must be two or more.
+/// The behaviour over the watched periods. Throws `Error` if there are fewer than three.
 [[nodiscard]] EnergyBehaviour energy_behaviour(const std::vector<PeriodEnergy>& periods);
 
 }  // namespace dmocbench
