@@ -16,6 +16,7 @@
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
+#include "methods/indirect/solve_indirect.hpp"
 
 namespace dmocbench::convergence_program {
 
