@@ -80,7 +80,7 @@ TYPED_TEST(EmbeddedProblemOf, HasAsManyUnknownsAndRowsPerNodeAsDegreesOfFreedom)
 class PendulumByRod final : public Problem {
  public:
   using Embedding = ExpressionVector (*)(const Expression& theta);
-  explicit PendulumByRod(Embedding embedding, bool has_wall = false) : embedding_(embedding), has_wall_(has_wall) {}
+  explicit PendulumByRod(Embedding of_rod, bool has_wall = false) : embedding_(of_rod), has_wall_(has_wall) {}
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override {
