@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "methods/judgement/confirm.hpp"
 #include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {
@@ -115,6 +116,8 @@ std::string next_to_try(const SolvedCase& solved, const std::string& start) {
   const Problem& problem = *the_case.problem;
   if (is_solved(status) || is_no_motion(status) || status == Status::interrupted) return "";
   if (status == Status::out_of_memory || status == Status::solver_error) return "";  // the message has the advice
+  // A settled answer solves its program; what is not confirmed lies elsewhere, and the message states it.
+  if (status == Status::not_confirmed && solved.solution.correction.value_or(unbounded) <= settled) return "";
   if (status == Status::time_limit) return "Try more time (--seconds) or fewer intervals.";
   if (has_undefined_formula(solved.solution)) {
     return "Try bounds that keep the coordinates away from the singularity of that formula (Problem::bounds), and a "

@@ -95,6 +95,17 @@ TEST(Advice, IsGivenForFailuresOnly) {
     EXPECT_EQ(advice(std::make_shared<Moved>(1.0, "m"), status, "ipopt"), "");
 }
 
+TEST(Advice, NamesNoOtherStartWhereANewtonStepHardlyMovesTheAnswer) {
+  SolvedCase solved;
+  solved.the_case.problem = std::make_shared<Moved>(1.0, "m");
+  solved.the_case.solver = "auto";
+  solved.solution.status = Status::not_confirmed;
+  solved.solution.correction = 1e-12;
+  EXPECT_EQ(next_to_try(solved, "guess"), "");
+  solved.solution.correction = 1e-2;
+  EXPECT_TRUE(names(next_to_try(solved, "guess"), "--start common"));
+}
+
 TEST(LikelyMeant, IsTheNameWithFewestLettersChangedAndNoneThatIsFar) {
   const std::vector<std::string> names{"hamiltonian", "tangent", "dmoc"};
   EXPECT_EQ(likely_meant("hamiltonain", names), "hamiltonian");
