@@ -17,7 +17,7 @@ filled(i) = word("7 5 9 11 13 15", backend(i)) + 0
 open(i) = filled(i) - 1
 back_end_label(i) = i == 1 ? "tape" : i == 2 ? "ADOL-C by interval" : i == 3 ? "ADOL-C once" : i == 4 ? "central differences"\
     : i == 5 ? "forward differences" : "dense differences"
-label_of(i) = back_end_label(backend(i)).(i > 6 ? ", dashed" : "")
+label_of(i) = back_end_label(backend(i)).(i > 6 ? ", quasi-Newton Hessian" : "")
 dashes(i) = i > 6 ? 2 : 1
 
 further = exists_table("derivatives_quasi_newton") ? "derivatives_quasi_newton" : ""
