@@ -47,9 +47,10 @@ struct AccuracyCost {
 
 Columns<AccuracyCost> accuracy_cost_columns() {
   using Paid = AccuracyCost;
-  return head_columns<Paid>({"problem", "tableau", "stages"}, in_key) +
+  return head_columns<Paid>({"problem", "tableau", "stages", "solver", "derivatives"}, in_key) +
          Columns<Paid>{{"quantity", "", "quantity that is compared", &Paid::quantity, in_key},
-                       {"error", "", "error that all methods of a problem and tableau reach", &Paid::error, in_key}} +
+                       {"error", "", "error that all methods reach with this tableau, solver and derivatives",
+                        &Paid::error, in_key}} +
          head_columns<Paid>({"method"}, in_key) +
          Columns<Paid>{{"intervals", "", "number of intervals N, not always whole where it is read off a curve",
                         &Paid::intervals},
@@ -143,15 +144,14 @@ Columns<ComparedCost> compared_cost_columns(const ColumnNames& of_head, const st
 
 Table equal_accuracy(const Selection& convergence) {
   std::vector<AccuracyCost> table;
-  for (const Selection& compared : convergence.group_by({"problem", "tableau", "stages", "solver"})) {
+  for (const Selection& compared : convergence.group_by({"problem", "tableau", "stages", "solver", "derivatives"})) {
     for (const std::string quantity : {"state", "control", "replay"}) {
       const auto points = error_cost_points(compared, quantity + "_error", cost_in("seconds"));
       if (points.empty()) continue;
       const auto [smallest, largest] = std::ranges::minmax(points, {}, &ErrorCostPoint::log_error);
       for (double k = std::floor(largest.log_error * steps_per_decade);
            k >= std::ceil(smallest.log_error * steps_per_decade); --k) {
-        append_equal_accuracy(table, compared.group_by({"method", "derivatives"}), quantity,
-                              std::pow(10.0, k / steps_per_decade));
+        append_equal_accuracy(table, compared.group_by({"method"}), quantity, std::pow(10.0, k / steps_per_decade));
       }
     }
   }
@@ -160,9 +160,10 @@ Table equal_accuracy(const Selection& convergence) {
 
 Table currency_ratios(const Selection& iterations) {
   std::vector<ComparedCost> costs;
-  for (const Selection& compared : iterations.group_by({"problem", "tableau", "stages", "solver"})) {
+  for (const Selection& compared :
+       iterations.group_by({"problem", "tableau", "stages", "solver", "derivatives", "tolerance"})) {
     const Selection dmoc = compared.where("method", "dmoc").usable();
-    for (const Selection& collocation : compared.group_by({"method", "derivatives"})) {
+    for (const Selection& collocation : compared.group_by({"method"})) {
       if (collocation.front().text("method") == "dmoc" || compared.where("method", "dmoc").empty()) continue;
       for (const Currency& currency : currencies) {
         if (collocation.front().text("solver") != currency.solver) continue;
@@ -182,9 +183,10 @@ Table currency_ratios(const Selection& iterations) {
       }
     }
   }
-  return table_of(compared_cost_columns({"problem", "method", "tableau", "stages", "intervals"}, "currency",
-                                        "measure of the cost of a solve"),
-                  costs);
+  return table_of(
+      compared_cost_columns({"problem", "method", "tableau", "stages", "derivatives", "tolerance", "intervals"},
+                            "currency", "measure of the cost of a solve"),
+      costs);
 }
 
 }  // namespace dmocbench

@@ -52,15 +52,17 @@ struct ComparedCost {
 
 /// The cost of equal accuracy by each method, from a convergence table.
 ///
-/// Quantities are the errors of state and control, and the replay error. For errors 10^-k/2 that every method of a
-/// problem and tableau reaches within its grids, the number of intervals, of free variables and the seconds of a solve
-/// are read off the method's curve (straight lines in logarithms between grids). Ratios are to dmoc, if present.
+/// Quantities are the errors of state and control, and the replay error. For errors 10^-k/2 that every method
+/// reaches within its grids, by the same tableau, solver and derivatives, the number of intervals, of free variables
+/// and the seconds of a solve are read off the method's curve (straight lines in logarithms between grids). Ratios are
+/// to dmoc, if present.
 [[nodiscard]] Table equal_accuracy(const Selection& convergence);
 
 /// The cost of collocation compared with DMOC in every currency of an iterations table.
 ///
-/// A currency is a column of the rows of one solver and one kind of start. Accuracy is the replay error. Rows that were
-/// not solved, or lie on another branch, are left out.
+/// A currency is a column of the rows of one solver and one kind of start. Methods are compared with the same
+/// derivatives and tolerance. Accuracy is the replay error. Rows that were not solved, or lie on another branch, are
+/// left out.
 [[nodiscard]] Table currency_ratios(const Selection& iterations);
 
 }  // namespace dmocbench

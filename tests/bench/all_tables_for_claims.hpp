@@ -290,8 +290,9 @@ inline Rows jump_rows() {
 }
 
 inline Rows currency_rows() {
-  return rows_of_texts({"problem", "method", "tableau", "stages", "intervals", "currency", "ratio_at_equal_accuracy"},
-                       {{orbit, "tangent", "gauss", "1", "64", "ipopt_iterations", "1.2"}});
+  return rows_of_texts({"problem", "method", "tableau", "stages", "derivatives", "tolerance", "intervals", "currency",
+                        "ratio_at_equal_accuracy"},
+                       {{orbit, "tangent", "gauss", "1", "tape", "1e-06", "64", "ipopt_iterations", "1.2"}});
 }
 
 inline Rows cold_start_rows() {

@@ -17,12 +17,14 @@ struct MadeUpMethod {
   std::string stages = "1";
   std::function<double(double)> error;  ///< state and control error on N intervals
   std::function<double(double)> seconds = [](double n) { return 1e-3 * n; };  ///< of a solve on N intervals
+  std::string solver = "ipopt";
+  std::string derivatives = "tape";
 };
 
 /// A convergence table of made-up methods; step 1/N, 10 N free variables, solved on the same branch.
 inline Table convergence_of(const std::vector<MadeUpMethod>& methods, const std::vector<long long>& intervals) {
-  Table table({"problem", "method", "tableau", "stages", "solver", "intervals", "step", "free_variables", "status",
-               "branch", "objective", "seconds", "state_error", "control_error"});
+  Table table({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "step", "free_variables",
+               "status", "branch", "objective", "seconds", "state_error", "control_error"});
   for (const MadeUpMethod& method : methods) {
     for (const long long count : intervals) {
       const auto n = static_cast<double>(count);
@@ -31,7 +33,8 @@ inline Table convergence_of(const std::vector<MadeUpMethod>& methods, const std:
       row.set("method", Cell(method.name));
       row.set("tableau", "gauss");
       row.set("stages", Cell(method.stages));
-      row.set("solver", "ipopt");
+      row.set("solver", Cell(method.solver));
+      row.set("derivatives", Cell(method.derivatives));
       row.set("intervals", count);
       row.set("step", 1.0 / n);
       row.set("free_variables", 10 * count);

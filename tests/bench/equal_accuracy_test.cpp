@@ -1,3 +1,6 @@
+#include <set>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "bench/tables/ratios.hpp"
@@ -27,6 +30,33 @@ TEST(EqualAccuracy, PowerLawsGiveTheRatioOfTheirCosts) {
     of_tangent += factor == 2.0 ? 1 : 0;
   }
   EXPECT_GE(of_tangent, 2 * 4) << "half decades from 1e-2 to 1e-5, for state and control";
+}
+
+TEST(EqualAccuracy, ComparesMethodsBySolverAndDerivatives) {
+  const auto method = [](const char* name, const char* solver, const char* derivatives, double factor) {
+    return tests::MadeUpMethod{.name = name,
+                               .error = power_law(1.0, 2.0),
+                               .seconds = [factor](double n) { return factor * n; },
+                               .solver = solver,
+                               .derivatives = derivatives};
+  };
+  const Table table = equal_accuracy(convergence_of(
+      {method("dmoc", "ipopt", "tape", 1.0), method("tangent", "ipopt", "tape", 2.0),
+       method("dmoc", "ipopt", "adolc", 10.0), method("tangent", "ipopt", "adolc", 30.0),
+       method("dmoc", "interior_point", "tape", 100.0), method("tangent", "interior_point", "tape", 400.0)},
+      sixteen_to_1024));
+  std::set<std::string> keys;
+  for (const Row& row : table.rows()) {
+    const double expected = row.text("method") == "dmoc"             ? 1.0
+                            : row.text("derivatives") == "adolc"     ? 3.0
+                            : row.text("solver") == "interior_point" ? 4.0
+                                                                     : 2.0;
+    EXPECT_NEAR(row.needed("seconds_ratio"), expected, 1e-12);
+    std::string key;
+    for (const char* column : {"method", "solver", "derivatives", "quantity", "error"}) key += row.text(column) + ',';
+    EXPECT_TRUE(keys.insert(key).second) << key;
+  }
+  EXPECT_FALSE(keys.empty());
 }
 
 TEST(EqualAccuracy, ErrorsThatAMethodDoesNotReachAreLeftOut) {
