@@ -112,12 +112,14 @@ int run_all(CommandLine& line) {
   listen_for_interrupt();
   std::vector<std::string> failed;
   for (const auto& [step, command] : commands_of(study)) {
-    if (run_and_wait(command) != 0) failed.push_back(step);
+    const int code = run_and_wait(command);
     throw_if_interrupted();
+    if (code == 2 && step == "solve") return code;  // what it rejects, such as an unknown problem, all steps reject
+    if (code != 0) failed.push_back(step);
   }
-  fmt::print("study: {}: {}/report.html\n",
-             failed.empty() ? "all steps done" : fmt::format("failed: {}", fmt::join(failed, ", ")),
-             study.out.string());
+  const std::filesystem::path report = study.out / "report.html";
+  fmt::print("study: {}: {}\n", failed.empty() ? "all steps done" : fmt::format("failed: {}", fmt::join(failed, ", ")),
+             std::filesystem::exists(report) ? report.string() : "no report");
   return failed.empty() ? 0 : 1;
 }
 

@@ -85,7 +85,7 @@ void WantedAccuracy::note(const GridAttempt& grid, const Case& the_case) {
   row.set("largest step", in_unit(grid.largest_step));
   row.set("smallest step", in_unit(grid.smallest_step));
   row.set("iterations", grid.iterations);
-  row.set("seconds", fmt::format("{:.2g}", grid.seconds));
+  row.set("seconds with setup", fmt::format("{:.2g}", grid.seconds));
   grids_.append(std::move(row));
 }
 

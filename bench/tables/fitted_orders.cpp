@@ -1,9 +1,13 @@
 #include "bench/tables/fitted_orders.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/run/column.hpp"
 #include "bench/run/solve_case.hpp"
@@ -262,9 +266,15 @@ FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRan
     }
     if (const auto note = note_on_missing_orders(std::span(curves).subspan(fits_before))) notes.push_back(*note);
   }
-  const auto is_unsteady = [](const FittedCurve& fit) { return fit.fit.verdict == "unsteady"; };
-  if (notes.empty() && std::ranges::any_of(curves, is_unsteady))
-    notes.emplace_back("unsteady: the orders of no four neighbouring grids agree; finer grids may have one");
+  std::vector<std::string> unsteady;
+  for (const FittedCurve& curve : curves) {
+    if (curve.fit.verdict == "unsteady" && std::ranges::count(unsteady, curve.quantity) == 0)
+      unsteady.push_back(curve.quantity);
+  }
+  if (notes.empty() && !unsteady.empty()) {
+    notes.push_back(fmt::format("unsteady ({}): no four neighbouring grids have the same order; try finer grids",
+                                fmt::join(unsteady, ", ")));
+  }
   return {.table = table_of(order_columns(), curves), .notes = std::move(notes)};
 }
 
