@@ -54,7 +54,7 @@ class Waypoints final : public Problem {
     return bounds;
   }
   [[nodiscard]] MotionPoint guess(double t) const override {
-    const auto later =
+    const auto* const later =
         std::ranges::find_if(points.begin() + 1, points.end() - 1, [t](const Point& p) { return t < p.t; });
     const Point& from = *(later - 1);
     const Eigen::Vector2d v = (later->q() - from.q()) / (later->t - from.t);

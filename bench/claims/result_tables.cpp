@@ -40,9 +40,10 @@ void check_keys(const Table& table, const ColumnNames& key) {
   for (const Row& row : table.rows()) {
     std::vector<std::string> fields;
     for (const std::string& column : key) fields.push_back(row.text(column));
-    if (const auto [first, is_new] = seen.try_emplace(fields, &row); !is_new)
+    if (const auto [first, is_new] = seen.try_emplace(fields, &row); !is_new) {
       throw Error(
           fmt::format("{} has the key of {}: {}", row.place(), first->second->place(), fmt::join(fields, ", ")));
+    }
   }
 }
 

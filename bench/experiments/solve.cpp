@@ -152,9 +152,10 @@ class Solve final : public ExperimentOf<Measured> {
     }
     for (const Answer& answer : answers_) {
       const Solution& solution = answer.solved.solution;
-      if (solution.status != Status::solved)
+      if (solution.status != Status::solved) {
         output.findings.say(
             fmt::format("{}: {}: {}", answer.solved.the_case.label(), name_of(solution.status), solution.message));
+      }
       if (answer.solved.trajectory) say_found(answer.solved, output.findings);
     }
   }

@@ -53,7 +53,7 @@ std::string linked(const Row& claim) {
 
 /// The first figure that a claim names as its evidence; empty without one.
 std::string figure_of(const Row& claim) {
-  const std::string evidence = claim.text("evidence");
+  const std::string& evidence = claim.text("evidence");
   constexpr std::string_view folder = "figures/";
   const std::size_t begin = evidence.find(folder);
   const std::size_t end = evidence.find(".svg", begin);
@@ -66,9 +66,10 @@ std::string small_figures(const std::vector<const Row*>& claims, const ResultsFo
   std::string html;
   for (const Row* const claim : claims) {
     const std::string figure = figure_of(*claim);
-    if (std::ranges::count(results.figures, figure, &ReportedFigure::name) > 0)
+    if (std::ranges::count(results.figures, figure, &ReportedFigure::name) > 0) {
       html +=
           fmt::format("<a class=\"small\" href=\"#{}\">{}</a>\n", anchor("figure", figure), escaped(in_words(figure)));
+    }
   }
   return html.empty() ? "" : "<div class=\"smalls\">" + html + "</div>";
 }
@@ -117,7 +118,7 @@ std::string badge(const std::string& verdict) {
 }
 
 std::string section_of(const Row& claim) {
-  const std::string where = claim.text("where");
+  const std::string& where = claim.text("where");
   return where.substr(0, where.find(','));
 }
 

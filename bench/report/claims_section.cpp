@@ -91,9 +91,10 @@ std::string other_claims_html(const ResultsFolder& results) {
     group += claim_html(claim, results);
   }
   std::string html;
-  for (const auto& [owner, claims] : by_owner)
+  for (const auto& [owner, claims] : by_owner) {
     html += fmt::format("<details class=\"group\"><summary><b>{}</b> ({})</summary>\n{}</details>\n",
                         escaped(in_words(owner)), claims.first, claims.second);
+  }
   return html;
 }
 

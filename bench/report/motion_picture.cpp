@@ -298,9 +298,10 @@ std::string strips_html(const std::string& problem, const std::vector<const Repo
 std::string legend_of(const std::vector<const ReportedMotion*>& motions) {
   std::string html;
   for (std::size_t i = 0; i < motions.size(); ++i) {
-    if (!motions[i]->method.empty())
+    if (!motions[i]->method.empty()) {
       html +=
           fmt::format("<span class=\"legend method-{}\">{}</span> ", i, escaped(method_in_words(motions[i]->method)));
+    }
   }
   return html;
 }

@@ -198,9 +198,10 @@ class Run {
     if (resumed_ == 0) return;
     shown_cases_ = static_cast<std::size_t>(own_cases());
     metadata_["resumed_rows"] = resumed_;
-    if (findings_.are_for_people())
+    if (findings_.are_for_people()) {
       print_line(fmt::format("{}: resumes an interrupted run, which has {} of {} rows; --fresh solves all of them",
                              experiment_.card().name, resumed_, cases_.size()));
+    }
   }
 
   void save_unfinished() {

@@ -65,9 +65,10 @@ TableRun::TableRun(std::string name, CommandLine& line, Resumes resumes)
   finished_ = {out_ / (name_ + ".unfinished"), identity_of(name_, describe_run(command_line_), line.values())};
   if (fresh_) return;
   tables_ = finished_.resume();
-  if (finished_.count() > 0 && findings_.are_for_people())
+  if (finished_.count() > 0 && findings_.are_for_people()) {
     print_line(fmt::format("{}: resumes an interrupted run, which has finished {}; --fresh measures everything", name_,
                            counted(finished_.count(), "stage")));
+  }
 }
 
 void TableRun::stage(const std::string& name, const std::function<void()>& measure) {
@@ -75,9 +76,10 @@ void TableRun::stage(const std::string& name, const std::function<void()>& measu
   try {
     measure();
   } catch (...) {
-    if (interrupt_requested() && finished_.count() > 0 && findings_.are_for_people())
+    if (interrupt_requested() && finished_.count() > 0 && findings_.are_for_people()) {
       print_line(fmt::format("{}: {} finished; the same command resumes it", name_,
                              counted(finished_.count(), "stage is", "stages are")));
+    }
     throw;
   }
   finished_.add(name, tables_);
@@ -139,9 +141,10 @@ int TableRun::write() const {
     not_measured += table.not_measured;
     files.push_back(table.file.string());
     const std::string gaps = table.not_measured > 0 ? fmt::format(", {} not measured", table.not_measured) : "";
-    if (!has_many && findings_.are_for_people())
+    if (!has_many && findings_.are_for_people()) {
       print_line(
           fmt::format("{}: {}{}: {}", name_, counted(table.table.rows().size(), "row"), gaps, table.file.string()));
+    }
   }
   const int code = not_measured > 0 ? 1 : 0;
   findings_.end({{"experiment", name_}, {"exit_code", code}, {"not_measured", not_measured}, {"files", files}});

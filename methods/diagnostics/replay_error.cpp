@@ -89,9 +89,10 @@ class Replay {
     if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n_ + l_ + 1).allFinite()) {
       throw Error(fmt::format("the replay left the set where the equations of motion make sense in interval {}", k));
     }
-    if (constraints_)
+    if (constraints_) {
       constraints_->project(Eigen::Map<Eigen::VectorXd>(state.data(), n_),
                             Eigen::Map<Eigen::VectorXd>(state.data() + n_, n_));
+    }
   }
 
  private:

@@ -1,7 +1,6 @@
 // Functions that MUMPS calls, and its own, in place of the libraries' functions, as the dynamic linker looks into the
 // program first: a failure or a long computation inside MUMPS ends as an exception, which passes through it, and
 // through Ipopt where that called it, as one of `new` would. Work arrays of the call are lost.
-#include <array>
 #include <cstddef>
 #include <new>
 #include <utility>
@@ -33,8 +32,10 @@ thread_local bool is_factorising = false;
 void free_loads() {
   using End = void(int* info, int* slaves, int* error);
   static auto* const end = of_library<End>("__dmumps_load_MOD_dmumps_load_end", RTLD_DEFAULT);
-  std::array<int, 3> arguments{0, 1, 0};
-  if (end != nullptr) end(&arguments[0], &arguments[1], &arguments[2]);
+  int info = 0;
+  int slaves = 1;
+  int error = 0;
+  if (end != nullptr) end(&info, &slaves, &error);
 }
 
 bool factorises(int job) { return job == 2 || job >= 4; }

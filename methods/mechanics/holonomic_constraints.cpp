@@ -63,7 +63,7 @@ std::vector<Eigen::Index> independent_columns(Eigen::MatrixXd jacobian, const st
       Eigen::Index i = 0;
       const double size = rest.col(j).cwiseAbs().maxCoeff(&i);
       const bool is_better_kind = is_preferred[static_cast<std::size_t>(j)] && size > usable * largest;
-      if (is_better_kind < is_free || (is_better_kind == is_free && size <= pivot)) continue;
+      if ((is_free && !is_better_kind) || (is_better_kind == is_free && size <= pivot)) continue;
       row = i, column = j, pivot = size, is_free = is_better_kind;
     }
     if (!(pivot > tiny * largest)) return columns;

@@ -214,9 +214,7 @@ TEST(ProblemCheck, RefusesTextsThatATerminalWouldObey) {
       {"published",
        [](Words& words) -> std::string& { return words.card.reference.emplace().published.emplace_back().source; }}};
   for (const auto& [name, text] : texts) {
-    for (const char* const hostile : {"two\nlines", "\x1b[2J", "\r", "\x9",
-                                      "\xc2\x9b"
-                                      "2J"}) {
+    for (const char* const hostile : {"two\nlines", "\x1b[2J", "\r", "\x9", "\xc2\x9b\x32J"}) {
       expect_refused({name, "control character"}, [&, &text = text](Words& words) { text(words) = hostile; });
     }
     Words words;

@@ -94,7 +94,7 @@ void bind_class(py::module_& module) {
       .def("__neg__", [](const Expression& x) { return -x; })
       .def("__pos__", [](const Expression& x) { return x; })
       .def("__float__",
-           [no_number](const Expression& x) {
+           [](const Expression& x) {
              if (const auto value = x.constant_value()) return *value;
              throw py::type_error(no_number);
            })
@@ -184,26 +184,26 @@ Expression required(py::handle object, const char* function) {
 
 void bind_smooth(py::module_& module) {
   module.def(
-      "smooth_abs", [](py::object x, double eps) { return smooth_abs(required(x, "smooth_abs"), eps); }, py::arg("x"),
-      py::arg("eps"), "sqrt(x**2 + eps**2): above |x| by at most eps, at x = 0.");
+      "smooth_abs", [](const py::object& x, double eps) { return smooth_abs(required(x, "smooth_abs"), eps); },
+      py::arg("x"), py::arg("eps"), "sqrt(x**2 + eps**2): above |x| by at most eps, at x = 0.");
   module.def(
-      "smooth_sign", [](py::object x, double eps) { return smooth_sign(required(x, "smooth_sign"), eps); },
+      "smooth_sign", [](const py::object& x, double eps) { return smooth_sign(required(x, "smooth_sign"), eps); },
       py::arg("x"), py::arg("eps"), "x/sqrt(x**2 + eps**2): from -1 to 1.");
   module.def(
       "smooth_max",
-      [](py::object x, py::object y, double eps) {
+      [](const py::object& x, const py::object& y, double eps) {
         return smooth_max(required(x, "smooth_max"), required(y, "smooth_max"), eps);
       },
       py::arg("x"), py::arg("y"), py::arg("eps"), "Above the larger of both by at most eps/2, where they are equal.");
   module.def(
       "smooth_min",
-      [](py::object x, py::object y, double eps) {
+      [](const py::object& x, const py::object& y, double eps) {
         return smooth_min(required(x, "smooth_min"), required(y, "smooth_min"), eps);
       },
       py::arg("x"), py::arg("y"), py::arg("eps"), "Below the smaller of both by at most eps/2, where they are equal.");
   module.def(
       "smooth_if_else",
-      [](py::object x, py::object a, py::object b, double eps) {
+      [](const py::object& x, const py::object& a, const py::object& b, double eps) {
         constexpr const char* name = "smooth_if_else";
         return smooth_if_else(required(x, name), required(a, name), required(b, name), eps);
       },

@@ -158,9 +158,10 @@ ExpressionVector PythonProblem::formula(const char* member, const Arguments& arg
     std::vector<Expression> entries;
     for (const py::handle entry : returned) {
       const auto traced = as_expression(entry);
-      if (!traced)
+      if (!traced) {
         throw Error(fmt::format("entry {} of what it returns is {}, expected a formula or a number", entries.size(),
                                 entry.is_none() ? "None" : type_of(entry)));
+      }
       entries.push_back(*traced);
     }
     return Eigen::Map<const ExpressionVector>(entries.data(), static_cast<Eigen::Index>(entries.size()));

@@ -101,7 +101,7 @@ SolvedCase solve_on_grids(const Case& the_case, const Start& start, const Asked&
   adaptive.solver_options = options;
   adaptive.named_options = asked.options;
   if (the_case.form != CostForm::bolza || the_case.derivatives != "tape") {
-    throw Error("accuracy= refines with form=\"bolza\" and derivatives=\"tape\"");
+    throw Error(R"(accuracy= refines with form="bolza" and derivatives="tape")");
   }
   return solve_accurately(the_case, start, adaptive);
 }

@@ -37,7 +37,7 @@ class DenseDifferences final : public DerivativeBackEnd {
     if (part_.gradient.empty()) return;
     const double before = value(cost_tape_);
     for (const std::size_t j : part_.gradient) {
-      const double step = move(j, first_step);
+      const double step = move(j, first_step_);
       result[place(j)] += (value(cost_tape_) - before) / step;
       restore(j);
     }
@@ -48,7 +48,7 @@ class DenseDifferences final : public DerivativeBackEnd {
     begin_whole(plans_.jacobian, values);
     row_tape_.evaluate(inputs_, rows_);
     for (std::size_t j = 0; j < by_column_.size(); ++j) {
-      const double step = move(j, first_step);
+      const double step = move(j, first_step_);
       row_tape_.evaluate(inputs_, moved_rows_);
       for (const WholePart::Entry& entry : by_column_[j]) {
         const auto row = static_cast<Eigen::Index>(part_.rows[entry.row]);
@@ -63,13 +63,13 @@ class DenseDifferences final : public DerivativeBackEnd {
     begin_whole(plans_.hessian, values);
     const double middle = value(lagrangian_tape_);
     for (std::size_t j = 0; j < along_.size(); ++j) {
-      static_cast<void>(move(j, second_step));
+      static_cast<void>(move(j, second_step_));
       along_[j] = value(lagrangian_tape_);
       restore(j);
     }
     for (const auto& [entry, i, j] : part_.hessian) {
-      const double s = move(i, second_step);
-      const double t = move(j, second_step);
+      const double s = move(i, second_step_);
+      const double t = move(j, second_step_);
       const double corner = value(lagrangian_tape_);
       values[static_cast<Eigen::Index>(entry)] += ((corner - along_[i]) - (along_[j] - middle)) / (s * t);
       restore(i);
@@ -113,8 +113,8 @@ class DenseDifferences final : public DerivativeBackEnd {
     return costs_.sum();
   }
 
-  const double first_step = difference_step(DifferenceKind::forward, 1);
-  const double second_step = difference_step(DifferenceKind::forward, 2);
+  const double first_step_ = difference_step(DifferenceKind::forward, 1);
+  const double second_step_ = difference_step(DifferenceKind::forward, 2);
   WholePart part_;
   DerivativePlaces plans_;
   std::size_t first_;  // of the inputs that are unknowns

@@ -29,7 +29,7 @@ std::string place_of(double t, const Problem& problem, const Grid& grid) {
 
 /// The fault of a point of the guess, or empty.
 std::string flaw_of(const MotionPoint& point, const TracedProblem& traced) {
-  const std::string flaw =
+  std::string flaw =
       flaw_of_sizes(point, traced.configuration_size(), traced.control_size(), traced.first_order_size());
   if (!flaw.empty()) return flaw;
   const bool is_finite = point.q.allFinite() && point.v.allFinite() && point.u.allFinite() && point.y.allFinite();

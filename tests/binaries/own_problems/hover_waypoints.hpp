@@ -32,7 +32,7 @@ class HoverWaypoints : public Problem {
   }
 
  private:
-  Expression gate(const ControlledState& s, double t, double x, double y) const {
+  [[nodiscard]] Expression gate(const ControlledState& s, double t, double x, double y) const {
     const double k = 10.0 / parameter("width");
     const Expression open =
         1.0 / (1.0 + exp(-k * (s.t - t + parameter("width")))) / (1.0 + exp(k * (s.t - t - parameter("width"))));
