@@ -17,7 +17,7 @@ filled(i) = word("7 5 9 11 13 15", backend(i)) + 0
 open(i) = filled(i) - 1
 back_end_label(i) = i == 1 ? "tape" : i == 2 ? "ADOL-C by interval" : i == 3 ? "ADOL-C once" : i == 4 ? "central differences"\
     : i == 5 ? "forward differences" : "dense differences"
-label_of(i) = back_end_label(backend(i)).(i > 6 ? ", quasi-Newton Hessian" : "")
+label_of(i) = back_end_label(backend(i)).(i > 6 ? ", quasi-Newton" : "")
 dashes(i) = i > 6 ? 2 : 1
 
 further = exists_table("derivatives_quasi_newton") ? "derivatives_quasi_newton" : ""
@@ -74,7 +74,7 @@ do for [problem_word in problems] {
         if (q == 1) { set format x "" }
         set ylabel (m > 1 ? "" : q == 1 ? "time of the solver [s]" : "KKT residual, exact derivatives") offset inwards
         if (q == 1 && m == 1) {
-          set key at screen 0.5, screen 0.008 center bottom vertical maxrows 4 width -3 font ",12" samplen 2.5
+          set key at screen 0.5, screen 0.008 center bottom vertical maxrows 4 width -6 font ",12" samplen 2.5
         } else { unset key }
         plot for [i in shown] keyentry with linespoints linecolor rgb colour(number_in(i)) linewidth 1.5 dashtype dashes(number_in(i))\
                  pointtype filled(number_in(i)) pointsize 0.75 title label_of(number_in(i)),\
