@@ -89,7 +89,7 @@ void refuse_parts(const std::filesystem::path& folder, const std::string& table)
 
 /// The metadata of a run that ended with all its cases. Throws `Error` otherwise.
 nlohmann::ordered_json metadata_of_whole_run(const std::filesystem::path& folder, const std::string& file) {
-  nlohmann::ordered_json metadata = nlohmann::ordered_json::parse(content_of(folder / file), nullptr, false);
+  nlohmann::ordered_json metadata = json_or_null(content_of(folder / file));
   const auto complete = metadata.is_object() ? metadata.find("complete") : metadata.end();
   if (!metadata.is_object() || complete == metadata.end() || !complete->is_boolean()) {
     throw Error(fmt::format("{} does not state whether the run was completed", file));

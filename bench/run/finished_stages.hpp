@@ -19,7 +19,8 @@ struct TableFile {
 };
 
 /// The stages of a run that are over, and the tables as they were then, in a file NAME.unfinished. An interrupted run
-/// of the same identity continues from there.
+/// of the same identity continues from there. The file names its tables without a folder, because it may be a copy in
+/// another folder, or made by others: tables are always written next to it.
 class FinishedStages {
  public:
   FinishedStages() = default;
@@ -32,7 +33,7 @@ class FinishedStages {
   /// How many stages are over.
   [[nodiscard]] std::size_t count() const noexcept { return names_.size(); }
   /// Takes over the stages of a file of this very identity, and returns their tables. A file that is missing, damaged
-  /// or of another run has none.
+  /// or of another run has none. Throws `Error` if it names a table that this run cannot have made.
   [[nodiscard]] std::vector<TableFile> resume();
   /// Adds a stage, and writes the file with all tables. Throws `Error` if it cannot be written.
   void add(const std::string& stage, const std::vector<TableFile>& tables);

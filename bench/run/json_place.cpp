@@ -17,6 +17,14 @@ std::string shown(const nlohmann::ordered_json& json) {
   return text.size() > most_shown ? text.substr(0, most_shown) + " ..." : text;
 }
 
+/// The JSON in a text, discarded if there is none.
+nlohmann::ordered_json read_json(const std::string& text) {
+  using Json = nlohmann::ordered_json;
+  constexpr int deepest = 16;
+  const auto keeps = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) { return depth <= deepest; };
+  return Json::parse(text, keeps, false);
+}
+
 }  // namespace
 
 void JsonPlace::refuse(const char* wanted) const {
@@ -90,12 +98,14 @@ std::vector<double> JsonPlace::numbers() const {
 }
 
 nlohmann::ordered_json json_in(const std::string& text, const std::string& file) {
-  using Json = nlohmann::ordered_json;
-  constexpr int deepest = 16;
-  const auto keeps = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) { return depth <= deepest; };
-  Json json = Json::parse(text, keeps, false);
+  nlohmann::ordered_json json = read_json(text);
   if (json.is_discarded()) throw Error(fmt::format("{} is not JSON, or was cut off", file));
   return json;
+}
+
+nlohmann::ordered_json json_or_null(const std::string& text) {
+  nlohmann::ordered_json json = read_json(text);
+  return json.is_discarded() ? nlohmann::ordered_json() : json;
 }
 
 }  // namespace dmocbench

@@ -50,5 +50,7 @@ class JsonPlace {
 /// The JSON in a text, without values that are nested deeper than in our own files, since copying and writing recurse.
 /// Throws `Error` that names `file` if it is not JSON.
 [[nodiscard]] nlohmann::ordered_json json_in(const std::string& text, const std::string& file);
+/// The same; null if the text is not JSON.
+[[nodiscard]] nlohmann::ordered_json json_or_null(const std::string& text);
 
 }  // namespace dmocbench

@@ -81,7 +81,7 @@ KeptRows::KeptRows(std::filesystem::path prefix, std::set<Statement> own, bool a
   const std::filesystem::path metadata = prefix_.string() + ".json";
   std::error_code none;  // a missing file is not a regular file
   if (!std::filesystem::is_regular_file(metadata, none)) return;
-  earlier_ = Json::parse(read_file(metadata), nullptr, false);
+  earlier_ = json_or_null(read_file(metadata));
   if (!earlier_.is_object())
     throw Error(fmt::format("{} is damaged; move it and its tables away, or choose another --out", metadata.string()));
 }
@@ -167,7 +167,11 @@ Table KeptRows::alone(const std::filesystem::path& file) const {
 Json KeptRows::kept_runs() const {
   Json kept = Json::array();
   if (kept_.empty()) return kept;
-  Json runs = earlier_.value("earlier_runs", Json::array());
+  const JsonPlace earlier(earlier_, prefix_.string() + ".json");
+  Json runs = Json::array();
+  if (earlier.has("earlier_runs")) {
+    for (const JsonPlace& run : earlier.at("earlier_runs").entries()) runs.push_back(run.json());
+  }
   runs.push_back(entry_of(earlier_));
   for (Json& run : runs) {
     std::set<Statement> statements = statements_in(JsonPlace(run, prefix_.string() + ".json"));

@@ -105,7 +105,7 @@ PartFile read_part(const std::filesystem::path& path) {
   const std::size_t space = std::min(content.find(' '), line);
   const std::string description = content.substr(std::min(space + 1, line), line - std::min(space + 1, line));
   PartFile file{.path = path,
-                .description = Json::parse(description, nullptr, false),
+                .description = json_or_null(description),
                 .table = content.substr(std::min(line + 1, content.size()))};
   if (content.substr(0, space) != checksum_in_words(description, file.table) || !file.description.is_object()) {
     throw Error(fmt::format("{} is damaged or not a part; remove it and run that part again", path.string()));

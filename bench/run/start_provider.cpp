@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/even_draws.hpp"
+#include "bench/run/json_place.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/written_tables.hpp"
@@ -41,18 +42,18 @@ std::string identity_of(const std::string& problem, const std::string& settings,
 }
 
 /// The metadata in a file; null if it does not contain metadata.
-nlohmann::json metadata_in(const std::filesystem::path& file) {
+nlohmann::ordered_json metadata_in(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) return {};
   try {
-    return nlohmann::json::parse(read_file(file), nullptr, false);
+    return json_or_null(read_file(file));
   } catch (const Error&) {
     return {};  // written by another program
   }
 }
 
 /// The identity of the solve that wrote a node file, if the metadata contain it; empty otherwise.
-std::string origin_in(const nlohmann::json& metadata, const std::string& nodes) {
+std::string origin_in(const nlohmann::ordered_json& metadata, const std::string& nodes) {
   try {
     if (!metadata.is_object() || !metadata.contains("motions")) return {};
     for (const auto& motion : metadata["motions"]) {
@@ -62,7 +63,7 @@ std::string origin_in(const nlohmann::json& metadata, const std::string& nodes) 
       return identity_of(motion.at("problem"), motion.value("settings", std::string()), motion.at("method"),
                          motion.at("tableau"), motion.at("stages"), motion.at("intervals"));
     }
-  } catch (const nlohmann::json::exception&) {  // these are not the metadata of a solve
+  } catch (const nlohmann::ordered_json::exception&) {  // these are not the metadata of a solve
   }
   return {};
 }
@@ -85,7 +86,7 @@ std::vector<std::filesystem::path> metadata_beside(const std::filesystem::path& 
 std::string origin_of(const std::filesystem::path& nodes_file, const MotionTexts& texts) {
   const std::string nodes = nodes_file.filename().string();
   for (const std::filesystem::path& file : metadata_beside(nodes_file)) {
-    const nlohmann::json metadata = metadata_in(file);
+    const nlohmann::ordered_json metadata = metadata_in(file);
     std::string origin = origin_in(metadata, nodes);
     if (origin.empty()) continue;
     try {

@@ -135,17 +135,17 @@ py::object entry_by_entry(const py::object& array, const py::object& function) {
 template <class OfFormula, class OfNumber>
 void bind_function(py::module_& module, const char* name, const char* method, const char* doc, OfFormula of_formula,
                    OfNumber of_number) {
+  const auto of_entry = [=](const py::object& x) -> py::object {
+    const auto traced = as_expression(x);
+    if (!traced) throw neither_number_nor_formula(name, x);
+    const auto number = number_of(x, *traced);
+    return number ? py::object(py::float_(of_number(*number))) : py::cast(Expression(of_formula(*traced)));
+  };
   module.def(
       name,
-      [=](const py::object& x) -> py::object {
-        if (const auto traced = as_expression(x)) {
-          const auto number = number_of(x, *traced);
-          return number ? py::object(py::float_(of_number(*number))) : py::cast(Expression(of_formula(*traced)));
-        }
-        if (py::isinstance<py::str>(x) || !(py::isinstance<py::array>(x) || py::isinstance<py::sequence>(x))) {
-          throw neither_number_nor_formula(name, x);
-        }
-        return entry_by_entry(x, module.attr(name));
+      [=](const py::object& x) {
+        const bool has_entries = py::isinstance<py::array>(x) || py::isinstance<py::sequence>(x);
+        return has_entries && !as_expression(x) ? entry_by_entry(x, py::cpp_function(of_entry)) : of_entry(x);
       },
       py::arg("x"), doc);
   py::class_<Expression>(module.attr("Expression")).def(method, [=](const Expression& x) {

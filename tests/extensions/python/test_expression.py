@@ -94,6 +94,14 @@ class Expressions(unittest.TestCase):
         for use in (math.cos, float, int):
             self.refuses(TypeError, "dmocbench.cos or numpy.cos", use)
 
+    def test_functions_refuse_what_is_no_number_also_inside_arrays(self):
+        endless = np.empty(1, dtype=object)
+        endless[0] = endless
+        for function in (db.sin, db.cos, db.exp, db.sqrt):
+            for wrong in (b"x", "x", np.array([b"x"]), np.array(["x"]), [1.0, None], endless, {}):
+                with self.assertRaisesRegex(TypeError, "takes a number, a formula or an array of them, not "):
+                    function(wrong)
+
     def test_refuse_kinks_and_formulas_as_exponents(self):
         self.refuses(TypeError, "smooth_abs", abs)
         self.refuses(TypeError, r"exp\(y \* log\(x\)\)", lambda a: a**a)
