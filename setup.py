@@ -16,8 +16,8 @@ setup(
     python_requires=">=3.9",
     install_requires=["numpy"],
     packages=["dmocbench"],
-    package_dir={"": "bench/extensions/python"},
+    package_dir={"": "bench/python"},
     package_data={"dmocbench": ["py.typed", "*.pyi"]},
-    cmake_args=["-DDMOCBENCH_TESTS=OFF", "-DDMOCBENCH_ADOLC=OFF", "-DDMOCBENCH_PYTHON_DIR=bench/extensions/python"],
+    cmake_args=["-DDMOCBENCH_TESTS=OFF", "-DDMOCBENCH_ADOLC=OFF", "-DDMOCBENCH_PYTHON_DIR=bench/python"],
     cmake_install_target="install-python",
 )

@@ -7,10 +7,10 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "bench/extensions/python/bindings.hpp"
-#include "bench/extensions/python/calls.hpp"
-#include "bench/extensions/python/handles.hpp"
-#include "bench/extensions/python/python_problem.hpp"
+#include "bench/python/bindings.hpp"
+#include "bench/python/calls.hpp"
+#include "bench/python/handles.hpp"
+#include "bench/python/python_problem.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "methods/expression/schedule.hpp"
 #include "methods/mechanics/problem_check.hpp"

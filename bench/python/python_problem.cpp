@@ -1,4 +1,4 @@
-#include "bench/extensions/python/python_problem.hpp"
+#include "bench/python/python_problem.hpp"
 
 #include <algorithm>
 #include <new>
@@ -8,8 +8,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "bench/extensions/python/calls.hpp"
-#include "bench/extensions/python/traced_numbers.hpp"
+#include "bench/python/calls.hpp"
+#include "bench/python/traced_numbers.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/runtime/stop_scope.hpp"

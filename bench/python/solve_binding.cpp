@@ -10,9 +10,9 @@
 #include <pybind11/stl.h>
 
 #include "bench/experiments/wanted_accuracy.hpp"
-#include "bench/extensions/python/bindings.hpp"
-#include "bench/extensions/python/calls.hpp"
-#include "bench/extensions/python/handles.hpp"
+#include "bench/python/bindings.hpp"
+#include "bench/python/calls.hpp"
+#include "bench/python/handles.hpp"
 #include "bench/run/advice.hpp"
 #include "bench/run/solve_case.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"

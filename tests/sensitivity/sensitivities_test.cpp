@@ -1,6 +1,6 @@
 // Sensitivities are derivatives of answers: held against differences of answers of neighbouring programs.
 
-#include "methods/extensions/sensitivity/sensitivities.hpp"
+#include "methods/sensitivity/sensitivities.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -6,8 +6,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "bench/extensions/python/bindings.hpp"
-#include "bench/extensions/python/traced_numbers.hpp"
+#include "bench/python/bindings.hpp"
+#include "bench/python/traced_numbers.hpp"
 #include "methods/error.hpp"
 #include "methods/expression/schedule.hpp"
 #include "methods/expression/smooth.hpp"

@@ -11,9 +11,9 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "bench/extensions/python/bindings.hpp"
-#include "bench/extensions/python/calls.hpp"
-#include "bench/extensions/python/handles.hpp"
+#include "bench/python/bindings.hpp"
+#include "bench/python/calls.hpp"
+#include "bench/python/handles.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"

@@ -1,4 +1,4 @@
-#include "methods/extensions/sensitivity/sensitivities.hpp"
+#include "methods/sensitivity/sensitivities.hpp"
 
 #include <fmt/format.h>
 

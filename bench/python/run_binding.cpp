@@ -8,9 +8,9 @@
 #include <pybind11/stl.h>
 
 #include "bench/dispatch.hpp"
-#include "bench/extensions/python/bindings.hpp"
-#include "bench/extensions/python/calls.hpp"
-#include "bench/extensions/python/handles.hpp"
+#include "bench/python/bindings.hpp"
+#include "bench/python/calls.hpp"
+#include "bench/python/handles.hpp"
 #include "bench/run/command_line.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/process_pool.hpp"

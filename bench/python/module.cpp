@@ -2,8 +2,8 @@
 
 #include <pybind11/pybind11.h>
 
-#include "bench/extensions/python/bindings.hpp"
 #include "bench/extensions/register_extensions.hpp"
+#include "bench/python/bindings.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/environment.hpp"
 

@@ -1,4 +1,4 @@
-#include "methods/extensions/sensitivity/feedback_gains.hpp"
+#include "methods/sensitivity/feedback_gains.hpp"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // Gains are slopes of the optimal control in the state: held against differences of solves from neighbouring states.
 
-#include "methods/extensions/sensitivity/feedback_gains.hpp"
+#include "methods/sensitivity/feedback_gains.hpp"
 
 #include <cmath>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "bench/extensions/python/calls.hpp"
+#include "bench/python/calls.hpp"
 
 #include <chrono>
 
