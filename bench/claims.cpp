@@ -13,10 +13,10 @@ namespace dmocbench::claims_program {
 void print(const std::vector<JudgedClaim>& claims) {
   for (const JudgedClaim& claim : claims) {
     print_line(
-        fmt::format("{:<11} {:<50} {}, {}", name_of(claim.verdict), claim.id, name_of(claim.whose), claim.where));
+        fmt::format("{:<11} {:<50} {}, {}", name_of(claim.verdict), claim.id(), name_of(claim.whose), claim.where));
     print_line(fmt::format("{:12}states:   {}", "", claim.states));
-    print_line(fmt::format("{:12}measured: {}", "", claim.measured));
-    if (!claim.reason.empty()) print_line(fmt::format("{:12}reason:   {}", "", claim.reason));
+    print_line(fmt::format("{:12}measured: {}", "", claim.measured()));
+    if (!claim.reason().empty()) print_line(fmt::format("{:12}reason:   {}", "", claim.reason()));
   }
   fmt::print("{}\n", fmt::join(closing_lines(claims), "\n"));
 }
@@ -34,10 +34,11 @@ int judge_all(CommandLine& line) {
     throw Error(fmt::format("there is no table that a claim reads in {0}; run an experiment with --out {0} first",
                             out.string()));
   }
-  tell_missing_evidence(claims, out);
+  mark_missing_evidence(claims, out);
   const std::vector<std::string> missed = not_reproduced(claims, required);
   write_file(out / "claims.csv", claims_table(claims).csv());
   write_file(out / "claims_rows.csv", claims_rows_table(claims).csv());
+  write_file(out / "claims.json", claims_json(claims).dump(1) + "\n");
   write_file(out / "claims.md", claims_markdown(claims));
   print(claims);
   for (const std::string& sentence : missed) fmt::print(stderr, "claims: {}\n", sentence);

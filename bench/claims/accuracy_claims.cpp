@@ -20,21 +20,22 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
   const Selection rows = tables.rows("convergence", problem);
   const Selection all = midpoint(rows, "dmoc");
   Selection used;
-  std::vector<double> ratios;
+  std::vector<Measurement> ratios;
   for (const Row& row : all.usable()) {
     const Selection tangent = midpoint(rows, "tangent").usable().matching(row, {"intervals"});
     if (tangent.empty()) continue;
-    ratios.push_back(quotient(row, tangent.front(), "replay_error"));
+    ratios.push_back({"replay error of DMOC over the error of tangent-space collocation",
+                      quotient(row, tangent.front(), "replay_error"), "dmoc", "N = " + row.text("intervals")});
     used.append(row);
   }
   require(used.size() > 1, "convergence.csv has {} grids of {} solved by dmoc and tangent; two are needed", used.size(),
           problem);
-  const auto [least, most] = std::ranges::minmax(ratios);
+  const auto [least, most] = std::ranges::minmax(ratios, {}, &Measurement::value);
   const auto [lower, upper] = problem == two_link ? std::pair(1.0, infinity) : std::pair(0.0, 1.0);
-  return found(verdict_on_interval(least, most, lower, upper),
-               "replay error of DMOC over the error of tangent-space collocation on {} grids, N = {} to {}: {:.3f}{}",
-               used.size(), used.front().text("intervals"), used.back().text("intervals"), fmt::join(ratios, ", "),
-               left_out(all, used, "not solved by both, in favour of"));
+  return found(verdict_on_interval(least.value, most.value, lower, upper),
+               "replay error of DMOC over the error of tangent-space collocation on {} grids, N = {} to {}: {}",
+               used.size(), used.front().text("intervals"), used.back().text("intervals"), listed("{:.3f}", ratios))
+      .also(left_out(all, used, "not solved by both, in favour of"));
 }
 
 /// The momentum balance at the level of rounding, on the finest grid that both methods solve.
@@ -55,9 +56,10 @@ Finding rounding_floor(const ResultTables& tables, const std::string& problem) {
           problem);
   return found(ClaimVerdict::measured,
                "largest defect of the momentum balance at N = {}: dmoc {:.1e}, hamiltonian {:.1e}, {:.1f} times",
-               finest.front().text("intervals"), finest.front().needed("momentum_defect_max"),
-               finest.back().needed("momentum_defect_max"),
-               quotient(finest.front(), finest.back(), "momentum_defect_max"));
+               finest.front().text("intervals"),
+               Measurement{"largest defect of an interval", finest.front().needed("momentum_defect_max"), "dmoc"},
+               Measurement{"largest defect of an interval", finest.back().needed("momentum_defect_max"), "hamiltonian"},
+               Measurement{"ratio of the defects", quotient(finest.front(), finest.back(), "momentum_defect_max")});
 }
 
 /// The sample in which Ipopt is the referee of interior_point: the same programs by both.
@@ -79,7 +81,7 @@ Finding interior_point_beside_ipopt(const ResultTables& tables, const std::strin
   constexpr double equal = 1e-9;
   return found(largest < equal,
                "costs of {} programs by interior_point and by Ipopt differ by at most {:.0e}, relative", compared,
-               largest);
+               Measurement{"largest relative difference of the costs", largest});
 }
 
 }  // namespace

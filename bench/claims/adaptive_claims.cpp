@@ -27,9 +27,11 @@ std::size_t count_outside(const Selection& rows) {
   }));
 }
 
-std::string words_of_effectivity(const Row& row) {
-  return fmt::format("{:.2f} ({}, {}, s = {}, N = {}, {})", effectivity_of(row), row.text("problem"),
-                     row.text("method"), row.text("stages"), row.text("intervals"), row.text("quantity"));
+Words words_of_effectivity(const Row& row) {
+  return worded("{:.2f} ({}, {}, s = {}, N = {}, {})",
+                Measurement{"estimated over true error", effectivity_of(row), row.text("method"), row.text("problem")},
+                row.text("problem"), row.text("method"), row.text("stages"), row.text("intervals"),
+                row.text("quantity"));
 }
 
 Finding effective(const ResultTables& tables, const std::string& /*problem*/) {
@@ -44,12 +46,13 @@ Finding effective(const ResultTables& tables, const std::string& /*problem*/) {
   const Selection coarse = all.where("status", "too coarse");
   const Selection unsolved =
       all.where([](const Row& row) { return row.text("status") != "solved" && row.text("status") != "too coarse"; });
-  return found(outside == 0,
-               "estimated over true error from {} to {}; {} of {} outside of 0.3 to 3; of {} with answers off by more "
-               "than 1 % {}; {} below the floor, {} answers too coarse, {} not solved; {} problems",
-               words_of_effectivity(*least), words_of_effectivity(*most), outside, judged_rows.size(), large.size(),
-               count_outside(large), all.where("verdict", "floor").size(), coarse.size(), unsolved.size(),
-               measured.distinct("problem").size());
+  return found(outside == 0, "estimated over true error from {} to {}", words_of_effectivity(*least),
+               words_of_effectivity(*most))
+      .also(worded("{} of {} outside of 0.3 to 3", outside, judged_rows.size()))
+      .also(worded("of {} with answers off by more than 1 % {}", large.size(), count_outside(large)))
+      .also(worded("{} below the floor, {} answers too coarse, {} not solved", all.where("verdict", "floor").size(),
+                   coarse.size(), unsolved.size()))
+      .also(worded("{} problems", measured.distinct("problem").size()));
 }
 
 /// The rows of a problem, method and kind of grid that reached the accuracy; there is at least one.
@@ -74,23 +77,28 @@ const Row& fewest_intervals(const Selection& rows) {
 
 /// The best number of stages for each kind of grid, and the ratio at equal numbers of stages.
 Finding fewer_intervals(const ResultTables& tables, const std::string& problem) {
-  std::string words;
+  std::vector<Words> words;
   for (const std::string& method : paper_families()) {
     const Selection adapted = reached(tables, problem, method, "adapted");
     const Selection uniform = reached(tables, problem, method, "uniform");
     const Row& best = fewest_intervals(adapted);
     const Row& other = fewest_intervals(uniform);
-    const double ratio = quotient(other, best, "intervals");
-    words +=
-        fmt::format("{}{} {} (s = {}) against {} (s = {}), {:.2f} times", words.empty() ? "" : "; ", method,
-                    best.text("intervals"), best.text("stages"), other.text("intervals"), other.text("stages"), ratio);
+    const auto ratio = [&](const Row& uniform_row, const Row& adapted_row, const std::string& at) {
+      return Measurement{"intervals of uniform grids over adapted ones",
+                         quotient(uniform_row, adapted_row, "intervals"), method, at};
+    };
+    std::vector<Words> of_method{worded("{} {} (s = {}) against {} (s = {}), {:.2f} times", method,
+                                        best.text("intervals"), best.text("stages"), other.text("intervals"),
+                                        other.text("stages"), ratio(other, best, "the best numbers of stages"))};
     for (const Row& row : adapted) {
       const Selection same = uniform.matching(row, {"tableau", "stages"});
       if (same.size() != 1) continue;
-      words += fmt::format(", s = {}: {:.2f}", row.text("stages"), quotient(same.front(), row, "intervals"));
+      const std::string stages = "s = " + row.text("stages");
+      of_method.push_back(worded("{}: {:.2f}", stages, ratio(same.front(), row, stages)));
     }
+    words.push_back(joined(of_method, ", "));
   }
-  return found(ClaimVerdict::measured, "adapted grids need {}", words);
+  return found(ClaimVerdict::measured, "adapted grids need {}", joined(words, "; "));
 }
 
 Finding time_of_all_grids(const ResultTables& tables, const std::string& problem) {
@@ -102,14 +110,16 @@ Finding time_of_all_grids(const ResultTables& tables, const std::string& problem
   const RatioInterval interval = ratio_interval(rounds);
   constexpr double per_second = 1e3;
   return found(ClaimVerdict::measured, "s = {}, {} grids: {:.1f} ms ({:.1f} to {:.1f}) in {} rounds",
-               best.text("stages"), best.text("grids"), per_second * interval.ratio, per_second * interval.lower,
-               per_second * interval.upper, interval.rounds)
+               best.text("stages"), best.text("grids"),
+               Measurement{"median time", per_second * interval.ratio, "dmoc", "", "ms"},
+               Measurement{"lower end of the time", per_second * interval.lower, "dmoc", "", "ms"},
+               Measurement{"upper end of the time", per_second * interval.upper, "dmoc", "", "ms"}, interval.rounds)
       .as_sure_as("99 % of the medians of rounds");
 }
 
 Finding more_variables_by_collocation(const ResultTables& tables, const std::string& problem) {
   const Selection dmoc = reached(tables, problem, "dmoc", "adapted");
-  std::string words;
+  std::vector<Words> words;
   bool holds = true;
   for (const std::string method : {"hamiltonian", "tangent"}) {
     const Selection others = reached(tables, problem, method, "adapted");
@@ -119,10 +129,12 @@ Finding more_variables_by_collocation(const ResultTables& tables, const std::str
               method, own.text("stages"), problem);
       const double ratio = quotient(same.front(), own, "variables_at_accuracy");
       holds = holds && ratio > 1.0;
-      words += fmt::format("{}{} s = {}: {:.2f}", words.empty() ? "" : ", ", method, own.text("stages"), ratio);
+      const std::string stages = "s = " + own.text("stages");
+      words.push_back(worded("{} {}: {:.2f}", method, stages,
+                             Measurement{"variables over DMOC's at equal accuracy", ratio, method, stages}));
     }
   }
-  return found(holds, "variables over DMOC's at equal accuracy: {}", words);
+  return found(holds, "variables over DMOC's at equal accuracy: {}", joined(words, ", "));
 }
 
 }  // namespace

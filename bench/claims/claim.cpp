@@ -5,7 +5,6 @@
 #include <cmath>
 #include <concepts>
 #include <iterator>
-#include <regex>
 
 namespace dmocbench {
 
@@ -41,22 +40,16 @@ std::vector<std::string> problems_of(const Claims& claims) {
   return problems;
 }
 
-/// Whether the text of a measurement contains an infinite number or NaN. Numbers in tables are finite, but results
-/// computed from them need not be: a ratio to 1e-310 is infinite.
-bool has_no_number(const std::string& measured) {
-  static const std::regex none(R"((^|[^A-Za-z_])(inf|nan)($|[^A-Za-z_]))");
-  return std::regex_search(measured, none);
-}
-
 /// The judge's finding, or "not judged" with the missing item if the judge throws.
 template <std::invocable Judge>
 Finding finding_of(const Judge& judge) {
   try {
     Finding finding = judge();
-    if (!has_no_number(finding.measured)) return finding;
-    return {.measured = "a number computed from the tables is not finite: " + finding.measured, .sure = ""};
+    if (std::ranges::all_of(finding.clauses, &Words::are_finite) && finding.reason.are_finite()) return finding;
+    finding.clauses.insert(finding.clauses.begin(), {.text = "a number computed from the tables is not finite"});
+    return {.clauses = std::move(finding.clauses), .sure = ""};
   } catch (const Error& lacking) {
-    return {.measured = lacking.what(), .sure = ""};
+    return {.clauses = {{.text = lacking.what()}}, .sure = ""};
   }
 }
 
@@ -84,25 +77,30 @@ Finding judge_misprint(const Row& row) {
   const double required = row.needed("required_value");
   ClaimVerdict verdict = is_equal(meant, required) ? ClaimVerdict::differs : ClaimVerdict::undecided;
   if (is_equal(printed, required)) verdict = ClaimVerdict::reproduced;
-  return found(verdict, "{}: {:.6g} as printed, {:.6g} as meant, {:.6g} required", row.text("quantity"), printed, meant,
-               required)
-      .because("meant is " + row.text("meant"));
+  const auto quantity = [&](double value, const char* at) {
+    return Measurement{.name = row.text("quantity"), .value = value, .at = at};
+  };
+  return found(verdict, "{}: {:.6g} as printed, {:.6g} as meant, {:.6g} required", row.text("quantity"),
+               quantity(printed, "as printed"), quantity(meant, "as meant"), quantity(required, "required"))
+      .because(worded("meant is {}", row.text("meant")));
 }
 
 /// The misprints in the table, if it exists; a single row with the error if it cannot be read.
 std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
   if (!tables.has("slips")) return {};
   std::vector<JudgedClaim> judged;
-  const auto append = [&](const std::string& id, const Row& row, Finding finding, std::vector<ReadRows> rows = {}) {
-    judged.push_back({.id = id,
+  const auto append = [&](const std::string& problem, const std::string& name, const Row& row, Finding finding,
+                          std::vector<ReadRows> rows = {}) {
+    judged.push_back({.problem = problem,
+                      .name = name,
                       .where = row.text("where"),
                       .figure = "",
                       .whose = Whose::misprint,
                       .states = row.text("printed"),
-                      .measured = std::move(finding.measured),
+                      .clauses = std::move(finding.clauses),
                       .verdict = finding.verdict,
-                      .reason = std::move(finding.reason),
-                      .evidence = "slips.csv",
+                      .reasons = {std::move(finding.reason)},
+                      .evidence = {"slips.csv"},
                       .sure = std::move(finding.sure),
                       .rows = std::move(rows)});
   };
@@ -110,36 +108,36 @@ std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
     for (const Row& row : tables.rows("slips")) {
       const ReadFields fields;
       Finding finding = finding_in(tables, fields, [&] { return judge_misprint(row); });
-      append(row.text("problem") + "/" + row.text("slip"), row, std::move(finding), read_rows(fields));
+      append(row.text("problem"), row.text("slip"), row, std::move(finding), read_rows(fields));
     }
   } catch (const Error& fault) {
     Row unread;
     unread.set("printed", "(misprints)");
-    append("paper/slips", unread, {.measured = fault.what(), .sure = ""});
+    append("paper", "slips", unread, {.clauses = {{.text = fault.what()}}, .sure = ""});
   }
   return judged;
 }
 
-/// The reason written after a verdict: the cause if the claim differs, the condition, and the finding's own reason.
-std::string reason_of(const Claim& claim, const std::string& problem, const Finding& finding) {
-  if (finding.verdict == ClaimVerdict::not_judged) return "";
-  std::vector<std::string> sentences;
-  const auto append = [&](const std::string& sentence) {
-    if (!sentence.empty()) sentences.push_back(sentence);
-  };
-  if (finding.verdict == ClaimVerdict::differs) append(claim.cause.on(problem));
-  append(claim.condition.on(problem));
-  if (claim.by_counting) append("it follows from counting the unknowns or from a choice, so that no solve can turn it");
-  append(finding.reason);
-  return fmt::format("{}", fmt::join(sentences, "; "));
+/// The reasons written after a verdict: the cause if the claim differs, the condition, and the finding's own reason.
+std::vector<Words> reasons_of(const Claim& claim, const std::string& problem, const Finding& finding) {
+  if (finding.verdict == ClaimVerdict::not_judged) return {};
+  std::vector<Words> reasons;
+  if (finding.verdict == ClaimVerdict::differs) reasons.push_back({.text = claim.cause.on(problem)});
+  reasons.push_back({.text = claim.condition.on(problem)});
+  if (claim.by_counting) {
+    reasons.push_back({.text = "it follows from counting the unknowns or from a choice, so that no solve can turn it"});
+  }
+  reasons.push_back(finding.reason);
+  std::erase_if(reasons, [](const Words& words) { return words.is_empty(); });
+  return reasons;
 }
 
 /// The files of the evidence, with the problem's name in theirs.
-std::string evidence_of(const Claim& claim, const std::string& problem) {
-  std::string files = fmt::format("{}", fmt::join(claim.evidence, "; "));
+std::vector<std::string> evidence_of(const Claim& claim, const std::string& problem) {
+  std::vector<std::string> files = claim.evidence;
   const std::string placeholder = "{}";
-  for (auto i = files.find(placeholder); i != std::string::npos; i = files.find(placeholder)) {
-    files.replace(i, placeholder.size(), problem);
+  for (std::string& file : files) {
+    if (const auto i = file.find(placeholder); i != std::string::npos) file.replace(i, placeholder.size(), problem);
   }
   return files;
 }
@@ -149,14 +147,15 @@ std::string id_of(const Claim& claim, const std::string& problem) { return probl
 JudgedClaim judge_claim(const Claim& claim, const ResultTables& tables, const std::string& problem) {
   const ReadFields fields;
   Finding finding = finding_in(tables, fields, [&] { return claim.judge(tables, problem); });
-  return {.id = id_of(claim, problem),
+  return {.problem = problem,
+          .name = claim.id,
           .where = claim.where.on(problem),
           .figure = claim.figure.on(problem),
           .whose = claim.whose,
           .states = claim.states.on(problem),
-          .measured = std::move(finding.measured),
+          .clauses = std::move(finding.clauses),
           .verdict = finding.verdict,
-          .reason = reason_of(claim, problem, finding),
+          .reasons = reasons_of(claim, problem, finding),
           .evidence = evidence_of(claim, problem),
           .sure = std::move(finding.sure),
           .rows = read_rows(fields),
@@ -199,10 +198,10 @@ double quotient(const Row& numerator, const Row& denominator, const std::string&
   throw Error(fmt::format("{}, column {}: a ratio needs a number above zero", denominator.place(), column));
 }
 
-std::string left_out(const Selection& all, const Selection& used, std::string_view why) {
+Words left_out(const Selection& all, const Selection& used, std::string_view why) {
   const Selection unused = all.where(
       [&](const Row& row) { return std::ranges::none_of(used, [&](const Row& kept) { return &kept == &row; }); });
-  if (unused.empty()) return "";
+  if (unused.empty()) return {};
   std::vector<std::string> favoured;
   for (const Selection& rows : unused.group_by({"method"})) {
     const bool have_grids = std::ranges::count(rows.front().columns(), "intervals") > 0;
@@ -210,11 +209,11 @@ std::string left_out(const Selection& all, const Selection& used, std::string_vi
     favoured.push_back(fmt::format("{} ({}{}{})", rows.front().text("method"), rows.size(),
                                    grids.empty() ? "" : ": N = ", fmt::join(grids, ", ")));
   }
-  return fmt::format("; {} of {} rows left out, {} {}", unused.size(), all.size(), why, fmt::join(favoured, ", "));
+  return worded("{} of {} rows left out, {} {}", unused.size(), all.size(), why, fmt::join(favoured, ", "));
 }
 
-std::string unsolved_behind(const ResultTables& tables, std::string_view table, const Texts& wanted) {
-  if (!tables.has(table)) return "";
+Words unsolved_behind(const ResultTables& tables, std::string_view table, const Texts& wanted) {
+  if (!tables.has(table)) return {};
   Selection solves = tables.rows(table);
   for (const auto& [column, text] : wanted) solves = solves.where(column, text);
   return left_out(solves, solves.usable());

@@ -13,6 +13,7 @@
 
 #include "bench/claims/read_rows.hpp"
 #include "bench/claims/result_tables.hpp"
+#include "bench/claims/words.hpp"
 
 namespace dmocbench {
 
@@ -78,13 +79,18 @@ class Wording {
 
 /// The result of judging a claim by the tables.
 struct Finding {
-  std::string measured;                             ///< in words and numbers
+  std::vector<Words> clauses;                       ///< what was measured: the answer, then further numbers
   ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< the verdict that follows from it
-  std::string reason = {};     ///< the cause or condition that the tables show; written after the claim's own
+  Words reason = {};           ///< the cause or condition that the tables show; written after the claim's own
   std::string sure = "exact";  ///< "exact", or the share of replicates with the same verdict
 
+  /// The same with another clause, such as the rows left out; without words there is none.
+  [[nodiscard]] Finding also(Words clause) && {
+    if (!clause.is_empty()) clauses.push_back(std::move(clause));
+    return std::move(*this);
+  }
   /// The same with a reason.
-  [[nodiscard]] Finding because(std::string sentence) && {
+  [[nodiscard]] Finding because(Words sentence) && {
     reason = std::move(sentence);
     return std::move(*this);
   }
@@ -117,19 +123,28 @@ struct Claim {
 
 /// A row of the written table.
 struct JudgedClaim {
-  std::string id;                                   ///< "orbital_transfer/state_slope"
+  std::string problem;                              ///< "orbital_transfer"
+  std::string name;                                 ///< "state_slope"
   std::string where;                                ///< section or label in the paper
   std::string figure;                               ///< label of the paper's figure
   Whose whose = Whose::paper;                       ///< who makes the statement
   std::string states;                               ///< the statement
-  std::string measured;                             ///< the measurement, or the missing data
+  std::vector<Words> clauses;                       ///< the measurement, the answer first; or the missing data
   ClaimVerdict verdict = ClaimVerdict::not_judged;  ///< the predicate's verdict
-  std::string reason;                               ///< why it differs, or the condition under which it holds
-  std::string evidence;                             ///< the tables and figures, with "; " between them
+  std::vector<Words> reasons;         ///< why it differs, the condition under which it holds, what the tables show
+  std::vector<std::string> evidence;  ///< tables and figures
   std::string sure;                 ///< "exact", or the share of replicates with the same verdict; "" for "not judged"
   std::vector<ReadRows> rows = {};  ///< by which it was judged
   bool by_counting = false;         ///< it follows from counting unknowns or from a choice
   bool headline = false;            ///< the summary states it
+  std::vector<std::string> missing = {};  ///< files of the evidence that are not there
+
+  /// "orbital_transfer/state_slope"
+  [[nodiscard]] std::string id() const { return problem + "/" + name; }
+  /// The clauses as one sentence.
+  [[nodiscard]] std::string measured() const { return joined(clauses, "; ").text; }
+  /// The reasons as one sentence.
+  [[nodiscard]] std::string reason() const { return joined(reasons, "; ").text; }
 };
 
 /// Every claim with its verdict, and the paper's misprints. Only rows that are solved on the wanted branch decide;
@@ -162,7 +177,7 @@ inline constexpr double near_order = 0.3;
 /// A finding with the formatted text; `outcome` is a verdict, or whether the statement holds.
 template <class Outcome, class... Values>
 [[nodiscard]] Finding found(Outcome outcome, fmt::format_string<Values...> words, Values&&... values) {
-  return {fmt::format(words, std::forward<Values>(values)...), verdict_on(outcome)};
+  return {{worded(words, std::forward<Values>(values)...)}, verdict_on(outcome)};
 }
 
 /// The verdict on "the measurement lies in a band" by its interval: `reproduced` inside, `differs` outside,
@@ -196,14 +211,14 @@ void require(bool is_there, fmt::format_string<Values...> words, Values&&... val
 /// Texts that rows have, by their columns.
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
-/// How many rows a claim leaves out, of which methods, why, and which method this favours; "" if it uses all rows:
-/// "; 2 of 24 rows left out, not solved on the wanted branch, in favour of tangent (2: N = 8, 16)".
-[[nodiscard]] std::string left_out(const Selection& all, const Selection& used,
-                                   std::string_view why = "not solved on the wanted branch, in favour of");
+/// How many rows a claim leaves out, of which methods, why, and which method this favours; no words if it uses all
+/// rows: "2 of 24 rows left out, not solved on the wanted branch, in favour of tangent (2: N = 8, 16)".
+[[nodiscard]] Words left_out(const Selection& all, const Selection& used,
+                             std::string_view why = "not solved on the wanted branch, in favour of");
 
-/// The same for the rows with these texts in the table of solves that the claim reads a summary of; "" if this table
-/// does not exist.
-[[nodiscard]] std::string unsolved_behind(const ResultTables& tables, std::string_view table, const Texts& wanted);
+/// The same for the rows with these texts in the table of solves that the claim reads a summary of; no words if this
+/// table does not exist.
+[[nodiscard]] Words unsolved_behind(const ResultTables& tables, std::string_view table, const Texts& wanted);
 
 /// Whether a row is of the midpoint rule.
 [[nodiscard]] inline bool is_midpoint(const Row& row) {

@@ -17,6 +17,14 @@ namespace dmocbench {
 
 namespace {
 
+/// The files with "; " between them, and "(not there)" behind those that are missing.
+std::string evidence_in_words(const JudgedClaim& claim) {
+  const auto in_words = [&](const std::string& file) {
+    return std::ranges::count(claim.missing, file) > 0 ? file + " (not there)" : file;
+  };
+  return fmt::format("{}", fmt::join(claim.evidence | std::views::transform(in_words), "; "));
+}
+
 const Columns<JudgedClaim>& claim_columns() {
   static const Columns<JudgedClaim> all{
       {"claim", "", "problem and short name", &JudgedClaim::id, in_key},
@@ -27,7 +35,7 @@ const Columns<JudgedClaim>& claim_columns() {
       {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
       {"verdict", "", "by the tables", [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
       {"reason", "", "why it differs, or when it holds", &JudgedClaim::reason},
-      {"evidence", "", "tables and figures", &JudgedClaim::evidence},
+      {"evidence", "", "tables and figures", evidence_in_words},
       {"sure", "", "exact, or the share of replicates with the same verdict", &JudgedClaim::sure},
   };
   return all;
@@ -86,8 +94,8 @@ std::string told_together(std::ptrdiff_t count, ClaimVerdict verdict) {
 
 /// "- **orbit/fast** (section 4): reproduced. It is claimed; measured: 2.01; why".
 std::string bullet(const JudgedClaim& claim) {
-  return fmt::format("- **{}** ({}), {}: {}. Measured: {}.{}{}\n", claim.id, claim.where, name_of(claim.verdict),
-                     claim.states, claim.measured, claim.reason.empty() ? "" : " Why: ", claim.reason);
+  return fmt::format("- **{}** ({}), {}: {}. Measured: {}.{}{}\n", claim.id(), claim.where, name_of(claim.verdict),
+                     claim.states, claim.measured(), claim.reason().empty() ? "" : " Why: ", claim.reason());
 }
 
 /// The summary: the counts, each statement of the paper that is not reproduced, and our most important findings.
@@ -107,6 +115,50 @@ std::string summary_markdown(const std::vector<JudgedClaim>& claims) {
   return text;
 }
 
+/// A text, and the numbers in it.
+nlohmann::ordered_json words_json(const std::vector<Words>& all) {
+  nlohmann::ordered_json clauses = nlohmann::ordered_json::array();
+  for (const Words& words : all) {
+    nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+    for (const auto& [name, value, method, at, unit] : words.numbers)
+      numbers.push_back({{"name", name}, {"value", value}, {"method", method}, {"at", at}, {"unit", unit}});
+    clauses.push_back({{"text", words.text}, {"numbers", numbers}});
+  }
+  return clauses;
+}
+
+/// The names of the figures among the evidence, without folder and ending.
+std::vector<std::string> figures_of(const JudgedClaim& claim) {
+  std::vector<std::string> figures;
+  for (const std::filesystem::path file : claim.evidence) {
+    if (file.parent_path() == "figures") figures.push_back(file.stem().string());
+  }
+  return figures;
+}
+
+nlohmann::ordered_json claim_json(const JudgedClaim& claim) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const ReadRows& read : claim.rows)
+    rows.push_back({{"table", read.table}, {"records", read.records}, {"columns", read.columns}});
+  return {{"claim", claim.id()},
+          {"problem", claim.problem},
+          {"name", claim.name},
+          {"where", claim.where},
+          {"figure", claim.figure},
+          {"whose", name_of(claim.whose)},
+          {"states", claim.states},
+          {"verdict", name_of(claim.verdict)},
+          {"measured", words_json(claim.clauses)},
+          {"reasons", words_json(claim.reasons)},
+          {"sure", claim.sure},
+          {"by_counting", claim.by_counting},
+          {"headline", claim.headline},
+          {"evidence", claim.evidence},
+          {"missing", claim.missing},
+          {"figures", figures_of(claim)},
+          {"rows", rows}};
+}
+
 }  // namespace
 
 Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
@@ -124,10 +176,16 @@ Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
   for (const JudgedClaim& claim : claims) {
     for (const ReadRows& rows : claim.rows) {
       evidence.push_back(
-          {claim.id, rows.table, packed_ranges(rows.records), fmt::format("{}", fmt::join(rows.columns, " "))});
+          {claim.id(), rows.table, packed_ranges(rows.records), fmt::format("{}", fmt::join(rows.columns, " "))});
     }
   }
   return table_of(columns, evidence);
+}
+
+nlohmann::ordered_json claims_json(const std::vector<JudgedClaim>& claims) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const JudgedClaim& claim : claims) all.push_back(claim_json(claim));
+  return {{"claims", all}};
 }
 
 Table claims_table(const std::vector<JudgedClaim>& claims) { return table_of(claim_columns(), claims); }
@@ -163,17 +221,12 @@ std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims) {
   return lines;
 }
 
-void tell_missing_evidence(std::vector<JudgedClaim>& claims, const std::filesystem::path& folder) {
-  const std::string_view between = "; ";
+void mark_missing_evidence(std::vector<JudgedClaim>& claims, const std::filesystem::path& folder) {
   for (JudgedClaim& claim : claims) {
-    std::vector<std::string> files;
-    for (const auto part : std::views::split(claim.evidence, between)) {
-      std::string file(part.begin(), part.end());
+    std::ranges::copy_if(claim.evidence, std::back_inserter(claim.missing), [&](const std::string& file) {
       std::error_code unknown;
-      if (!file.empty() && !std::filesystem::exists(folder / file, unknown)) file += " (not there)";
-      files.push_back(std::move(file));
-    }
-    claim.evidence = fmt::format("{}", fmt::join(files, between));
+      return !std::filesystem::exists(folder / file, unknown);
+    });
   }
 }
 
@@ -183,7 +236,8 @@ std::vector<std::string> not_reproduced(const std::vector<JudgedClaim>& claims, 
     const auto claim = std::ranges::find(claims, name, &JudgedClaim::id);
     if (claim == claims.end()) throw Error(fmt::format("there is no claim {}; claims.csv lists all", name));
     if (claim->verdict == ClaimVerdict::reproduced) continue;
-    sentences.push_back(fmt::format("{} is not reproduced but {}: {}", name, name_of(claim->verdict), claim->measured));
+    sentences.push_back(
+        fmt::format("{} is not reproduced but {}: {}", name, name_of(claim->verdict), claim->measured()));
   }
   return sentences;
 }

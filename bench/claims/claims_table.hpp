@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "bench/claims/claim.hpp"
 #include "methods/tables/table.hpp"
 
@@ -16,6 +18,10 @@ namespace dmocbench {
 /// records and columns that were read ("2-5 9", the header is record 1).
 [[nodiscard]] Table claims_rows_table(const std::vector<JudgedClaim>& claims);
 
+/// The claims as claims.json has them, for programs: under "claims" every claim with the clauses of its measurement and its reasons,
+/// each a text with the numbers in it (name, value, method, case, unit), and with the rows by which it was judged.
+[[nodiscard]] nlohmann::ordered_json claims_json(const std::vector<JudgedClaim>& claims);
+
 /// The claims for readers: the paper's statements, its remarks, our findings and the misprints, each in its own table
 /// below a heading, then the closing lines.
 [[nodiscard]] std::string claims_markdown(const std::vector<JudgedClaim>& claims);
@@ -24,8 +30,8 @@ namespace dmocbench {
 /// "the paper's statements: 21 reproduced, 4 differ". Groups without claims have no line.
 [[nodiscard]] std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims);
 
-/// Appends "(not there)" to every file of the evidence that is missing from a results folder.
-void tell_missing_evidence(std::vector<JudgedClaim>& claims, const std::filesystem::path& folder);
+/// Finds the files of each claim's evidence that are missing from a results folder.
+void mark_missing_evidence(std::vector<JudgedClaim>& claims, const std::filesystem::path& folder);
 
 /// Claims that are not reproduced, a sentence each, of those with certain names. Throws `Error` on a name that no claim
 /// has.

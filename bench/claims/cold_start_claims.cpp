@@ -15,6 +15,12 @@ const char* in_words(const ShareInterval& difference) {
   return difference.upper < 0.0 ? "DMOC less often" : "no difference shown";
 }
 
+/// "dmoc 4 of 5"
+Words share_in_words(const std::string& method, const ShareCount& count) {
+  return worded("{} {} of {}", method, Measurement{"starts that succeeded", static_cast<double>(count.hits), method},
+                Measurement{"starts", static_cast<double>(count.trials), method});
+}
+
 /// How often DMOC succeeds compared with each kind of collocation, by interior_point. All methods use the same starts;
 /// the interval treats them as independent, which makes it slightly too wide.
 Finding how_often(const ResultTables& tables, const std::string& problem, const char* column) {
@@ -23,28 +29,35 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
   require(dmoc.size() == 1, "cold_start_shares.csv has {} rows of {} by dmoc and interior_point, not one", dmoc.size(),
           problem);
   const ShareCount own = count_of_cold_starts(dmoc.front(), column);
-  std::string words = fmt::format("dmoc {} of {} cold starts", own.hits, own.trials);
+  Finding finding = found(ClaimVerdict::measured, "{} cold starts", share_in_words("dmoc", own));
   for (const std::string method : {"hamiltonian", "tangent"}) {
     const Selection others = midpoint(rows, method).matching(dmoc.front(), {"intervals", "derivatives"});
     require(others.size() == 1, "cold_start_shares.csv has {} rows of {} by {} to compare with dmoc, not one",
             others.size(), problem, method);
     const ShareCount count = count_of_cold_starts(others.front(), column);
     const ShareInterval difference = difference_interval(own, count);
-    words += fmt::format("; {} {} of {}, difference {:+.1f} to {:+.1f} %: {}", method, count.hits, count.trials,
-                         100.0 * difference.lower, 100.0 * difference.upper, in_words(difference));
+    finding.clauses.push_back(
+        worded("{}, difference {:+.1f} to {:+.1f} %: {}", share_in_words(method, count),
+               Measurement{"lower end of DMOC's share less the method's", 100.0 * difference.lower, method, "", "%"},
+               Measurement{"upper end of DMOC's share less the method's", 100.0 * difference.upper, method, "", "%"},
+               in_words(difference)));
   }
   if (tables.has("cold_start_indirect")) {
     const Selection rows_of_indirect = tables.rows("cold_start_indirect").where("problem", problem);
     for (const Row& row : rows_of_indirect) {
-      words += fmt::format(
-          "; the indirect method with costates 0 converges from {} of {} ({:.0f} to {:.0f} %), from {} "
-          "to the best branch",
-          row.needed("converged"), row.needed("starts"), 100.0 * row.needed("converged_lower"),
-          100.0 * row.needed("converged_upper"), row.needed("best"));
+      const auto of_indirect = [&](const char* name, double value, const char* unit = "") {
+        return Measurement{name, value, "indirect", "costates 0", unit};
+      };
+      finding.clauses.push_back(worded(
+          "the indirect method with costates 0 converges from {} of {} ({:.0f} to {:.0f} %), from {} to the best "
+          "branch",
+          of_indirect("converged", row.needed("converged")), of_indirect("starts", row.needed("starts")),
+          of_indirect("lower end of the share converged", 100.0 * row.needed("converged_lower"), "%"),
+          of_indirect("upper end of the share converged", 100.0 * row.needed("converged_upper"), "%"),
+          of_indirect("on the best branch", row.needed("best"))));
     }
   }
-  return found(ClaimVerdict::measured, "{}; 95 % intervals", words)
-      .as_sure_as(fmt::format("95 % of {} starts", own.trials));
+  return std::move(finding).also(worded("95 % intervals")).as_sure_as(fmt::format("95 % of {} starts", own.trials));
 }
 
 Predicate how_often_in(const char* column) {

@@ -38,10 +38,12 @@ Finding equal_with_constraints(const ResultTables& tables, const std::string& /*
     largest = std::max(largest, rows.max(column));
   }
   return found(largest < rounding,
-               "{} grids of {} with {} tableaus, largest relative difference of q, projected p, u and J: {:.0e}; of "
-               "costates {:.0e}{}",
+               "{} grids of {} with {} tableaus, largest relative difference of q, projected p, u and J: {:.0e}",
                rows.size(), fmt::join(rows.distinct("problem"), ", "), rows.group_by({"tableau", "stages"}).size(),
-               largest, rows.max("costate_difference"), left_out(all, rows));
+               Measurement{"largest relative difference of q, p, u and J", largest})
+      .also(worded("of costates {:.0e}",
+                   Measurement{"largest relative difference of the costates", rows.max("costate_difference")}))
+      .also(left_out(all, rows));
 }
 
 Finding momentum_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
@@ -50,12 +52,14 @@ Finding momentum_with_constraints(const ResultTables& tables, const std::string&
   const auto of = [&](const char* method) { return rows.where("method", method); };
   require(!of("dmoc").empty() && !of("hamiltonian").empty() && !of("tangent").empty(),
           "consistency_constrained.csv needs solved rows of three methods");
-  const auto largest = [&](const char* method) { return of(method).max("momentum_defect_max"); };
-  const bool balances = largest("dmoc") < rounding && largest("hamiltonian") < rounding;
+  const auto largest = [&](const char* method) {
+    return Measurement{"largest defect of an interval", of(method).max("momentum_defect_max"), method};
+  };
+  const bool balances = largest("dmoc").value < rounding && largest("hamiltonian").value < rounding;
   // A defect that is rounding on the grids that were solved shows nothing about the others.
-  const ClaimVerdict verdict = !balances                       ? ClaimVerdict::differs
-                               : largest("tangent") > rounding ? ClaimVerdict::reproduced
-                                                               : ClaimVerdict::undecided;
+  const ClaimVerdict verdict = !balances                             ? ClaimVerdict::differs
+                               : largest("tangent").value > rounding ? ClaimVerdict::reproduced
+                                                                     : ClaimVerdict::undecided;
   return found(verdict,
                "largest defect of an interval on {} grids of {}: dmoc {:.0e}, hamiltonian {:.0e}, tangent {:.0e}",
                of("dmoc").size(), fmt::join(rows.distinct("problem"), ", "), largest("dmoc"), largest("hamiltonian"),
@@ -73,7 +77,7 @@ Finding costs_with_constraints(const ResultTables& tables, const std::string& /*
   constexpr double least_order = 3.5;
   const Selection rows = tables.rows("objective_constrained").usable();
   bool agree = true;
-  std::vector<std::string> words;
+  std::vector<Words> words;
   for (const auto& [redundant_name, minimal_name] : statements) {
     const Selection redundant = rows.where("problem", redundant_name).sorted_by("intervals");
     const Selection minimal = rows.where("problem", minimal_name);
@@ -91,10 +95,11 @@ Finding costs_with_constraints(const ResultTables& tables, const std::string& /*
         std::log(at_coarse / at_fine) / std::log(fine.needed("intervals") / coarse.needed("intervals"));
     // What is equal to rounding on the finest grid has no order left.
     agree = agree && at_fine < ten_digits && (order > least_order || at_fine < 0.01 * ten_digits);
-    words.push_back(
-        fmt::format("{} {:.0e} at N = {} (order {:.1f})", redundant_name, at_fine, fine.text("intervals"), order));
+    words.push_back(worded("{} {:.0e} at N = {} (order {:.1f})", redundant_name,
+                           Measurement{"relative difference of the costs", at_fine, "", redundant_name},
+                           fine.text("intervals"), Measurement{"order", order, "", redundant_name}));
   }
-  return found(agree, "relative difference of the optimal costs by three Lobatto stages: {}", fmt::join(words, ", "));
+  return found(agree, "relative difference of the optimal costs by three Lobatto stages: {}", joined(words, ", "));
 }
 
 /// A statement of a problem on the grid of `row`, if it was solved.
@@ -109,7 +114,7 @@ Finding embedding_with_constraints(const ResultTables& tables, const std::string
   constexpr double rounding = 1e-10;
   const Selection rows = tables.rows("objective_forms").usable();
   bool holds = true;
-  std::vector<std::string> words;
+  std::vector<Words> words;
   for (const auto& [redundant_name, minimal_name] : statements) {
     const Selection redundant = rows.where("problem", redundant_name).sorted_by("intervals");
     require(!redundant.empty(), "objective_forms.csv has no solved row of {}", redundant_name);
@@ -125,18 +130,18 @@ Finding embedding_with_constraints(const ResultTables& tables, const std::string
     const Row& embedded = same_grid(rows, std::string(redundant_name) + "_embedded", fine);
     const Row& minimal = same_grid(rows, minimal_name, fine);
     const auto three = [&](const char* column, const char* format) {
-      return fmt::format("{}, {}, {}", fmt::format(fmt::runtime(format), fine.needed(column)),
-                         fmt::format(fmt::runtime(format), embedded.needed(column)),
-                         fmt::format(fmt::runtime(format), minimal.needed(column)));
+      return listed(format, {{column, fine.needed(column), "", redundant_name},
+                             {column, embedded.needed(column), "", redundant_name + std::string("_embedded")},
+                             {column, minimal.needed(column), "", minimal_name}});
     };
-    words.push_back(fmt::format("{} {:.0e} (N = {}: unknowns {}; rows {}; iterations {}; condition {})", redundant_name,
-                                difference, fine.text("intervals"), three("free_variables", "{:.0f}"),
-                                three("constraints", "{:.0f}"), three("major_iterations", "{:.0f}"),
-                                three("condition", "{:.0e}")));
+    words.push_back(worded("{} {:.0e} (N = {}: unknowns {}; rows {}; iterations {}; condition {})", redundant_name,
+                           Measurement{"largest relative difference of the costs", difference, "", redundant_name},
+                           fine.text("intervals"), three("free_variables", "{:.0f}"), three("constraints", "{:.0f}"),
+                           three("major_iterations", "{:.0f}"), three("condition", "{:.0e}")));
   }
   return found(holds,
                "largest relative difference of the costs, then multipliers, embedding and minimal coordinates: {}",
-               fmt::join(words, "; "));
+               joined(words, "; "));
 }
 
 }  // namespace

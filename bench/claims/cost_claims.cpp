@@ -44,7 +44,8 @@ Predicate more_expensive_by(const ExpenseByWay& add_ratios) {
     TimedRatios ratios(more_expensive);
     add_ratios(ratios, ipopt);
     add_ratios(ratios, hamiltonian_ratios(tables, problem, "seconds_per_linear_system"));
-    return judged(ratios, "Hamiltonian to DMOC, time of an iteration by ipopt, of a linear system by interior_point: ");
+    return found_by_times(ratios,
+                          "Hamiltonian to DMOC, time of an iteration by ipopt, of a linear system by interior_point: ");
   };
 }
 
@@ -93,32 +94,36 @@ Finding counts_of_remark(const ResultTables& tables, const std::string& problem)
 Predicate saves_at_equal(const char* quantity) {
   return [=](const ResultTables& tables, const std::string& problem) -> Finding {
     const Selection rows = tables.rows("convergence_equal_accuracy", problem).where("quantity", quantity);
-    std::vector<std::string> words;
+    std::vector<Words> words;
     double smallest = std::numeric_limits<double>::infinity();
     for (const char* method : {"hamiltonian", "tangent"}) {
       const Selection of_method = midpoint(rows, method);
       require(!of_method.empty(), "convergence_equal_accuracy.csv has no {} error of {} that {} and dmoc both reach",
               quantity, problem, method);
       const double least = of_method.min("variables_ratio");
-      words.push_back(fmt::format("{} {:.2f} to {:.2f}", method, least, of_method.max("variables_ratio")));
+      const std::string at = fmt::format("equal {} error", quantity);
+      words.push_back(
+          worded("{} {:.2f} to {:.2f}", method, Measurement{"least ratio of free variables", least, method, at},
+                 Measurement{"largest ratio of free variables", of_method.max("variables_ratio"), method, at}));
       smallest = std::min(smallest, least);
     }
     return found(smallest > more_expensive,
                  "free variables of collocation to DMOC's where the {} error is the same: {}", quantity,
-                 fmt::join(words, ", "));
+                 joined(words, ", "));
   };
 }
 
 /// Iterations and time of whole solves of collocation to DMOC's, where the errors are the same.
 Finding whole_solves(const ResultTables& tables, const std::string& problem) {
-  std::vector<std::string> words;
+  std::vector<Words> words;
   const auto append = [&](const Selection& rows, const std::string& name) {
     for (const char* method : {"hamiltonian", "tangent"}) {
       const Selection ratios = midpoint(rows, method).with_number("ratio_at_equal_accuracy");
       if (ratios.empty()) continue;
-      words.push_back(fmt::format("{} of {} {:.2f} to {:.2f} on {} grids", name, method,
-                                  ratios.min("ratio_at_equal_accuracy"), ratios.max("ratio_at_equal_accuracy"),
-                                  ratios.size()));
+      words.push_back(worded("{} of {} {:.2f} to {:.2f} on {} grids", name, method,
+                             Measurement{"least ratio of " + name, ratios.min("ratio_at_equal_accuracy"), method},
+                             Measurement{"largest ratio of " + name, ratios.max("ratio_at_equal_accuracy"), method},
+                             ratios.size()));
     }
   };
   const Selection counts = tables.rows("iterations_common_ratios", problem);
@@ -131,7 +136,7 @@ Finding whole_solves(const ResultTables& tables, const std::string& problem) {
           "iterations_common_ratios.csv and structure_advantage_ratios.csv have no ratio of {} at equal "
           "accuracy",
           problem);
-  return found(ClaimVerdict::measured, "collocation to DMOC: {}", fmt::join(words, ", "));
+  return found(ClaimVerdict::measured, "collocation to DMOC: {}", joined(words, ", "));
 }
 
 }  // namespace

@@ -95,10 +95,11 @@ ClaimVerdict verdict_on_pairs(const Pairs& pairs) {
 }
 
 /// "0.2 to 2.1": the range of a column over the rows of a back end with exact Hessians.
-std::string range_of(const Selection& rows, const char* derivatives, const std::string& column) {
+Words range_of(const Selection& rows, const char* derivatives, const std::string& column) {
   const Selection measured = rows.where("derivatives", derivatives).where("hessian", "exact").with_number(column);
-  return measured.empty() ? "(not measured)"
-                          : fmt::format("{:.3g} to {:.3g}", measured.min(column), measured.max(column));
+  if (measured.empty()) return worded("(not measured)");
+  return worded("{:.3g} to {:.3g}", Measurement{"least " + column, measured.min(column), "", derivatives},
+                Measurement{"largest " + column, measured.max(column), "", derivatives});
 }
 
 /// All settings together, as one sign test for each pair of rivals; in no setting differences may be better.
@@ -110,7 +111,7 @@ Finding more_robust(const ResultTables& tables, const std::string& problem) {
     names.push_back("second derivatives too, from the guess");
   }
   std::vector<ClaimVerdict> verdicts;
-  std::vector<std::string> words;
+  std::vector<Words> words;
   std::vector<std::string> chances;
   for (const Rivals& rivals : {of_the_paper(settings.front()), of_the_suite}) {
     Pairs all;
@@ -127,32 +128,29 @@ Finding more_robust(const ResultTables& tables, const std::string& problem) {
     verdicts.push_back(verdict_on_pairs(all));
     chances.push_back(fmt::format("{:.1g}", std::min(chance_of(all.exact_alone, all.by_differences_alone),
                                                      chance_of(all.by_differences_alone, all.exact_alone))));
-    words.push_back(fmt::format("programs solved by {} and by {} ({})", rivals.in_words, rivals.differences,
-                                fmt::join(counts, "; ")));
+    words.push_back(
+        worded("programs solved by {} and by {} ({})", rivals.in_words, rivals.differences, fmt::join(counts, "; ")));
   }
   require(!verdicts.empty(), "{}.csv and {}.csv: no program of {} is solved by exact derivatives or by differences",
           quasi_newton, cold, problem);
-  std::string reason = "solves by differences end above the tolerance";
+  Words reason = worded("solves by differences end above the tolerance");
   if (tables.has(cold)) {
     Pairs central;
     central.add(settings.back(), {"tape", "finite_differences", ""});
-    words.push_back(fmt::format("central differences solve {} of {} from the guess, {} of them alone and {} not",
-                                central.by_differences, central.count, central.by_differences_alone,
-                                central.exact_alone));
-    reason += fmt::format(": the error of their Jacobians is {} of the largest entry, and of ADOL-C's {}",
-                          range_of(settings.back(), "dense_differences", "jacobian_error"),
-                          range_of(settings.back(), "adolc_whole", "jacobian_error"));
+    words.push_back(worded("central differences solve {} of {} from the guess, {} of them alone and {} not",
+                           central.by_differences, central.count, central.by_differences_alone, central.exact_alone));
+    reason = worded("{}: the error of their Jacobians is {} of the largest entry, and of ADOL-C's {}", reason,
+                    range_of(settings.back(), "dense_differences", "jacobian_error"),
+                    range_of(settings.back(), "adolc_whole", "jacobian_error"));
   }
-  return found(verdict_on_all(verdicts), "{}", fmt::join(words, "; "))
-      .because(reason)
-      .as_sure_as(
-          fmt::format("sign tests of programs that only one of both solves, chance {}", fmt::join(chances, ", ")));
+  return Finding{.clauses = std::move(words), .verdict = verdict_on_all(verdicts)}.because(reason).as_sure_as(
+      fmt::format("sign tests of programs that only one of both solves, chance {}", fmt::join(chances, ", ")));
 }
 
 /// Adds the ratio of the times by two back ends, round by round the geometric mean over all programs that both solve,
 /// and counts the rows that it leaves out.
-std::string add_ratio(TimedRatios& ratios, const Selection& rows, const std::string& name, const char* slow,
-                      const char* fast) {
+Words add_ratio(TimedRatios& ratios, const Selection& rows, const std::string& name, const char* slow,
+                const char* fast) {
   for (const Row& row : rows) static_cast<void>(row.needed("tolerance"));
   const Selection slower = rows.where("derivatives", slow);
   const Selection faster = rows.where("derivatives", fast).usable();
@@ -171,7 +169,7 @@ std::string add_ratio(TimedRatios& ratios, const Selection& rows, const std::str
 }
 
 /// "12 %": the share of evaluations in the time of solves, where both were measured.
-std::string share_of_evaluations(const Selection& rows, const char* derivatives) {
+Words share_of_evaluations(const Selection& rows, const char* derivatives) {
   double evaluations = 0.0;
   double seconds = 0.0;
   for (const Row& row : rows.where("derivatives", derivatives).usable()) {
@@ -180,15 +178,17 @@ std::string share_of_evaluations(const Selection& rows, const char* derivatives)
     evaluations += *of_row;
     seconds += *row.number("seconds");
   }
-  return seconds > 0.0 ? fmt::format("{:.0f} %", 100.0 * evaluations / seconds) : "(not measured)";
+  if (seconds <= 0.0) return worded("(not measured)");
+  return worded("{:.0f} %",
+                Measurement{"share of evaluations in the time", 100.0 * evaluations / seconds, "", derivatives, "%"});
 }
 
 /// The reason: the cost of a Jacobian.
-std::string costs_of_jacobians(const ResultTables& tables, const std::string& problem) {
-  if (!tables.has(warm)) return "";
+Words costs_of_jacobians(const ResultTables& tables, const std::string& problem) {
+  if (!tables.has(warm)) return {};
   const Selection rows = by_ipopt(tables, warm, problem);
   const auto cost = [&](const char* derivatives) { return range_of(rows, derivatives, "jacobian_over_residual"); };
-  return fmt::format(
+  return worded(
       "a Jacobian costs {} residuals by dense differences, {} by ADOL-C recorded once and {} interval by interval, {} "
       "by structured differences, {} by the tape",
       cost("dense_differences"), cost("adolc_whole"), cost("adolc"), cost("forward_differences"), cost("tape"));
@@ -204,20 +204,21 @@ Finding faster(const ResultTables& tables, const std::string& problem) {
   const Rivals rivals = of_the_paper(settings.front().rows);
   TimedRatios ratios(1.0);
   TimedRatios structured(1.0);
-  std::string unsolved;
+  std::vector<Words> unsolved;
   for (const auto& [rows, name] : settings) {
-    unsolved += add_ratio(ratios, rows, name, rivals.differences, rivals.exact);
+    unsolved.push_back(add_ratio(ratios, rows, name, rivals.differences, rivals.exact));
     static_cast<void>(add_ratio(structured, rows, name, of_the_suite.differences, of_the_suite.exact));
   }
   require(ratios.rounds() > 0, "{}.csv and {}.csv: no program of {} is solved by {} and by {}", quasi_newton, warm,
           problem, rivals.differences, rivals.exact);
-  const std::string aside =
-      structured.rounds() > 0 ? "; by structured differences and by the tape: " + structured.in_words() : "";
-  return judged(ratios,
-                fmt::format("ratio of the times of whole solves by {} and by {}: ", rivals.differences, rivals.exact),
-                aside + unsolved)
-      .because(
-          fmt::format("first derivatives and residuals take {} of the time of a quasi-Newton solve by {}, {} by {}; {}",
+  const Words aside = structured.rounds() > 0
+                          ? worded("by structured differences and by the tape: {}", structured.in_words())
+                          : Words();
+  return found_by_times(ratios, fmt::format("ratio of the times of whole solves by {} and by {}: ", rivals.differences,
+                                            rivals.exact))
+      .also(aside)
+      .also(joined(unsolved, "; "))
+      .because(worded("first derivatives and residuals take {} of the time of a quasi-Newton solve by {}, {} by {}; {}",
                       share_of_evaluations(settings.front().rows, rivals.differences), rivals.differences,
                       share_of_evaluations(settings.front().rows, rivals.exact), rivals.exact,
                       costs_of_jacobians(tables, problem)));
@@ -227,24 +228,24 @@ Finding faster(const ResultTables& tables, const std::string& problem) {
 Finding times_beside_central_differences(const ResultTables& tables, const std::string& problem) {
   const Selection rows = by_ipopt(tables, warm, problem).where("hessian", "exact");
   TimedRatios ratios(1.0);
-  std::string unsolved;
+  std::vector<Words> unsolved;
   for (const auto& [name, exact] :
        {std::pair("the tape", "tape"), std::pair("ADOL-C", "adolc"), std::pair("ADOL-C once", "adolc_whole")}) {
     if (rows.where("derivatives", exact).empty()) continue;
-    unsolved += add_ratio(ratios, rows, name, "finite_differences", exact);
+    unsolved.push_back(add_ratio(ratios, rows, name, "finite_differences", exact));
   }
   require(ratios.rounds() > 0, "{}.csv: no program of {} is solved by central differences and by exact derivatives",
           warm, problem);
   const auto cost = [&](const char* derivatives) { return range_of(rows, derivatives, "hessian_over_residual"); };
-  return found(
-             ClaimVerdict::measured,
-             "solves by central differences over solves by {}; a Hessian costs {} residuals by the tape, {} by ADOL-C "
-             "and {} by ADOL-C once, {} by central differences{}",
-             ratios.in_words(), cost("tape"), cost("adolc"), cost("adolc_whole"), cost("finite_differences"), unsolved)
-      .because(
+  return found(ClaimVerdict::measured, "solves by central differences over solves by {}", ratios.in_words())
+      .also(worded("a Hessian costs {} residuals by the tape, {} by ADOL-C and {} by ADOL-C once, {} by central "
+                   "differences",
+                   cost("tape"), cost("adolc"), cost("adolc_whole"), cost("finite_differences")))
+      .also(joined(unsolved, "; "))
+      .because(worded(
           "a solve takes two or three iterations, in which derivatives take a small part of the time; ADOL-C's "
           "drivers are called once for every interval, or once for the whole program, and the differences cost one "
-          "pass over all intervals per unknown of one interval")
+          "pass over all intervals per unknown of one interval"))
       .as_sure_as("99 % of the medians of rounds");
 }
 

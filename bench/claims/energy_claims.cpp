@@ -28,7 +28,10 @@ double truncation_of(const Row& row) {
 
 ClaimVerdict has_order_of_its_truncation(const Row& row) { return verdict_on_order(row, truncation_of(row)); }
 
-std::string slope_in_words(const Row& row) { return fmt::format("{:.2f}", row.needed("slope")); }
+Words slope_in_words(const Row& row) {
+  return worded("{:.2f}", Measurement{"slope of " + row.text("quantity"), row.needed("slope"), row.text("method"),
+                                      row.text("problem")});
+}
 
 Finding gap_beside_tangent(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("structure_energy_work", problem);
@@ -46,8 +49,9 @@ Finding gap_beside_tangent(const ResultTables& tables, const std::string& proble
           problem);
   const bool is_as_stated = problem == two_link ? most < 1.0 : least > 1.0;
   return found(is_as_stated,
-               "largest |change of energy - work|, ratio of tangent to DMOC: {:.2f} to {:.2f} on {} grids", least, most,
-               dmoc.size());
+               "largest |change of energy - work|, ratio of tangent to DMOC: {:.2f} to {:.2f} on {} grids",
+               Measurement{"least ratio of the gaps", least, "tangent"},
+               Measurement{"largest ratio of the gaps", most, "tangent"}, dmoc.size());
 }
 
 Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*problem*/) {
@@ -60,12 +64,11 @@ Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*
   require(!structured.empty() && !tangent.empty(), "{}.csv needs rows of dmoc and of tangent with a moving mass",
           table);
   const auto stays_at_2 = [](const Row& row) { return verdict_on_order(row, 2.0); };
-  return found(
-      verdict_on_all({verdict_on_all(structured, has_order_of_its_truncation), verdict_on_all(tangent, stays_at_2)}),
-      "slopes of the drift, DMOC and Hamiltonian on {} systems: {}; tangent-space collocation with a moving "
-      "mass: {}",
-      structured.group_by({"problem"}).size(), structured.in_words(", ", slope_in_words),
-      tangent.in_words(", ", slope_in_words));
+  return found(verdict_on_all(
+                   {verdict_on_all(structured, has_order_of_its_truncation), verdict_on_all(tangent, stays_at_2)}),
+               "slopes of the drift, DMOC and Hamiltonian on {} systems: {}", structured.group_by({"problem"}).size(),
+               joined(structured, ", ", slope_in_words))
+      .also(worded("tangent-space collocation with a moving mass: {}", joined(tangent, ", ", slope_in_words)));
 }
 
 Finding balances_modified_work(const ResultTables& tables, const std::string& problem) {
@@ -73,9 +76,9 @@ Finding balances_modified_work(const ResultTables& tables, const std::string& pr
   const Selection dmoc = tables.rows(table, problem).where("method", "dmoc");
   const Selection modified = of_truncations(dmoc, "gap_to_modified_work_", table);
   const Selection plain = of_truncations(dmoc, "gap_to_work_", table);
-  return found(verdict_on_all(modified, has_order_of_its_truncation),
-               "slopes of the gap to the modified work: {}; of the gap to the virtual work: {}",
-               modified.in_words(", ", slope_in_words), plain.in_words(", ", slope_in_words));
+  return found(verdict_on_all(modified, has_order_of_its_truncation), "slopes of the gap to the modified work: {}",
+               joined(modified, ", ", slope_in_words))
+      .also(worded("of the gap to the virtual work: {}", joined(plain, ", ", slope_in_words)));
 }
 
 }  // namespace

@@ -10,8 +10,6 @@ namespace {
 
 /// With four stages errors reach the rounding of double coefficients before they are asymptotic.
 constexpr double most_stages = 3;
-constexpr const char* beyond_most_stages =
-    "; {} slopes with four stages left out, which reach rounding first, in favour of the claim";
 /// Largest momentum defects of 400 steps that are rounding, in double and in long double.
 constexpr double rounding_in_double = 1e-11;
 constexpr double rounding_in_long_double = 1e-14;
@@ -38,17 +36,26 @@ Predicate has_order_of_consistency(const char* one, const char* other) {
     require(!orders.empty(), "consistency_order_slopes.csv has no slope of {} or {} for {}", one, other, problem);
     const auto is_one_more = [](const Row& row) { return verdict_on_order(row, row.needed("order") + 1.0); };
     const auto words = [](const Row& row) {
-      return fmt::format("{} {:.2f} (r = {:g})", row.text("quantity"), row.needed("slope"), row.needed("order"));
+      const std::string& quantity = row.text("quantity");
+      const std::string stages = "gauss " + row.text("stages");
+      return worded("{} {:.2f} (r = {:g})", quantity,
+                    Measurement{"slope of the " + quantity, row.needed("slope"), "", stages},
+                    Measurement{"order r", row.needed("order"), "", stages});
     };
-    return found(verdict_on_all(orders, is_one_more), "slopes over h by Gauss: {}{}", orders.in_words(", ", words),
-                 beyond == 0 ? "" : fmt::format(beyond_most_stages, beyond));
+    return found(verdict_on_all(orders, is_one_more), "slopes over h by Gauss: {}", joined(orders, ", ", words))
+        .also(beyond == 0 ? Words()
+                          : worded("{} slopes with four stages left out, which reach rounding first, in favour of the "
+                                   "claim",
+                                   beyond));
   };
 }
 
-/// The largest defect of tangent-space collocation for comparison, which shows that the simulations can distinguish.
-std::string beside_tangent(const Selection& rows) {
+/// The largest defect of tangent-space collocation for comparison: it is far above rounding, so that the simulations
+/// distinguish a method that keeps the balance from one that does not.
+Words defect_of_tangent(const Selection& rows) {
   const Selection tangent = rows.where("method", "tangent");
-  return tangent.empty() ? "" : fmt::format("; tangent up to {:.1e}", tangent.max("defect"));
+  if (tangent.empty()) return {};
+  return worded("tangent up to {:.1e}", Measurement{"largest defect", tangent.max("defect"), "tangent"});
 }
 
 Selection simulations(const ResultTables& tables, const char* force) {
@@ -71,8 +78,12 @@ Finding forced_noether(const ResultTables& tables, const std::string& /*problem*
   return found(dmoc.max(miss) < rounding_in_double && defect < rounding_in_double &&
                    in_long_double < rounding_in_long_double && least_work > some_work,
                "{} simulations of 400 steps with arbitrary controls: change of momentum less the work of f_d at most "
-               "{:.1e}, at any step {:.1e}, in long double {:.1e}; work at least {:.1e}{}",
-               dmoc.size(), dmoc.max(miss), defect, in_long_double, least_work, beside_tangent(rows));
+               "{:.1e}, at any step {:.1e}, in long double {:.1e}",
+               dmoc.size(), Measurement{"change of momentum less the work", dmoc.max(miss), "dmoc"},
+               Measurement{"largest defect", defect, "dmoc"},
+               Measurement{"largest defect in long double", in_long_double, "dmoc"})
+      .also(worded("work at least {:.1e}", Measurement{"least work", least_work, "dmoc"}))
+      .also(defect_of_tangent(rows));
 }
 
 /// Neither the discrete forces do work nor does the momentum change.
@@ -86,8 +97,12 @@ Finding momentum_preserved(const ResultTables& tables, const std::string& /*prob
   return found(change < rounding_in_double && work < rounding_in_double && defect < rounding_in_double &&
                    in_long_double < rounding_in_long_double,
                "{} simulations of 400 steps with arbitrary controls: momentum changes by at most {:.1e}, forces do the "
-               "work {:.1e} along the group; largest defect {:.1e}, in long double {:.1e}{}",
-               dmoc.size(), change, work, defect, in_long_double, beside_tangent(rows));
+               "work {:.1e} along the group",
+               dmoc.size(), Measurement{"largest change of momentum", change, "dmoc"},
+               Measurement{"largest work", work, "dmoc"})
+      .also(worded("largest defect {:.1e}, in long double {:.1e}", Measurement{"largest defect", defect, "dmoc"},
+                   Measurement{"largest defect in long double", in_long_double, "dmoc"}))
+      .also(defect_of_tangent(rows));
 }
 
 Finding symplectic(const ResultTables& tables, const std::string& /*problem*/) {
@@ -105,7 +120,8 @@ Finding symplectic(const ResultTables& tables, const std::string& /*problem*/) {
   const double tangent = std::max(0.0, rows.where(is_tangent).max(defect));
   return found(structured < within_rounding && tangent > within_rounding,
                "D'ΩD - Ω in units of rounding: DMOC and Hamiltonian at most {:.1f}, tangent-space up to {:.1e}",
-               structured, tangent);
+               Measurement{"largest defect in units of rounding", structured, "dmoc"},
+               Measurement{"largest defect in units of rounding", tangent, "tangent"});
 }
 
 /// Of the continuous flow, to what its integration allows.
@@ -125,11 +141,13 @@ Finding continuous_noether(const ResultTables& tables, const std::string& /*prob
   const double least_work = -along.max([](const Row& row) { return -std::abs(row.needed("work")); });
   const double change = orthogonal.max([](const Row& row) { return std::abs(row.needed("momentum_change")); });
   return found(
-      rows.max(in_tolerances) < within_tolerance && least_work > some_work,
-      "{} motions under smooth controls: change of momentum less the integral of the force at most {:.1e}, the "
-      "integral at least {:.1e} along the group action; with orthogonal forces the momentum changes by at "
-      "most {:.1e}",
-      rows.size(), rows.max(miss), least_work, change);
+             rows.max(in_tolerances) < within_tolerance && least_work > some_work,
+             "{} motions under smooth controls: change of momentum less the integral of the force at most {:.1e}, the "
+             "integral at least {:.1e} along the group action",
+             rows.size(), Measurement{"largest change of momentum less the integral", rows.max(miss)},
+             Measurement{"least integral", least_work})
+      .also(worded("with orthogonal forces the momentum changes by at most {:.1e}",
+                   Measurement{"largest change of momentum", change}));
 }
 
 Finding lagrangian_form(const ResultTables& tables, const std::string& /*problem*/) {
@@ -140,10 +158,12 @@ Finding lagrangian_form(const ResultTables& tables, const std::string& /*problem
     return row.needed("defect") / row.needed("rounding");
   };
   return found(rows.max(defect) < within_rounding,
-               "D'ΩD - Ω over T = {:g} on {} systems: at most {:.1e}, {:.1f} in units of rounding; of the form as "
-               "printed, whose dv^dv vanishes, up to {:.1e}",
-               rows.front().needed("horizon"), rows.size(), rows.max("defect"), rows.max(defect),
-               rows.max("printed_change"));
+               "D'ΩD - Ω over T = {:g} on {} systems: at most {:.1e}, {:.1f} in units of rounding",
+               Measurement{"horizon", rows.front().needed("horizon")}, rows.size(),
+               Measurement{"largest defect", rows.max("defect")},
+               Measurement{"largest defect in units of rounding", rows.max(defect)})
+      .also(worded("of the form as printed, whose dv^dv vanishes, up to {:.1e}",
+                   Measurement{"largest change of the form as printed", rows.max("printed_change")}));
 }
 
 Finding energy_oscillates(const ResultTables& tables, const std::string& /*problem*/) {
@@ -161,11 +181,14 @@ Finding energy_oscillates(const ResultTables& tables, const std::string& /*probl
                         : std::abs(row.needed("change")) > drifts * oscillation;
   };
   const auto words = [](const Row& row) {
-    return fmt::format("{} of order {}: oscillation {:.1e}, change {:.1e}", row.text("method"), row.text("order"),
-                       row.needed("oscillation"), std::abs(row.needed("change")));
+    const std::string& method = row.text("method");
+    const std::string order = "order " + row.text("order");
+    return worded("{} of {}: oscillation {:.1e}, change {:.1e}", method, order,
+                  Measurement{"oscillation of the energy", row.needed("oscillation"), method, order},
+                  Measurement{"change of the energy", std::abs(row.needed("change")), method, order});
   };
   return found(std::ranges::all_of(rows, is_as_stated), "eccentric Kepler orbit over 10000 periods: {}",
-               rows.in_words("; ", words));
+               joined(rows, "; ", words));
 }
 
 }  // namespace

@@ -56,15 +56,18 @@ Predicate have_the_order_of_spaces(std::string table, bool (*is_meant)(const Spa
     const ClaimVerdict of_fitted =
         verdict_on_all(fitted, [](const Row& row) { return verdict_on_order(row, expected_order_of(row)); });
     const bool are_few = 2 * fitted.size() < rows.size();
-    const std::string words = rows.in_words("; ", [](const Row& row) {
-      const std::string order = is_fitted(row)                   ? fmt::format("{:.2f}", row.needed("slope"))
-                                : row.text("verdict") == "slope" ? "not asymptotic"
-                                                                 : row.text("verdict");
-      return fmt::format("{} r = {} {} {}", row.text("method"), row.text("stages"), row.text("quantity"), order);
-    });
+    const auto order_in_words = [](const Row& row) {
+      const std::string& quantity = row.text("quantity");
+      const std::string points = "r = " + row.text("stages");
+      const Words order = is_fitted(row)
+                              ? worded("{:.2f}", Measurement{"slope of the " + quantity, row.needed("slope"),
+                                                             row.text("method"), points})
+                              : worded("{}", row.text("verdict") == "slope" ? "not asymptotic" : row.text("verdict"));
+      return worded("{} {} {} {}", row.text("method"), points, quantity, order);
+    };
     return found(are_few && of_fitted == ClaimVerdict::reproduced ? ClaimVerdict::floor : of_fitted,
-                 "slopes against the indirect solution: {}{}", words,
-                 unsolved_behind(tables, table, {{"problem", problem}}));
+                 "slopes against the indirect solution: {}", joined(rows, "; ", order_in_words))
+        .also(unsolved_behind(tables, table, {{"problem", problem}}));
   };
 }
 
@@ -88,7 +91,8 @@ Finding galerkin_is_dmoc(const ResultTables& tables, const std::string& problem)
   require(pairs > 0, "convergence_galerkin.csv has no solve of {} by dmoc and by galerkin with r = s = m", problem);
   return found(std::max(of_cost, of_state) < equal_solutions,
                "of {} pairs of solves, largest relative difference of the cost {:.1e}, of the errors of q {:.1e}",
-               pairs, of_cost, of_state);
+               pairs, Measurement{"largest relative difference of the cost", of_cost},
+               Measurement{"largest difference of the errors of q", of_state});
 }
 
 /// The change of momentum less the work of the forces, relative to the largest force or absolute.
@@ -100,8 +104,9 @@ Finding galerkin_keeps_momentum(const ResultTables& tables, const std::string& p
   const double largest = rows.max(
       [](const Row& row) { return row.needed("momentum_defect_max") / std::max(1.0, row.needed("largest_force")); });
   return found(largest < rounding_of_balance,
-               "largest defect of an interval in {} solves with {} pairs of s and m: {:.1e}{}", rows.size(),
-               rows.group_by({"method"}).size(), largest, left_out(all, rows));
+               "largest defect of an interval in {} solves with {} pairs of s and m: {:.1e}", rows.size(),
+               rows.group_by({"method"}).size(), Measurement{"largest defect of an interval", largest})
+      .also(left_out(all, rows));
 }
 
 }  // namespace

@@ -33,12 +33,15 @@ Predicate is_of_order_two(const std::string& solves, const char* quantity) {
       orders.append(order);
     }
     const auto words = [](const Row& row) {
-      return fmt::format("{} {:.3f} +- {:.3f} (N = {:g} to {:g})", row.text("method"), row.needed("slope"),
-                         row.needed("standard_error"), row.needed("coarsest"), row.needed("finest"));
+      const std::string& method = row.text("method");
+      return worded("{} {:.3f} +- {:.3f} (N = {:g} to {:g})", method, Measurement{"slope", row.needed("slope"), method},
+                    Measurement{"standard error of the slope", row.needed("standard_error"), method},
+                    Measurement{"coarsest grid of the fit", row.needed("coarsest"), method},
+                    Measurement{"finest grid of the fit", row.needed("finest"), method});
     };
     const auto is_two = [](const Row& row) { return verdict_on_order(row, 2.0, near_predicted_order); };
-    return found(verdict_on_all(orders, is_two), "slopes {}{}", orders.in_words(", ", words),
-                 unsolved_behind(tables, solves, {{"problem", problem}, {"tableau", "gauss"}, {"stages", "1"}}));
+    return found(verdict_on_all(orders, is_two), "slopes {}", joined(orders, ", ", words))
+        .also(unsolved_behind(tables, solves, {{"problem", problem}, {"tableau", "gauss"}, {"stages", "1"}}));
   };
 }
 
@@ -60,10 +63,10 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
   const auto error = [&](const Row& row) { return std::abs(row.needed("objective") - optimum); };
   Selection used;  // of DMOC, where all are solved
   double difference = 0.0;
-  std::vector<std::string> ratios;
+  std::vector<Measurement> ratios;
   bool are_equal = true;
   std::size_t at_floor = 0;
-  std::string reason;
+  Words reason;
   const Row* coarser = nullptr;
   for (const Row& row : dmoc) {
     const Selection hamiltonian = midpoint(rows, "hamiltonian").usable().matching(row, {"intervals"});
@@ -77,24 +80,24 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
     }
     if (coarser != nullptr &&
         (coarser->needed("objective") > optimum) != (tangent.front().needed("objective") > optimum)) {
-      reason = fmt::format("the error of tangent changes its sign between N = {} and {}", coarser->text("intervals"),
-                           tangent.front().text("intervals"));
+      reason = worded("the error of tangent changes its sign between N = {} and {}", coarser->text("intervals"),
+                      tangent.front().text("intervals"));
     }
     coarser = &tangent.front();
     const double ratio = error(tangent.front()) / error(row);
     are_equal = are_equal && ratio < equally_well && ratio > 1.0 / equally_well;
-    ratios.push_back(fmt::format("{:.2f}", ratio));
+    ratios.push_back({"error of tangent over error of dmoc", ratio, "tangent", "N = " + row.text("intervals")});
   }
   require(used.size() > 1, "objective.csv has {} grids of {} solved by all three methods; two are needed", used.size(),
           problem);
   const bool is_identical = difference < identical_costs;
   const ClaimVerdict verdict = ratios.empty() ? ClaimVerdict::floor : verdict_on(is_identical && are_equal);
-  return found(
-             verdict,
-             "J of dmoc and hamiltonian differ by {:.0e} relative; error of tangent over error of dmoc, N = {} to {}: "
-             "{}; {} grids at the rounding of J left out{}",
-             difference, used.front().text("intervals"), used.back().text("intervals"), fmt::join(ratios, ", "),
-             at_floor, left_out(dmoc, used, "not solved by all, in favour of"))
+  return found(verdict, "J of dmoc and hamiltonian differ by {:.0e} relative",
+               Measurement{"relative difference of J", difference, "hamiltonian"})
+      .also(worded("error of tangent over error of dmoc, N = {} to {}: {}", used.front().text("intervals"),
+                   used.back().text("intervals"), listed("{:.2f}", ratios)))
+      .also(worded("{} grids at the rounding of J left out", at_floor))
+      .also(left_out(dmoc, used, "not solved by all, in favour of"))
       .because(reason);
 }
 
@@ -114,10 +117,12 @@ Finding variable_ratio(const ResultTables& tables, const std::string& problem) {
     return std::abs(ratio_to_dmoc(row) - stated) < nodes_at_the_ends / dmoc.needed("intervals");
   };
   const auto in_words = [&](const Row& row) {
-    return fmt::format("{:.4f} of {}", ratio_to_dmoc(row), row.text("method"));
+    const std::string& method = row.text("method");
+    return worded("{:.4f} of {}",
+                  Measurement{"free variables of DMOC over those of the method", ratio_to_dmoc(row), method}, method);
   };
   return found(std::ranges::all_of(collocation, is_as_stated), "free variables at N = {}: {}", dmoc.text("intervals"),
-               collocation.in_words(", ", in_words));
+               joined(collocation, ", ", in_words));
 }
 
 Finding reference_step(const ResultTables& tables, const std::string& problem) {
@@ -127,7 +132,8 @@ Finding reference_step(const ResultTables& tables, const std::string& problem) {
   const Selection grid = midpoint(tables.rows("convergence", problem), "dmoc").usable().where("intervals", intervals);
   require(!grid.empty(), "convergence.csv: {} by dmoc is not solved at N = {}", problem, intervals);
   const double step = grid.front().needed("step");
-  return found(std::abs(step - (is_orbit ? 2.9e-3 : 1.9e-3)) < last_digit, "h = {:.4e} {}", step,
+  return found(std::abs(step - (is_orbit ? 2.9e-3 : 1.9e-3)) < last_digit, "h = {:.4e} {}",
+               Measurement{"h", step, "dmoc", std::string("N = ") + intervals, is_orbit ? "h" : "s"},
                is_orbit ? "h" : "s (1.9 if cut, 2.0 if rounded)");
 }
 

@@ -32,12 +32,14 @@ PublishedRange published_range(const std::string& problem) {
 /// Ratios of collocation to DMOC on all grids that count and that both solve.
 struct SqpRatios {
   PublishedRange range;
-  Selection all;                    ///< rows of all methods on these grids
-  Selection used;                   ///< the rows with a ratio
-  std::vector<double> ratios;       ///< of every grid and kind of collocation
-  std::vector<std::string> majors;  ///< major iterations of DMOC and collocation, where the table has them
+  std::string quantity;        ///< the column
+  Selection all;               ///< rows of all methods on these grids
+  Selection used;              ///< the rows with a ratio
+  std::vector<double> ratios;  ///< of every grid and kind of collocation
+  std::vector<Words> majors;   ///< major iterations of DMOC and collocation, where the table has them
 
-  SqpRatios(const Selection& rows, const std::string& column, const PublishedRange& published) : range(published) {
+  SqpRatios(const Selection& rows, const std::string& column, const PublishedRange& published)
+      : range(published), quantity(column) {
     const Selection solves =
         rows.where([&](const Row& row) { return is_midpoint(row) && row.needed("intervals") >= range.coarsest; });
     for (const Row& dmoc : solves.where("method", "dmoc")) {
@@ -50,8 +52,8 @@ struct SqpRatios {
         ratios.push_back(quotient(other.front(), dmoc, column));
         append(used, dmoc);
         used.append(other.front());
-        majors.push_back(fmt::format("{} {}/{} at N = {}", method, other.front().text("major_iterations"),
-                                     dmoc.text("major_iterations"), dmoc.text("intervals")));
+        majors.push_back(worded("{} {}/{} at N = {}", method, other.front().text("major_iterations"),
+                                dmoc.text("major_iterations"), dmoc.text("intervals")));
       }
     }
     require(grids() > 1,
@@ -68,12 +70,15 @@ struct SqpRatios {
     if (inside == std::ssize(ratios)) return ClaimVerdict::reproduced;
     return inside == 0 ? ClaimVerdict::differs : ClaimVerdict::undecided;
   }
-  [[nodiscard]] std::string in_words() const {
+  /// `at` is the case that the ratios are of.
+  [[nodiscard]] Words in_words(const std::string& at) const {
     const Selection by_grid = used.sorted_by("intervals");
-    return fmt::format("{:.3f} to {:.3f} ({} ratios on {} grids, N = {} to {}){}", lowest(), highest(), ratios.size(),
-                       grids(), by_grid.front().text("intervals"), by_grid.back().text("intervals"),
-                       left_out(all, used, "not solved by both, in favour of"));
+    return worded("{:.3f} to {:.3f} ({} ratios on {} grids, N = {} to {})",
+                  Measurement{"lowest ratio of " + quantity, lowest(), "", at},
+                  Measurement{"highest ratio of " + quantity, highest(), "", at}, ratios.size(), grids(),
+                  by_grid.front().text("intervals"), by_grid.back().text("intervals"));
   }
+  [[nodiscard]] Words rows_left_out() const { return left_out(all, used, "not solved by both, in favour of"); }
 
  private:
   static void append(Selection& rows, const Row& row) {
@@ -96,23 +101,30 @@ Selection sqp_rows(const ResultTables& tables, const std::string& problem, const
 Finding minor_iterations_from_slacks(const ResultTables& tables, const std::string& problem) {
   const SqpRatios ratios(sqp_rows(tables, problem, "none"), "minor_iterations", published_range(problem));
   std::vector<ClaimVerdict> verdicts{ratios.verdict()};
-  std::string words = ratios.in_words();
+  std::vector<Words> others;
   if (tables.has("iterations_tolerances")) {
     const Selection rows = tables.rows("iterations_tolerances", problem).where("solver", "sqp").where("crash", "none");
     for (const Selection& solves : rows.group_by({"tolerance"})) {
-      const SqpRatios others(solves, "minor_iterations", published_range(problem));
-      words += fmt::format("; to the tolerance {}: {}", solves.front().text("tolerance"), others.in_words());
-      verdicts.push_back(others.verdict());
+      const SqpRatios looser(solves, "minor_iterations", published_range(problem));
+      const std::string tolerance = "tolerance " + solves.front().text("tolerance");
+      others.push_back(worded("to the {}: {}", tolerance, looser.in_words(tolerance)));
+      others.push_back(looser.rows_left_out());
+      verdicts.push_back(looser.verdict());
     }
   }
-  return found(verdict_on_all(verdicts), "from the slack basis, collocation to DMOC {}", words);
+  Finding finding =
+      found(verdict_on_all(verdicts), "from the slack basis, collocation to DMOC {}", ratios.in_words("slack basis"))
+          .also(ratios.rows_left_out());
+  for (Words& clause : others) finding = std::move(finding).also(std::move(clause));
+  return finding;
 }
 
 /// From a basis chosen for free the saving shrinks below the published factor, on every grid.
 Finding minor_iterations_from_a_crash_basis(const ResultTables& tables, const std::string& problem) {
   const SqpRatios ratios(sqp_rows(tables, problem, "basis"), "minor_iterations", published_range(problem));
   return found(verdict_on_interval(ratios.lowest(), ratios.highest(), 0.0, ratios.range.lowest),
-               "with the first basis chosen for free, collocation to DMOC {}", ratios.in_words());
+               "with the first basis chosen for free, collocation to DMOC {}", ratios.in_words("free basis"))
+      .also(ratios.rows_left_out());
 }
 
 Finding minor_iterations_equal_variables(const ResultTables& tables, const std::string& problem) {
@@ -125,16 +137,18 @@ Finding minor_iterations_equal_variables(const ResultTables& tables, const std::
   const SqpRatios minors(rows, "minor_iterations", range);
   const SqpRatios variables(rows, "free_variables", range);
   return found(std::cmp_equal(exact, solved.size()) && reflects(minors, variables),
-               "minor iterations = free variables + major iterations - 1 in {} of {} rows{}; free variables {}", exact,
-               solved.size(), left_out(all, solved), variables.in_words());
+               "minor iterations = free variables + major iterations - 1 in {} of {} rows", exact, solved.size())
+      .also(left_out(all, solved))
+      .also(worded("free variables {}", variables.in_words("")))
+      .also(variables.rows_left_out());
 }
 
 /// Ratios of the minor iterations of collocation to DMOC's with quasi-Newton updates of one first matrix, from the
 /// guess and from a common start, as far as both have enough usable rows.
 struct QuasiNewtonRatios {
   std::vector<ClaimVerdict> verdicts;
-  std::vector<std::string> words;
-  std::vector<std::string> majors;
+  std::vector<Words> words;
+  std::vector<Words> majors;
 
   QuasiNewtonRatios(const ResultTables& tables, const std::string& problem, const std::string& table) {
     for (const auto& [name, start] : {std::pair(table, "from the guess"), std::pair(table + "_common",
@@ -145,53 +159,57 @@ struct QuasiNewtonRatios {
         const Selection rows = tables.rows(name, problem).where("solver", "sqp").where("crash", "none");
         const SqpRatios ratios(rows, "minor_iterations", published_range(problem));
         verdicts.push_back(ratios.verdict());
-        words.push_back(fmt::format("{} {}", start, ratios.in_words()));
-        majors.push_back(fmt::format("{} {}", start, fmt::join(ratios.majors, ", ")));
+        words.push_back(worded("{} {}", start, ratios.in_words(start)));
+        words.push_back(ratios.rows_left_out());
+        majors.push_back(worded("{} {}", start, joined(ratios.majors, ", ")));
       } catch (const Error& lacking) {
-        words.push_back(fmt::format("{} not judged ({})", start, lacking.what()));
+        words.push_back(worded("{} not judged ({})", start, lacking.what()));
       }
     }
     require(!verdicts.empty(), "{}.csv: {}", table,
-            words.empty() ? "there is no such table" : fmt::format("{}", fmt::join(words, "; ")));
+            words.empty() ? "there is no such table" : joined(words, "; ").text);
   }
 };
 
 /// With quasi-Newton updates, as the SQP methods of the paper have them.
 Finding minor_iterations_by_quasi_newton(const ResultTables& tables, const std::string& problem) {
   const QuasiNewtonRatios ratios(tables, problem, "iterations_limited_memory_by_cost");
-  return found(verdict_on_all(ratios.verdicts), "collocation to DMOC {}", fmt::join(ratios.words, "; "))
-      .because(fmt::format("major iterations of collocation and DMOC: {}", fmt::join(ratios.majors, "; ")));
+  return found(verdict_on_all(ratios.verdicts), "collocation to DMOC {}", joined(ratios.words, "; "))
+      .because(worded("major iterations of collocation and DMOC: {}", joined(ratios.majors, "; ")));
 }
 
 /// The same where the unknowns are taken in the units in which they come.
 Finding minor_iterations_by_updates_of_the_identity(const ResultTables& tables, const std::string& problem) {
   const QuasiNewtonRatios ratios(tables, problem, "iterations_limited_memory");
-  return found(ClaimVerdict::measured, "collocation to DMOC {}; major iterations of collocation and DMOC {}",
-               fmt::join(ratios.words, "; "), fmt::join(ratios.majors, "; "));
+  return found(ClaimVerdict::measured, "collocation to DMOC {}", joined(ratios.words, "; "))
+      .also(worded("major iterations of collocation and DMOC {}", joined(ratios.majors, "; ")));
 }
 
 /// SLSQP does not report minor iterations. Its steps are counted by its evaluations.
 Finding evaluations_by_slsqp(const ResultTables& tables, const std::string& problem) {
-  std::vector<std::string> words;
+  std::vector<Words> words;
   for (const auto& [table, start] :
        {std::pair("iterations_slsqp", "from the guess"), std::pair("iterations_slsqp_common", "from a common start")}) {
     if (!tables.has(table)) continue;
     const Selection rows = tables.rows(table, problem).where("solver", "nlopt");
     try {
-      words.push_back(fmt::format("{} {}", start, SqpRatios(rows, "evaluations", {}).in_words()));
+      const SqpRatios ratios(rows, "evaluations", {});
+      words.push_back(worded("{} {}", start, ratios.in_words(start)));
+      words.push_back(ratios.rows_left_out());
     } catch (const Error& lacking) {
-      words.push_back(fmt::format("{} too few ({})", start, lacking.what()));
+      words.push_back(worded("{} too few ({})", start, lacking.what()));
     }
   }
   require(!words.empty(), "there is no iterations_slsqp.csv");
-  return found(ClaimVerdict::measured, "evaluations, collocation to DMOC {}", fmt::join(words, "; "));
+  return found(ClaimVerdict::measured, "evaluations, collocation to DMOC {}", joined(words, "; "));
 }
 
 /// With active bounds: the ratio of collocation's minor iterations to DMOC's, next to the ratio of the numbers of
 /// variables that they should reflect.
 Finding minor_iterations_with_active_bounds(const ResultTables& tables, const std::string& /*problem*/) {
   const PublishedRange all_grids;
-  std::vector<std::string> words;
+  std::size_t problems = 0;
+  std::vector<Words> words;
   bool holds = true;
   for (const Selection& solves :
        tables.rows("iterations_bounds").where("solver", "sqp").where("crash", "none").group_by({"problem"})) {
@@ -202,12 +220,16 @@ Finding minor_iterations_with_active_bounds(const ResultTables& tables, const st
     const SqpRatios minors(solves, "minor_iterations", all_grids);
     const SqpRatios variables(solves, "free_variables", all_grids);
     holds = holds && reflects(minors, variables);
-    words.push_back(fmt::format("{} {:.2f} to {:.2f} with {:.2f} to {:.2f} times the variables{}", problem,
-                                minors.lowest(), minors.highest(), variables.lowest(), variables.highest(),
-                                left_out(minors.all, minors.used, "not solved by both, in favour of")));
+    ++problems;
+    words.push_back(worded("{} {:.2f} to {:.2f} with {:.2f} to {:.2f} times the variables", problem,
+                           Measurement{"lowest ratio of minor_iterations", minors.lowest(), "", problem},
+                           Measurement{"highest ratio of minor_iterations", minors.highest(), "", problem},
+                           Measurement{"lowest ratio of free_variables", variables.lowest(), "", problem},
+                           Measurement{"highest ratio of free_variables", variables.highest(), "", problem}));
+    words.push_back(minors.rows_left_out());
   }
-  require(words.size() > 1, "iterations_bounds.csv needs several problems by sqp from the slack basis");
-  return found(holds, "from the slack basis, collocation to DMOC: {}", fmt::join(words, "; "));
+  require(problems > 1, "iterations_bounds.csv needs several problems by sqp from the slack basis");
+  return found(holds, "from the slack basis, collocation to DMOC: {}", joined(words, "; "));
 }
 
 }  // namespace

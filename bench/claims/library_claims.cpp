@@ -22,18 +22,20 @@ Selection shared_minima(const Selection& minima) {
 }
 
 /// In how many problems of the library cold starts end in several minima, as far as cold starts of it are there.
-std::string in_library(const ResultTables& tables) {
-  if (!tables.has("cold_start_shares")) return "";
+Words in_library(const ResultTables& tables) {
+  if (!tables.has("cold_start_shares")) return {};
   std::size_t several = 0;
   std::size_t all = 0;
   for (const Selection& starts : tables.rows("cold_start_shares").where("start_kind", "cold").group_by({"problem"})) {
     ++all;
     several += std::ranges::any_of(starts, [](const Row& row) { return row.number("elsewhere", 0.0) > 0.0; }) ? 1 : 0;
   }
-  if (all == 0) return "";
+  if (all == 0) return {};
   const ShareInterval share = wilson_interval({.hits = several, .trials = all});
-  return fmt::format("; of {} cold starts also end elsewhere than on the best branch on {} ({:.0f} to {:.0f} %)",
-                     counted(all, "problem"), several, 100.0 * share.lower, 100.0 * share.upper);
+  return worded("of {} cold starts also end elsewhere than on the best branch on {} ({:.0f} to {:.0f} %)",
+                counted(all, "problem"), several,
+                Measurement{"lower end of the share of problems", 100.0 * share.lower, "", "cold starts", "%"},
+                Measurement{"upper end of the share of problems", 100.0 * share.upper, "", "cold starts", "%"});
 }
 
 /// "Different initial guesses can lead to different solutions": reproduced if one of the paper's problems has a second
@@ -43,7 +45,7 @@ Finding local_minima(const ResultTables& tables, const std::string& /*problem*/)
   const Selection rows = tables.rows("local_minima_minima");
   bool are_several = false;
   bool are_enough = true;
-  std::vector<std::string> words;
+  std::vector<Words> words;
   for (const std::string& problem : of_paper) {
     const Selection minima = tables.rows("local_minima_minima", problem);
     const Selection shared = shared_minima(minima);
@@ -52,17 +54,19 @@ Finding local_minima(const ResultTables& tables, const std::string& /*problem*/)
     for (const Row& row : shares) starts += row.needed("solved");
     are_several = are_several || shared.size() > 1;
     are_enough = are_enough && starts >= enough_starts;
-    const auto objective = [](const Row& row) { return fmt::format("{:.5g}", row.needed("objective")); };
-    words.push_back(fmt::format(
-        "{}: {:g} solved starts end in {} minima that are motions, {} of them by more than one method, J = {}; not "
-        "counted: {} artefacts of the grid",
-        problem, starts, minima.where("is_motion", "yes").size(), shared.size(),
-        shared.empty() ? "(none)" : shared.in_words(", ", objective), minima.where("is_motion", "no").size()));
+    const auto objective = [&](const Row& row) {
+      return worded("{:.5g}", Measurement{"cost of a minimum", row.needed("objective"), "", problem});
+    };
+    words.push_back(
+        worded("{}: {:g} solved starts end in {} minima that are motions, {} of them by more than one method, J = {}",
+               problem, Measurement{"solved starts", starts, "", problem}, minima.where("is_motion", "yes").size(),
+               shared.size(), shared.empty() ? worded("(none)") : joined(shared, ", ", objective)));
+    words.push_back(worded("not counted: {} artefacts of the grid", minima.where("is_motion", "no").size()));
   }
   require(are_several || are_enough,
           "local_minima_shares.csv: a problem has less than {:g} solved starts, without a second minimum among them",
           enough_starts);
-  return found(are_several, "{}{}", fmt::join(words, "; "), in_library(tables));
+  return Finding{.clauses = std::move(words), .verdict = verdict_on(are_several)}.also(in_library(tables));
 }
 
 /// Throws `Error` if some of the rows have a measure and others do not. Some solvers never report one.
@@ -80,10 +84,10 @@ Predicate dmoc_best_by(const std::string& measure) {
     require(!successes.empty(), "profile.csv has no success among its {}", counted(rows.size(), "row"));
     for (const Row& row : successes) static_cast<void>(row.needed("objective"));
     const auto wins_in_words = [&](const Row& row) {
-      return fmt::format("{} {} {}: best on {}, solves {}", row.text("method"), row.text("tableau"), row.text("stages"),
-                         row.text(wins), row.text("successes"));
+      return worded("{} {} {}: best on {}, solves {}", row.text("method"), row.text("tableau"), row.text("stages"),
+                    row.text(wins), row.text("successes"));
     };
-    std::string measured = fmt::format("by {}, methods compared within one solver", measure);
+    Finding finding = found(true, "by {}, methods compared within one solver", measure);
     bool holds = true;
     for (const Selection& solves : rows.group_by({"solver"})) {
       require_told(solves.where("success", "yes"), measure);
@@ -92,11 +96,11 @@ Predicate dmoc_best_by(const std::string& measure) {
       const auto is_dmoc = [](const Row& row) { return row.text("method") == "dmoc"; };
       const auto most_wins = [&](const Selection& competitors) { return std::max(0.0, competitors.max(wins)); };
       holds = holds && most_wins(summary.where(is_dmoc)) > most_wins(summary.where(std::not_fn(is_dmoc)));
-      measured +=
-          fmt::format("; {}, {} instances: ", solves.front().text("solver"), summary.front().text("instances")) +
-          summary.in_words(", ", wins_in_words);
+      finding.clauses.push_back(worded("{}, {} instances: {}", solves.front().text("solver"),
+                                       summary.front().text("instances"), joined(summary, ", ", wins_in_words)));
     }
-    return found(holds, "{}", measured);
+    finding.verdict = verdict_on(holds);
+    return finding;
   };
 }
 
@@ -133,11 +137,12 @@ Finding saving_lost_by_short_steps(const ResultTables& tables, const std::string
   }
   require(!lost.empty(), "profile_three_stages.csv: of {} pairs none loses the saving", pairs);
   return found(lost_by_full_steps == 0,
-               "{} pairs with equal costs: DMOC takes {:.2f} times the iterations (geometric mean); on {} of them it "
-               "evaluates more often per iteration; the saving is lost on {}, on {} of these without more evaluations "
-               "per iteration: {}",
-               pairs, std::exp(sum / static_cast<double>(pairs)), shortened, lost.size(), lost_by_full_steps,
-               fmt::join(lost, ", "));
+               "{} pairs with equal costs: DMOC takes {:.2f} times the iterations (geometric mean)", pairs,
+               Measurement{"iterations over Hamiltonian collocation's", std::exp(sum / static_cast<double>(pairs)),
+                           "dmoc"})
+      .also(worded("on {} of them it evaluates more often per iteration", shortened))
+      .also(worded("the saving is lost on {}, on {} of these without more evaluations per iteration: {}", lost.size(),
+                   lost_by_full_steps, fmt::join(lost, ", ")));
 }
 
 }  // namespace

@@ -47,10 +47,11 @@ Selection fitted_of(const Selection& orders) {
 }
 
 /// The rows missing from the orders: orders without a fit, and solves that no fit could use.
-std::string not_in(const Selection& orders, const ResultTables& tables, const std::string& problem) {
-  return left_out(orders, fitted_of(orders),
-                  "without a fit (few grids above rounding, or no four that agree), in favour of the claim:") +
-         unsolved_behind(tables, "convergence_indirect", {{"problem", problem}});
+Words not_in(const Selection& orders, const ResultTables& tables, const std::string& problem) {
+  return joined({left_out(orders, fitted_of(orders),
+                          "without a fit (few grids above rounding, or no four that agree), in favour of the claim:"),
+                 unsolved_behind(tables, "convergence_indirect", {{"problem", problem}})},
+                "; ");
 }
 
 /// Throws `Error` unless there is an order of every quantity, by both methods and every tableau that is there at all.
@@ -77,24 +78,26 @@ void require_solved_schemes(const Selection& orders, const ResultTables& tables,
 }
 
 /// DMOC's orders by tableau: "gauss 2 (order 4): state 4.02, costate floor; ...".
-std::string in_words(const Selection& orders) {
+Words in_words(const Selection& orders) {
   std::map<std::pair<double, std::string>, Selection> tableaus;
   for (const Row& row : orders.where("method", "dmoc")) {
     tableaus[{expected_order(row), row.text("tableau") + " " + row.text("stages")}].append(row);
   }
-  std::string words;
+  std::vector<Words> all;
   for (const auto& [order_and_tableau, rows] : tableaus) {
     const auto& [expected, tableau] = order_and_tableau;
-    words += fmt::format("{}{} (order {:g}): ", words.empty() ? "" : "; ", tableau, expected);
-    words += rows.in_words(", ", [](const Row& row) {
+    const auto order_of_row = [&](const Row& row) {
+      const std::string& quantity = row.text("quantity");
       const auto order = fitted_order(row);
-      const std::string range =
-          fmt::format(" (N = {} to {}, {})", row.text("coarsest"), row.text("finest"), row.text("fine_end"));
-      const std::string none = row.text("verdict") == "slope" ? "unsteady" : row.text("verdict");
-      return row.text("quantity") + " " + (order ? fmt::format("{:.2f}", *order) + range : none);
-    });
+      if (!order) return worded("{} {}", quantity, row.text("verdict") == "slope" ? "unsteady" : row.text("verdict"));
+      return worded("{} {:.2f} (N = {} to {}, {})", quantity,
+                    Measurement{"slope of the " + quantity, *order, "dmoc", tableau}, row.text("coarsest"),
+                    row.text("finest"), row.text("fine_end"));
+    };
+    all.push_back(worded("{} (order {:g}): {}", tableau, Measurement{"expected order", expected, "dmoc", tableau},
+                         joined(rows, ", ", order_of_row)));
   }
-  return words;
+  return joined(all, "; ");
 }
 
 /// Whether orders are as expected, if other things hold too; `floor` if less than half of them could be fitted, or if
@@ -121,8 +124,8 @@ Finding order_of_convergence(const ResultTables& tables, const std::string& prob
   require_all(orders, quantities);
   const ClaimVerdict verdict = verdict_on_orders(orders);
   if (verdict == ClaimVerdict::reproduced) require_solved_schemes(orders, tables, problem);
-  return found(verdict, "slopes of DMOC against the indirect solution: {}{}", in_words(orders),
-               not_in(orders, tables, problem));
+  return found(verdict, "slopes of DMOC against the indirect solution: {}", in_words(orders))
+      .also(not_in(orders, tables, problem));
 }
 
 Finding order_of_adjoint_scheme(const ResultTables& tables, const std::string& problem) {
@@ -139,9 +142,12 @@ Finding order_of_adjoint_scheme(const ResultTables& tables, const std::string& p
   const double plain = lobatto.min("adjoint_residual_by_plain_coefficients");
   return found(verdict_on_orders(orders, residual < rounding_of_costates && plain > far_above_rounding),
                "multipliers of {} solves, carried to costates, leave at most {:.1e} of the costates in it (Lobatto, "
-               "halves not exchanged: at least {:.1e}){}; slopes of DMOC's costate: {}{}",
-               solves.size(), residual, plain, left_out(all, solves), in_words(orders),
-               not_in(orders, tables, problem));
+               "halves not exchanged: at least {:.1e})",
+               solves.size(), Measurement{"largest residual of the adjoint scheme", residual},
+               Measurement{"least residual by coefficients that are not exchanged", plain})
+      .also(left_out(all, solves))
+      .also(worded("slopes of DMOC's costate: {}", in_words(orders)))
+      .also(not_in(orders, tables, problem));
 }
 
 /// The error of the state over the sum of the errors of all intervals, on the coarsest and the finest grid.
@@ -153,12 +159,16 @@ Finding stability_constant(const ResultTables& tables, const std::string& proble
   require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} by the midpoint rule among its {}",
           problem, all.size());
   const auto words = [](const Row& row) {
-    return fmt::format("{} {:.4f} at N = {}, {:.4f} at N = {}", row.text("method"),
-                       row.needed("error_of_jumps_coarsest"), row.text("coarsest"), row.needed("error_of_jumps_finest"),
-                       row.text("finest"));
+    const auto ratio = [&](const char* column, const char* grid) {
+      return Measurement{"error of the state over N times the largest jump", row.needed(column), row.text("method"),
+                         "N = " + row.text(grid)};
+    };
+    return worded("{} {:.4f} at N = {}, {:.4f} at N = {}", row.text("method"),
+                  ratio("error_of_jumps_coarsest", "coarsest"), row.text("coarsest"),
+                  ratio("error_of_jumps_finest", "finest"), row.text("finest"));
   };
   return found(ClaimVerdict::measured, "error of the state over N times the largest jump between intervals: {}",
-               rows.in_words(", ", words));
+               joined(rows, ", ", words));
 }
 
 Finding order_of_stage_controls(const ResultTables& tables, const std::string& problem) {
@@ -171,10 +181,12 @@ Finding order_of_stage_controls(const ResultTables& tables, const std::string& p
           problem);
   const auto is_lower = [](const Row& row) { return verdict_on_order(row, row.needed("stages") + 1.0); };
   const auto words = [](const Row& row) {
-    return fmt::format("gauss {}: {:.2f}", row.text("stages"), *fitted_order(row));
+    return worded("gauss {}: {:.2f}", row.text("stages"),
+                  Measurement{"slope of the control", *fitted_order(row), "dmoc", "gauss " + row.text("stages")});
   };
-  return found(verdict_on_all(orders, is_lower), "slopes of DMOC's stage controls, s + 1 instead of 2s: {}{}",
-               orders.in_words(", ", words), not_in(all, tables, problem));
+  return found(verdict_on_all(orders, is_lower), "slopes of DMOC's stage controls, s + 1 instead of 2s: {}",
+               joined(orders, ", ", words))
+      .also(not_in(all, tables, problem));
 }
 
 Finding order_eight(const ResultTables& tables, const std::string& problem) {
@@ -186,11 +198,13 @@ Finding order_eight(const ResultTables& tables, const std::string& problem) {
   require(!orders.empty(), "convergence_indirect_slopes.csv has no fitted order for {} by gauss 4", problem);
   const auto is_eight = [](const Row& row) { return verdict_on_order(row, 8.0); };
   const auto words = [](const Row& row) {
-    return fmt::format("{} {}: {:.2f} (N = {} to {})", row.text("method"), row.text("quantity"), *fitted_order(row),
-                       row.text("coarsest"), row.text("finest"));
+    const std::string& quantity = row.text("quantity");
+    return worded("{} {}: {:.2f} (N = {} to {})", row.text("method"), quantity,
+                  Measurement{"slope of the " + quantity, *fitted_order(row), row.text("method"), "gauss 4"},
+                  row.text("coarsest"), row.text("finest"));
   };
-  return found(verdict_on_all(orders, is_eight), "slopes with four Gauss stages: {}{}", orders.in_words(", ", words),
-               not_in(all, tables, problem));
+  return found(verdict_on_all(orders, is_eight), "slopes with four Gauss stages: {}", joined(orders, ", ", words))
+      .also(not_in(all, tables, problem));
 }
 
 /// Every fitted order of some quantities is the one of `expected`, and each quantity has one by every tableau that the
@@ -201,7 +215,7 @@ Finding first_order_orders(const ResultTables& tables, const std::string& table,
     return std::ranges::find(quantities, row.text("quantity")) != quantities.end();
   });
   const Selection fitted = all.where([](const Row& row) { return row.text("verdict") == "slope"; });
-  std::string words;
+  std::vector<Words> words;
   for (const Selection& scheme : all.group_by({"tableau", "stages"})) {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
@@ -212,14 +226,16 @@ Finding first_order_orders(const ResultTables& tables, const std::string& table,
       lowest = std::min(lowest, of_quantity.min("slope"));
       highest = std::max(highest, of_quantity.max("slope"));
     }
-    words +=
-        fmt::format("{}{} {}: {:.2f} to {:.2f} (order {:g})", words.empty() ? "" : "; ", scheme.front().text("tableau"),
-                    scheme.front().text("stages"), lowest, highest, expected(scheme.front()));
+    const std::string tableau = scheme.front().text("tableau") + " " + scheme.front().text("stages");
+    words.push_back(worded("{}: {:.2f} to {:.2f} (order {:g})", tableau,
+                           Measurement{"lowest slope", lowest, "", tableau},
+                           Measurement{"highest slope", highest, "", tableau},
+                           Measurement{"expected order", expected(scheme.front()), "", tableau}));
   }
   require(!words.empty(), "{}.csv has no order for {}", table, problem);
   const auto verdict_of = [&](const Row& row) { return verdict_on_order(row, expected(row)); };
-  return found(verdict_on_all(fitted, verdict_of), "lowest and highest slope of all methods: {}{}", words,
-               left_out(all, fitted, "without a fit, in favour of the claim:"));
+  return found(verdict_on_all(fitted, verdict_of), "lowest and highest slope of all methods: {}", joined(words, "; "))
+      .also(left_out(all, fitted, "without a fit, in favour of the claim:"));
 }
 
 Finding orders_with_first_order_states(const ResultTables& tables, const std::string& problem) {

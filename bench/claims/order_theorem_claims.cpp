@@ -15,7 +15,7 @@ Finding exact_transforms_agree(const ResultTables& tables, const std::string& pr
   };
   return found(rows.max(defect) < rounding_of_differences,
                "largest difference over 8 motions and {} steps, relative to the largest momentum: {:.1e}", rows.size(),
-               rows.max(defect));
+               Measurement{"largest relative difference", rows.max(defect)});
 }
 
 /// A quantity and its order of error in (th:ordercalculation).
@@ -33,25 +33,26 @@ Predicate all_hold_with_one_order(std::vector<Statement> statements) {
           return row.needed("stages") <= 3.0;
         });
     std::vector<ClaimVerdict> verdicts;
-    std::vector<std::string> words;
+    std::vector<Words> words;
     for (const Statement& statement : statements) {
-      std::vector<std::string> slopes;
+      std::vector<Measurement> slopes;
       std::vector<ClaimVerdict> of_statement;
       for (const char* quantity : statement.quantities) {
         const Selection of_quantity = rows.where("quantity", quantity);
         require(!of_quantity.empty(), "consistency_order_slopes.csv has no slope of {} for {}", quantity, problem);
         for (const Row& row : of_quantity) {
           of_statement.push_back(verdict_on_order(row, row.needed("order") + statement.more));
-          slopes.push_back(fmt::format("{:.1f}", row.needed("slope")));
+          slopes.push_back(
+              {std::string("slope of ") + quantity, row.needed("slope"), "", "gauss " + row.text("stages")});
         }
       }
       verdicts.push_back(verdict_on_all(of_statement));
       const char* const outcome = verdicts.back() == ClaimVerdict::reproduced ? "holds"
                                   : verdicts.back() == ClaimVerdict::differs  ? "fails"
                                                                               : "is undecided";
-      words.push_back(fmt::format("{} {} ({})", statement.name, outcome, fmt::join(slopes, ", ")));
+      words.push_back(worded("{} {} ({})", statement.name, outcome, listed("{:.1f}", slopes)));
     }
-    return found(verdict_on_all(verdicts), "slopes over h by Gauss of order 2, 4, 6: {}", fmt::join(words, "; "));
+    return found(verdict_on_all(verdicts), "slopes over h by Gauss of order 2, 4, 6: {}", joined(words, "; "));
   };
 }
 

@@ -30,7 +30,7 @@ constexpr std::array expected_orders{
     ExpectedOrder{"convergence_shooting_slopes", "multiple_shooting_midpoint_1", "1", 2.0}};
 
 Finding order_of_shooting(const ResultTables& tables, const std::string& problem) {
-  std::vector<std::string> words;
+  std::vector<Words> words;
   std::vector<ClaimVerdict> verdicts;
   bool is_floor = false;
   for (const auto& [table, method, stages, order] : expected_orders) {
@@ -42,12 +42,13 @@ Finding order_of_shooting(const ResultTables& tables, const std::string& problem
     const bool is_fitted = row.text("verdict") == "slope";
     is_floor = is_floor || !is_fitted;
     if (is_fitted) verdicts.push_back(verdict_on_order(row, order));
-    words.push_back(fmt::format("{} s = {} {}", method, stages,
-                                is_fitted ? fmt::format("{:.2f}", row.needed("slope")) : row.text("verdict")));
+    const auto slope = [&] { return Measurement{"slope of the state", row.needed("slope"), row.text("method")}; };
+    words.push_back(worded("{} s = {} {}", method, stages,
+                           is_fitted ? worded("{:.2f}", slope()) : worded("{}", row.text("verdict"))));
   }
   const ClaimVerdict of_fitted = verdict_on_all(verdicts);
   const ClaimVerdict verdict = is_floor && of_fitted == ClaimVerdict::reproduced ? ClaimVerdict::floor : of_fitted;
-  return found(verdict, "slopes of the state against the indirect solution: {}", fmt::join(words, ", "));
+  return found(verdict, "slopes of the state against the indirect solution: {}", joined(words, ", "));
 }
 
 /// The solved row of a method on the finest grid of shooting.csv.
@@ -61,16 +62,20 @@ Row program_of(const ResultTables& tables, const std::string& problem, const cha
 
 Finding sizes_of_programs(const ResultTables& tables, const std::string& problem) {
   const Row dmoc = program_of(tables, problem, "dmoc");
-  const auto unknowns = [&](const char* method) { return program_of(tables, problem, method).needed("unknowns"); };
-  const double of_dmoc = dmoc.needed("unknowns");
-  return found(unknowns(single) < of_dmoc && of_dmoc < unknowns(multiple),
+  const auto unknowns = [&](const char* method) {
+    return Measurement{"unknowns", program_of(tables, problem, method).needed("unknowns"), method};
+  };
+  const Measurement of_dmoc = unknowns("dmoc");
+  return found(unknowns(single).value < of_dmoc.value && of_dmoc.value < unknowns(multiple).value,
                "unknowns at N = {}: single shooting {}, DMOC {}, multiple shooting {}", dmoc.text("intervals"),
                unknowns(single), of_dmoc, unknowns(multiple));
 }
 
 Finding condition_of_programs(const ResultTables& tables, const std::string& problem) {
   const Row dmoc = program_of(tables, problem, "dmoc");
-  const auto condition = [&](const char* method) { return program_of(tables, problem, method).needed("condition"); };
+  const auto condition = [&](const char* method) {
+    return Measurement{"condition", program_of(tables, problem, method).needed("condition"), method};
+  };
   return found(ClaimVerdict::measured,
                "condition at N = {}: DMOC {:.1e}, multiple shooting {:.1e}, single shooting {:.1e}",
                dmoc.text("intervals"), condition("dmoc"), condition(multiple), condition(single));
@@ -97,9 +102,15 @@ Finding confirmed_more_often(const ResultTables& tables, const std::string& prob
   const ClaimVerdict verdict = difference.lower > 0.0    ? ClaimVerdict::reproduced
                                : difference.upper <= 0.0 ? ClaimVerdict::differs
                                                          : ClaimVerdict::undecided;
-  return found(verdict, "{} {} of {} cold starts, {} {} of {}, difference {:+.1f} to {:+.1f} %; 95 % interval", first,
-               own.hits, own.trials, second, others.hits, others.trials, 100.0 * difference.lower,
-               100.0 * difference.upper)
+  const auto count = [](const char* name, std::size_t value, const char* method) {
+    return Measurement{name, static_cast<double>(value), method};
+  };
+  return found(verdict, "{} {} of {} cold starts, {} {} of {}, difference {:+.1f} to {:+.1f} %", first,
+               count("starts confirmed", own.hits, first), count("starts", own.trials, first), second,
+               count("starts confirmed", others.hits, second), count("starts", others.trials, second),
+               Measurement{"lower end of the difference", 100.0 * difference.lower, first, "", "%"},
+               Measurement{"upper end of the difference", 100.0 * difference.upper, first, "", "%"})
+      .also(worded("95 % interval"))
       .as_sure_as(fmt::format("95 % of {} starts", own.trials));
 }
 
@@ -148,8 +159,8 @@ Predicate costs_more(const char* method) {
     }
     TimedRatios timed(1.0);
     timed.add(method, ratios);
-    return judged(timed,
-                  fmt::format("time of a solve by Ipopt to DMOC's at the relative error {:.1e} of the cost: ", error));
+    return found_by_times(
+        timed, fmt::format("time of a solve by Ipopt to DMOC's at the relative error {:.1e} of the cost: ", error));
   };
 }
 

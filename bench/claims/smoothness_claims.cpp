@@ -30,9 +30,12 @@ auto with_active(std::string bound) {
   return [bound = std::move(bound)](const Row& row) { return row.text("active") == bound; };
 }
 
-std::string orders_in_words(const Selection& orders) {
-  return orders.in_words(", ", [](const Row& row) {
-    return fmt::format("{} {} {:.2f}", row.text("situation"), row.text("quantity"), row.needed("slope"));
+Words orders_in_words(const Selection& orders) {
+  return joined(orders, ", ", [](const Row& row) {
+    const std::string& quantity = row.text("quantity");
+    return worded("{} {} {:.2f}", row.text("situation"), quantity,
+                  Measurement{"slope of the " + quantity, row.needed("slope"), "dmoc",
+                              row.text("situation") + ", s = " + row.text("stages")});
   });
 }
 
@@ -60,8 +63,8 @@ Finding kinks_leave_order_2(const ResultTables& tables, const std::string& /*pro
   };
   const auto kept = [](const Row& row) { return verdict_on_order(row, 4.0); };
   return found(verdict_on_all({verdict_on_all(kinked, lost), verdict_on_all(smooth, kept)}),
-               "slopes of the state by Gauss, s = 2, with kinks: {}; without: {}", orders_in_words(kinked),
-               orders_in_words(smooth));
+               "slopes of the state by Gauss, s = 2, with kinks: {}", orders_in_words(kinked))
+      .also(worded("without: {}", orders_in_words(smooth)));
 }
 
 Finding free_end_has_the_order(const ResultTables& tables, const std::string& /*problem*/) {
@@ -82,8 +85,9 @@ Finding state_bound_orders(const ResultTables& tables, const std::string& /*prob
   const auto has = [](double order) { return [=](const Row& row) { return verdict_on_order(row, order); }; };
   const ClaimVerdict verdict = verdict_on_all(
       {verdict_on_all(theorem, has(2.0)), verdict_on_all(control, has(1.0)), verdict_on_all(jumping, has(0.0))});
-  return found(verdict, "slopes by the midpoint rule: {}; {}; {}", orders_in_words(theorem), orders_in_words(control),
-               orders_in_words(jumping));
+  return found(verdict, "slopes by the midpoint rule: {}", orders_in_words(theorem))
+      .also(orders_in_words(control))
+      .also(orders_in_words(jumping));
 }
 
 /// The smallest curvature of DMOC over the grids, coarsest first.
@@ -107,7 +111,8 @@ Finding coercive(const ResultTables& tables, const std::string& problem, const c
     if (&row != &rows.back()) before_last = curvature(row);
   }
   return found(last > 0.0 && least > bounded_below * last && std::abs(before_last - last) < settled * last,
-               "alpha_h on {} grids: at least {:.4f}, {:.4f} on the finest", rows.size(), least, last);
+               "alpha_h on {} grids: at least {:.4f}, {:.4f} on the finest", rows.size(),
+               Measurement{"least alpha_h", least, "dmoc"}, Measurement{"alpha_h on the finest grid", last, "dmoc"});
 }
 
 Finding not_coercive(const ResultTables& tables, const std::string& /*problem*/) {
@@ -122,8 +127,10 @@ Finding not_coercive(const ResultTables& tables, const std::string& /*problem*/)
     falls = falls && curvature(row) < coarser;
     coarser = curvature(row);
   }
-  return found(falls && last * refined < first, "alpha_h falls from {:.2e} to {:.2e} as h is divided by {:g}", first,
-               last, refined);
+  return found(falls && last * refined < first, "alpha_h falls from {:.2e} to {:.2e} as h is divided by {:g}",
+               Measurement{"alpha_h on the coarsest grid", first, "dmoc"},
+               Measurement{"alpha_h on the finest grid", last, "dmoc"},
+               Measurement{"ratio of the step sizes", refined});
 }
 
 }  // namespace

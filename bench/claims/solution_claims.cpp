@@ -52,17 +52,30 @@ struct MomentumBalance {
       return accumulated_defect(row) > clearly_larger * std::max(rounding, rounding_of_balance * 1e-3);
     });
   }
-  [[nodiscard]] std::string in_words() const {
-    return fmt::format(
-        "largest defect of an interval over all N: dmoc {:.1e}, hamiltonian {:.1e}, tangent {:.1e}; of an interval at "
-        "N = {}: {:.1e}, {:.1e}, {:.1e}; accumulated at N = {}: dmoc {:.1e}, hamiltonian {:.1e}, tangent {:.1e}{}",
-        dmoc.max(largest_defect), hamiltonian.max(largest_defect), tangent.max(largest_defect),
-        tangent.back().text("intervals"), largest_defect(dmoc.back()), largest_defect(hamiltonian.back()),
-        largest_defect(tangent.back()), tangent.back().text("intervals"), structured(dmoc, tangent.back()),
-        structured(hamiltonian, tangent.back()), accumulated_defect(tangent.back()), left_out(all, all.usable()));
+  [[nodiscard]] Words largest_of_all_grids() const {
+    return by_method("largest defect of an interval", "all N", dmoc.max(largest_defect),
+                     hamiltonian.max(largest_defect), tangent.max(largest_defect));
+  }
+  [[nodiscard]] Words on_finest_grid() const {
+    const std::string finest = "N = " + tangent.back().text("intervals");
+    return worded("of an interval at {}: {}", finest,
+                  by_method("defect of an interval", finest, largest_defect(dmoc.back()),
+                            largest_defect(hamiltonian.back()), largest_defect(tangent.back())));
+  }
+  [[nodiscard]] Words accumulated() const {
+    const std::string finest = "N = " + tangent.back().text("intervals");
+    return worded("accumulated at {}: {}", finest,
+                  by_method("accumulated defect", finest, structured(dmoc, tangent.back()),
+                            structured(hamiltonian, tangent.back()), accumulated_defect(tangent.back())));
   }
 
  private:
+  static Words by_method(const std::string& quantity, const std::string& grid, double of_dmoc, double of_hamiltonian,
+                         double of_tangent) {
+    return worded("dmoc {:.1e}, hamiltonian {:.1e}, tangent {:.1e}", Measurement{quantity, of_dmoc, "dmoc", grid},
+                  Measurement{quantity, of_hamiltonian, "hamiltonian", grid},
+                  Measurement{quantity, of_tangent, "tangent", grid});
+  }
   /// The accumulated defect of a method on the grid of a row.
   [[nodiscard]] static double structured(const Selection& method, const Row& on_grid) {
     const Selection same = method.matching(on_grid, {"intervals"});
@@ -79,18 +92,26 @@ Finding momentum_consistency(const ResultTables& tables, const std::string& prob
   require(!by_tolerance.empty(), "consistency.csv has no row of {} by gauss 1 with a tolerance", problem);
   const auto of_grids = [](const Selection& solves) { return MomentumBalance(solves.sorted_by("intervals")); };
   const MomentumBalance balance = of_grids(by_tolerance.front());
-  std::string others;
+  std::vector<Words> others;
   for (std::size_t i = 1; i < by_tolerance.size(); ++i) {
     const MomentumBalance looser = of_grids(by_tolerance[i]);
-    others += fmt::format("{}at {}: dmoc {:.1e}, hamiltonian {:.1e}", others.empty() ? "" : ", ",
-                          looser.dmoc.front().text("tolerance"), looser.dmoc.max(largest_defect),
-                          looser.hamiltonian.max(largest_defect));
+    const std::string& tolerance = looser.dmoc.front().text("tolerance");
+    const auto defect = [&](const Selection& of_method, const char* method) {
+      return Measurement{"largest defect of an interval", of_method.max(largest_defect), method, "tolerance " + tolerance};
+    };
+    others.push_back(worded("at {}: dmoc {:.1e}, hamiltonian {:.1e}", tolerance, defect(looser.dmoc, "dmoc"),
+                            defect(looser.hamiltonian, "hamiltonian")));
   }
-  Finding finding = found(balance.is_kept() && balance.is_missed_by_tangent(), "solved to {}: {}",
-                          balance.dmoc.front().text("tolerance"), balance.in_words());
+  Finding finding = found(balance.is_kept() && balance.is_missed_by_tangent(),
+                          "solved to {}: largest defect of an interval over all N: {}",
+                          balance.dmoc.front().text("tolerance"), balance.largest_of_all_grids())
+                        .also(balance.on_finest_grid())
+                        .also(balance.accumulated())
+                        .also(left_out(balance.all, balance.all.usable()));
   if (others.empty()) return finding;
   return std::move(finding).because(
-      "the balance is an equation of the program, kept as exactly as it is solved: largest defects " + others);
+      worded("the balance is an equation of the program, kept as exactly as it is solved: largest defects {}",
+             joined(others, ", ")));
 }
 
 bool is_answer_of_dmoc(const Row& row) {
@@ -103,18 +124,25 @@ bool is_answer_of_dmoc(const Row& row) {
 
 /// The largest differences from DMOC, relative to each quantity's largest value.
 struct Differences {
-  std::string words;  ///< by quantity
+  Words words;  ///< by quantity
   double primal = 0.0;
   double costates = 0.0;
 
-  explicit Differences(const Selection& rows) : costates(rows.max("costate_difference")) {
+  /// `at` is the case that the numbers are of.
+  explicit Differences(const Selection& rows, const std::string& at = "") : costates(rows.max("costate_difference")) {
+    std::vector<Words> by_quantity;
     for (const auto& [column, symbol] :
          {std::pair{"configuration_difference", "q"}, std::pair{"momentum_difference", "p"},
           std::pair{"control_difference", "u"}, std::pair{"objective_difference", "J"}}) {
       const double difference = rows.max(column);
-      words += fmt::format("{}{} {:.0e}", words.empty() ? "" : ", ", symbol, difference);
+      by_quantity.push_back(worded("{} {:.0e}", symbol, of(symbol, difference, at)));
       primal = std::max(primal, difference);
     }
+    words = joined(by_quantity, ", ");
+  }
+  /// The largest relative difference of a quantity.
+  static Measurement of(const std::string& symbol, double difference, const std::string& at = "") {
+    return {.name = "largest relative difference of " + symbol, .value = difference, .at = at};
   }
   [[nodiscard]] bool are_rounding() const {
     return primal < equal_solutions_tolerance && costates < equal_costates_tolerance;
@@ -128,10 +156,11 @@ Finding equal_solutions(const ResultTables& tables, const std::string& problem) 
   const bool rows_agree = std::ranges::all_of(rows, is_answer_of_dmoc);
   const Differences largest(rows);
   return found(largest.are_rounding() && rows_agree,
-               "{} grids with {} tableaus, largest relative difference: {}, costates {:.0e}; answers in the other's "
-               "rows leave {}{}",
-               rows.size(), rows.group_by({"tableau", "stages"}).size(), largest.words, largest.costates,
-               rows_agree ? "rounding" : "more than rounding", left_out(all, rows));
+               "{} grids with {} tableaus, largest relative difference: {}, costates {:.0e}", rows.size(),
+               rows.group_by({"tableau", "stages"}).size(), largest.words,
+               Differences::of("the costates", largest.costates))
+      .also(worded("answers in the other's rows leave {}", rows_agree ? "rounding" : "more than rounding"))
+      .also(left_out(all, rows));
 }
 
 /// The same where inequalities are active or the horizon is free. An answer that no Newton step could refine differs by
@@ -144,36 +173,39 @@ Finding equal_with_inequalities(const ResultTables& tables, const std::string& /
     return is_compared && row.needed("polish_steps") >= 1.0;
   });
   std::vector<ClaimVerdict> verdicts;
-  std::vector<std::string> words;
+  std::vector<Words> words;
   for (const Selection& of_problem : rows.group_by({"problem"})) {
-    const Differences largest(of_problem);
+    const std::string& name = of_problem.front().text("problem");
+    const Differences largest(of_problem, name);
     const bool agree = std::ranges::all_of(of_problem, is_answer_of_dmoc);
     verdicts.push_back(verdict_on(agree && largest.are_rounding()));
-    words.push_back(fmt::format("{} on {} grids: {}, T {:.0e}, costates {:.0e}", of_problem.front().text("problem"),
-                                of_problem.size(), largest.words, of_problem.max("horizon_difference"),
-                                largest.costates));
+    words.push_back(worded("{} on {} grids: {}, T {:.0e}, costates {:.0e}", name, of_problem.size(), largest.words,
+                           Differences::of("T", of_problem.max("horizon_difference"), name),
+                           Differences::of("the costates", largest.costates, name)));
   }
   require(words.size() > 1, "equivalence_inequalities.csv has usable rows of {} problems; two are needed",
           words.size());
-  return found(verdict_on_all(verdicts), "largest relative difference: {}{}", fmt::join(words, "; "),
-               left_out(all, rows, "no motion, or not refined by Newton steps, in favour of"));
+  return found(verdict_on_all(verdicts), "largest relative difference: {}", joined(words, "; "))
+      .also(left_out(all, rows, "no motion, or not refined by Newton steps, in favour of"));
 }
 
 /// Noether's theorem of the optimal control problem.
 Finding costates_keep_their_momentum(const ResultTables& tables, const std::string& /*problem*/) {
   const Selection all = tables.rows("equivalence_symmetric");
   const Selection rows = all.usable();
-  std::vector<std::string> words;
+  std::vector<Words> words;
   for (const Selection& of_method : rows.group_by({"method"})) {
-    words.push_back(fmt::format("{} {:.0e} on {} grids of {}", of_method.front().text("method"),
-                                of_method.max("costate_momentum_spread"), of_method.size(),
-                                fmt::join(of_method.distinct("problem"), ", ")));
+    const std::string& method = of_method.front().text("method");
+    words.push_back(
+        worded("{} {:.0e} on {} grids of {}", method,
+               Measurement{"spread of the momentum of the costates", of_method.max("costate_momentum_spread"), method},
+               of_method.size(), fmt::join(of_method.distinct("problem"), ", ")));
   }
   require(words.size() >= paper_families().size(),
           "equivalence_symmetric.csv has usable rows of {} methods; three are needed", words.size());
   return found(rows.max("costate_momentum_spread") < equal_costates_tolerance,
-               "largest spread of the momentum of the costates, relative: {}{}", fmt::join(words, "; "),
-               left_out(all, rows));
+               "largest spread of the momentum of the costates, relative: {}", joined(words, "; "))
+      .also(left_out(all, rows));
 }
 
 Finding tangent_differs(const ResultTables& tables, const std::string& problem) {
@@ -187,14 +219,21 @@ Finding tangent_differs(const ResultTables& tables, const std::string& problem) 
   require(!orders.empty(), "equivalence_slopes.csv has no fitted slope of {} among its {}", problem, slopes.size());
   const auto is_twice_the_stages = [](const Row& row) { return verdict_on_order(row, 2.0 * row.needed("stages")); };
   const auto words = [](const Row& row) {
-    return fmt::format("s = {}: {:.2f}", row.text("stages"), row.needed("slope"));
+    return worded(
+        "s = {}: {:.2f}", row.text("stages"),
+        Measurement{"slope of the difference in q", row.needed("slope"), "tangent", "s = " + row.text("stages")});
+  };
+  const auto difference = [](const Row& row, double value) {
+    return Measurement{"relative difference in q", value, "tangent", "N = " + row.text("intervals")};
   };
   const bool is_another =
       fine > equal_solutions_tolerance / 10.0 && coarse > clearly_larger * equal_solutions_tolerance && fine < coarse;
   return found(verdict_on_all({verdict_on(is_another), verdict_on_all(orders, is_twice_the_stages)}),
-               "relative difference in q {:.1e} at N = {}, {:.1e} at N = {}; slopes {}{}{}", coarse,
-               rows.front().text("intervals"), fine, rows.back().text("intervals"), orders.in_words(", ", words),
-               left_out(slopes, orders, "without a fit (few grids above rounding):"), left_out(all, rows));
+               "relative difference in q {:.1e} at N = {}, {:.1e} at N = {}", difference(rows.front(), coarse),
+               rows.front().text("intervals"), difference(rows.back(), fine), rows.back().text("intervals"))
+      .also(worded("slopes {}", joined(orders, ", ", words)))
+      .also(left_out(slopes, orders, "without a fit (few grids above rounding):"))
+      .also(left_out(all, rows));
 }
 
 Finding tangent_coincides(const ResultTables& tables, const std::string& problem) {
@@ -202,8 +241,10 @@ Finding tangent_coincides(const ResultTables& tables, const std::string& problem
   const Selection rows = all.usable();
   require(!rows.empty(), "equivalence.csv has no solved row of {} by tangent and Gauss", problem);
   const Differences largest(rows);
-  return found(largest.are_rounding(), "largest relative difference from DMOC on {} grids: {:.0e}, costates {:.0e}{}",
-               rows.size(), largest.primal, largest.costates, left_out(all, rows));
+  return found(largest.are_rounding(), "largest relative difference from DMOC on {} grids: {:.0e}, costates {:.0e}",
+               rows.size(), Differences::of("q, p, u and J", largest.primal),
+               Differences::of("the costates", largest.costates))
+      .also(left_out(all, rows));
 }
 
 /// The solutions of some methods by the midpoint rule in the two forms of the control Lagrangian: residuals in their
@@ -219,8 +260,11 @@ Finding form_of_control_lagrangian(const ResultTables& tables, const std::string
   const double rounding = rows.max(own);
   const double least = rows.min(other);
   return found(rounding < equal_costates_tolerance && least > clearly_larger * rounding,
-               "residuals on {} grids: in their own form at most {:.0e}, in the other form {:.0e} to {:.0e}{}",
-               rows.size(), rounding, least, rows.max(other), left_out(all, rows));
+               "residuals on {} grids: in their own form at most {:.0e}, in the other form {:.0e} to {:.0e}",
+               rows.size(), Measurement{"largest residual in their own form", rounding},
+               Measurement{"least residual in the other form", least},
+               Measurement{"largest residual in the other form", rows.max(other)})
+      .also(left_out(all, rows));
 }
 
 Finding dmoc_is_the_forced_form(const ResultTables& tables, const std::string& problem) {

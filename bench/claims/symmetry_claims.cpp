@@ -23,11 +23,12 @@ Finding optimal_motions_keep_momentum(const ResultTables& tables, const std::str
   const double kept = structured.max(deviation);
   double least = std::numeric_limits<double>::infinity();
   for (const Row& row : tangent) least = std::min(least, deviation(row));
-  return found(
-      kept < within_rounding && least > beyond_rounding,
-      "|J_k - J_0| in units of rounding on {} optimal motions by DMOC and Hamiltonian: at most {:.1f}; on {} by "
-      "tangent-space collocation: {:.1e} to {:.1e}",
-      structured.size(), kept, tangent.size(), least, tangent.max(deviation));
+  return found(kept < within_rounding && least > beyond_rounding,
+               "|J_k - J_0| in units of rounding on {} optimal motions by DMOC and Hamiltonian: at most {:.1f}",
+               structured.size(), Measurement{"largest deviation in units of rounding", kept})
+      .also(worded("on {} by tangent-space collocation: {:.1e} to {:.1e}", tangent.size(),
+                   Measurement{"least deviation in units of rounding", least, "tangent"},
+                   Measurement{"largest deviation in units of rounding", tangent.max(deviation), "tangent"}));
 }
 
 Finding balanced_about_every_axis(const ResultTables& tables, const std::string& /*problem*/) {
@@ -47,10 +48,12 @@ Finding balanced_about_every_axis(const ResultTables& tables, const std::string&
   const Selection tangent = rows.where("action", "linear").where("method", "tangent");
   require(!polar.empty() && !tangent.empty(), "structure_rotations.csv needs rows in polar coordinates and of tangent");
   return found(std::ranges::all_of(linear, is_balanced),
-               "three axes, {} motions of 400 steps by DMOC and Hamiltonian: largest |change of J - work| {:.1e}; by "
-               "tangent-space collocation up to {:.1e}; DMOC in polar coordinates on the sphere up to {:.1e}",
-               linear.group_by({"problem", "method"}).size(), linear.max(defect), tangent.max(defect),
-               polar.max(defect));
+               "three axes, {} motions of 400 steps by DMOC and Hamiltonian: largest |change of J - work| {:.1e}",
+               linear.group_by({"problem", "method"}).size(), Measurement{"largest defect", linear.max(defect)})
+      .also(worded("by tangent-space collocation up to {:.1e}",
+                   Measurement{"largest defect", tangent.max(defect), "tangent"}))
+      .also(worded("DMOC in polar coordinates on the sphere up to {:.1e}",
+                   Measurement{"largest defect", polar.max(defect), "dmoc", "polar coordinates"}));
 }
 
 }  // namespace

@@ -25,13 +25,13 @@ ClaimVerdict TimedRatios::verdict() const {
   return std::ranges::all_of(ratios_, is_above) ? ClaimVerdict::reproduced : ClaimVerdict::undecided;
 }
 
-std::string TimedRatios::in_words() const {
-  std::vector<std::string> words;
-  words.reserve(ratios_.size());
-  for (const auto& [name, interval] : ratios_) {
-    words.push_back(fmt::format("{} {:.2f} ({:.2f} to {:.2f})", name, interval.ratio, interval.lower, interval.upper));
-  }
-  return fmt::format("{}", fmt::join(words, ", "));
+Words TimedRatios::in_words() const {
+  return joined(ratios_, ", ", [](const std::pair<std::string, RatioInterval>& named) {
+    const auto& [name, interval] = named;
+    return worded("{} {:.2f} ({:.2f} to {:.2f})", name, Measurement{"ratio of times", interval.ratio, "", name},
+                  Measurement{"lower end of the ratio", interval.lower, "", name},
+                  Measurement{"upper end of the ratio", interval.upper, "", name});
+  });
 }
 
 std::size_t TimedRatios::resamples_above() const {
@@ -67,11 +67,11 @@ std::vector<double> means_of_rounds(const std::vector<std::vector<double>>& of_p
   return means;
 }
 
-Finding judged(const TimedRatios& ratios, const std::string& before, const std::string& behind) {
-  Finding finding = found(ratios.verdict(), "{}{}{}", before, ratios.in_words(), behind).as_sure_as(ratios.sure());
+Finding found_by_times(const TimedRatios& ratios, const std::string& before) {
+  Finding finding = found(ratios.verdict(), "{}{}", before, ratios.in_words()).as_sure_as(ratios.sure());
   if (ratios.rounds() >= fewest_rounds) return finding;
   return std::move(finding).because(
-      fmt::format("there are {} rounds; a verdict on times needs {}", ratios.rounds(), fewest_rounds));
+      worded("there are {} rounds; a verdict on times needs {}", ratios.rounds(), fewest_rounds));
 }
 
 }  // namespace dmocbench

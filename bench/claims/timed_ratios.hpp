@@ -22,7 +22,7 @@ class TimedRatios {
 
   [[nodiscard]] ClaimVerdict verdict() const;
   /// "ipopt 1.25 (1.21 to 1.30), sparse 1.40 (1.38 to 1.41)": medians with their intervals.
-  [[nodiscard]] std::string in_words() const;
+  [[nodiscard]] Words in_words() const;
   /// "993 of 1000 resamples": how often the verdict follows from resampled rounds; for "undecided" how often
   /// the claim holds.
   [[nodiscard]] std::string sure() const;
@@ -40,7 +40,7 @@ class TimedRatios {
 /// program with the fewest rounds has. A single small program would be judged by the clock's noise.
 [[nodiscard]] std::vector<double> means_of_rounds(const std::vector<std::vector<double>>& of_programs);
 
-/// The finding on a claim from the ratios, in words with `before` in front and `behind` at the end.
-[[nodiscard]] Finding judged(const TimedRatios& ratios, const std::string& before, const std::string& behind = "");
+/// The finding on a claim from the ratios, in words with `before` in front.
+[[nodiscard]] Finding found_by_times(const TimedRatios& ratios, const std::string& before);
 
 }  // namespace dmocbench

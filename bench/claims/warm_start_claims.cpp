@@ -15,10 +15,13 @@ constexpr double enough_steps = 0.9;
 
 /// Collocation's number over DMOC's, at every step of a sequence that both solved.
 struct StepRatios {
-  std::string name;  ///< "hamiltonian, homotopy"
+  std::string method;    ///< "hamiltonian"
+  std::string sequence;  ///< "homotopy"
   std::vector<double> microseconds;
   double iterations = 0.0;  ///< of all these steps, over DMOC's
   std::size_t left_out = 0;
+
+  [[nodiscard]] std::string name() const { return method + ", " + sequence; }
 };
 
 double count(const Row& row, const char* column) {
@@ -27,8 +30,9 @@ double count(const Row& row, const char* column) {
   return value;
 }
 
-StepRatios ratios_of(const Selection& dmoc, const Selection& others, const std::string& name) {
-  StepRatios ratios{.name = name, .microseconds = {}};
+StepRatios ratios_of(const Selection& dmoc, const Selection& others, const std::string& method,
+                     const std::string& sequence) {
+  StepRatios ratios{.method = method, .sequence = sequence, .microseconds = {}};
   double own_iterations = 0.0;
   double other_iterations = 0.0;
   for (const Row& own : dmoc) {
@@ -45,8 +49,8 @@ StepRatios ratios_of(const Selection& dmoc, const Selection& others, const std::
   const auto steps = static_cast<double>(dmoc.size());
   require(static_cast<double>(ratios.microseconds.size()) >= enough_steps * steps,
           "sequence.csv: only {} of {} steps of {} are solved by both methods", ratios.microseconds.size(), steps,
-          name);
-  require(own_iterations > 0.0, "sequence.csv: the steps of {} take no iterations", name);
+          ratios.name());
+  require(own_iterations > 0.0, "sequence.csv: the steps of {} take no iterations", ratios.name());
   ratios.iterations = other_iterations / own_iterations;
   return ratios;
 }
@@ -63,32 +67,33 @@ std::vector<StepRatios> all_ratios(const ResultTables& tables, const std::string
     for (const std::string method : {"hamiltonian", "tangent"}) {
       const Selection others = midpoint(of_sequence, method);
       require(!others.empty(), "sequence.csv has no {} of {} by {}", sequence, problem, method);
-      all.push_back(ratios_of(dmoc, others, fmt::format("{}, {}", method, sequence)));
+      all.push_back(ratios_of(dmoc, others, method, sequence));
     }
   }
   return all;
 }
 
-std::string left_out_of(const std::vector<StepRatios>& all) {
+Words left_out_of(const std::vector<StepRatios>& all) {
   std::size_t count = 0;
   for (const StepRatios& ratios : all) count += ratios.left_out;
-  return count == 0 ? "" : fmt::format("; {} left out, not solved by both", counted(count, "step"));
+  return count == 0 ? Words() : worded("{} left out, not solved by both", counted(count, "step"));
 }
 
 Finding ratios_of_iterations(const ResultTables& tables, const std::string& problem) {
   const std::vector<StepRatios> all = all_ratios(tables, problem);
-  std::string words;
-  for (const StepRatios& ratios : all) {
-    words += fmt::format("{}{} {:.2f}", words.empty() ? "" : ", ", ratios.name, ratios.iterations);
-  }
-  return found(ClaimVerdict::measured, "iterations over DMOC's: {}{}", words, left_out_of(all));
+  const auto in_words = [](const StepRatios& ratios) {
+    return worded("{} {:.2f}", ratios.name(),
+                  Measurement{"iterations over DMOC's", ratios.iterations, ratios.method, ratios.sequence});
+  };
+  return found(ClaimVerdict::measured, "iterations over DMOC's: {}", joined(all, ", ", in_words))
+      .also(left_out_of(all));
 }
 
 Finding less_time(const ResultTables& tables, const std::string& problem) {
   const std::vector<StepRatios> all = all_ratios(tables, problem);
   TimedRatios timed(1.0);
-  for (const StepRatios& ratios : all) timed.add(ratios.name, ratios.microseconds);
-  return judged(timed, "time of a step over DMOC's: ", left_out_of(all));
+  for (const StepRatios& ratios : all) timed.add(ratios.name(), ratios.microseconds);
+  return found_by_times(timed, "time of a step over DMOC's: ").also(left_out_of(all));
 }
 
 }  // namespace

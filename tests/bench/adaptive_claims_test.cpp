@@ -59,7 +59,7 @@ ResultTables tables_of(const AdaptiveOutcome& outcome) {
 
 JudgedClaim judged_adaptive(const std::string& id, const AdaptiveOutcome& outcome) {
   for (const JudgedClaim& claim : judge_claims(tables_of(outcome))) {
-    if (claim.id == id) return claim;
+    if (claim.id() == id) return claim;
   }
   ADD_FAILURE() << "no claim " << id;
   return {};
@@ -93,7 +93,7 @@ TEST(AdaptiveClaims, DifferWhereOneEffectivityIsOutside) {
 
 TEST(AdaptiveClaims, StateHowManyTimesAsManyIntervalsUniformGridsNeed) {
   const std::string measured =
-      judged_adaptive("hypersensitive/adapted_grids_need_fewer_intervals", {.uniform = 600.0}).measured;
+      judged_adaptive("hypersensitive/adapted_grids_need_fewer_intervals", {.uniform = 600.0}).measured();
   EXPECT_NE(measured.find("150 (s = 2) against 600 (s = 2), 4.00 times"), std::string::npos) << measured;
   EXPECT_EQ(fewer({.adapted = 0.0}), ClaimVerdict::not_judged);
 }
@@ -106,7 +106,7 @@ TEST(AdaptiveClaims, AreNotJudgedWhereNothingReachedTheAccuracy) {
 }
 
 TEST(AdaptiveClaims, StateTheTimeWithItsInterval) {
-  const std::string measured = judged_adaptive("hypersensitive/time_of_adapting", {}).measured;
+  const std::string measured = judged_adaptive("hypersensitive/time_of_adapting", {}).measured();
   EXPECT_NE(measured.find("10.0 ms (10.0 to 10.0) in 12 rounds"), std::string::npos) << measured;
   EXPECT_EQ(time_of({.round = -1.0}), ClaimVerdict::not_judged);
 }

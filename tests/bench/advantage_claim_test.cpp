@@ -38,7 +38,7 @@ ResultTables tables_of(std::initializer_list<Row> rows) {
 /// What is said of the orbit.
 JudgedClaim judged(const std::string& claim, std::initializer_list<Row> rows) {
   for (const JudgedClaim& judged : judge_claims(tables_of(rows))) {
-    if (judged.id == "orbital_transfer/" + claim) return judged;
+    if (judged.id() == "orbital_transfer/" + claim) return judged;
   }
   ADD_FAILURE() << "no claim " << claim;
   return {};
@@ -68,7 +68,7 @@ TEST(ExpenseClaim, TakesTheCoarseGridsTogether) {
   };
   const JudgedClaim claim = verdict(0.98, 1.47, 0.8);
   EXPECT_EQ(claim.verdict, ClaimVerdict::reproduced);
-  EXPECT_NE(claim.measured.find("intervals N = 32 and 64 1.2"), std::string::npos) << claim.measured;
+  EXPECT_NE(claim.measured().find("intervals N = 32 and 64 1.2"), std::string::npos) << claim.measured();
   EXPECT_EQ(verdict(0.8, 1.1, 2.0).verdict, ClaimVerdict::differs);
   EXPECT_EQ(verdict(0.9, 1.11, 2.0).verdict, ClaimVerdict::undecided);
 }

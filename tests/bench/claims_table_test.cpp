@@ -1,6 +1,8 @@
 // The written table of claims: whose statement stands where, and what its closing lines count.
 #include "bench/claims/claims_table.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "bench/run/result_file.hpp"
@@ -10,16 +12,18 @@
 namespace dmocbench {
 namespace {
 
-JudgedClaim claim_of(const char* id, Whose whose, ClaimVerdict verdict) {
-  return {.id = id,
+JudgedClaim claim_of(const char* problem, const char* name, Whose whose, ClaimVerdict verdict) {
+  return {.problem = problem,
+          .name = name,
           .where = "section 4",
           .figure = "fig:any",
           .whose = whose,
           .states = "|J| falls",
-          .measured = "it falls, by \"2\"",
+          .clauses = {{.text = "it falls, by \"2\"", .numbers = {{"ratio", 2.0, "dmoc", "N = 8", "m"}}},
+                      {.text = "1 of 3 left out"}},
           .verdict = verdict,
-          .reason = "of the step",
-          .evidence = "convergence.csv",
+          .reasons = {{.text = "of the step"}},
+          .evidence = {"convergence.csv", "figures/orbit_state_error.svg"},
           .sure = "exact"};
 }
 
@@ -58,7 +62,7 @@ TEST(ReadRows, AreNotThoseOfAnInnerJudgement) {
 TEST(ReadRows, AreWrittenAsRanges) {
   EXPECT_EQ(packed_ranges({2, 3, 4, 9, 11, 12}), "2-4 9 11-12");
   EXPECT_EQ(packed_ranges({}), "");
-  JudgedClaim claim = claim_of("a/one", Whose::paper, ClaimVerdict::reproduced);
+  JudgedClaim claim = claim_of("a", "one", Whose::paper, ClaimVerdict::reproduced);
   claim.rows = {{"errors.csv", {2, 3}, {"error", "method"}}};
   EXPECT_EQ(claims_rows_table({claim}).csv(), "claim,table,records,columns\na/one,errors.csv,2-3,error method\n");
 }
@@ -66,18 +70,19 @@ TEST(ReadRows, AreWrittenAsRanges) {
 using ClaimsFolder = tests::InTemporaryFolder;
 
 TEST_F(ClaimsFolder, LacksEvidenceThatTheRowNames) {
-  std::vector<JudgedClaim> claims{claim_of("a/one", Whose::paper, ClaimVerdict::reproduced)};
-  claims.front().evidence = "slips.csv; figures/orbit.svg";
+  std::vector<JudgedClaim> claims{claim_of("a", "one", Whose::paper, ClaimVerdict::reproduced)};
+  claims.front().evidence = {"slips.csv", "figures/orbit.svg"};
   write_file(folder() / "slips.csv", "a\n");
-  tell_missing_evidence(claims, folder());
-  EXPECT_EQ(claims.front().evidence, "slips.csv; figures/orbit.svg (not there)");
+  mark_missing_evidence(claims, folder());
+  EXPECT_EQ(claims.front().missing, std::vector<std::string>{"figures/orbit.svg"});
+  EXPECT_EQ(claims_table(claims).rows().front().text("evidence"), "slips.csv; figures/orbit.svg (not there)");
 }
 
-const std::vector<JudgedClaim> some{claim_of("a/one", Whose::paper, ClaimVerdict::reproduced),
-                                    claim_of("b/two", Whose::ours, ClaimVerdict::differs),
-                                    claim_of("c/three", Whose::paper, ClaimVerdict::differs),
-                                    claim_of("d/four", Whose::misprint, ClaimVerdict::differs),
-                                    claim_of("e/five", Whose::paper, ClaimVerdict::differs)};
+const std::vector<JudgedClaim> some{claim_of("a", "one", Whose::paper, ClaimVerdict::reproduced),
+                                    claim_of("b", "two", Whose::ours, ClaimVerdict::differs),
+                                    claim_of("c", "three", Whose::paper, ClaimVerdict::differs),
+                                    claim_of("d", "four", Whose::misprint, ClaimVerdict::differs),
+                                    claim_of("e", "five", Whose::paper, ClaimVerdict::differs)};
 
 TEST(ClaimsTable, IsReadBackWithEveryField) {
   const Table table = Table::from_csv(claims_table(some).csv());
@@ -86,7 +91,36 @@ TEST(ClaimsTable, IsReadBackWithEveryField) {
   ASSERT_EQ(table.rows().size(), some.size());
   EXPECT_EQ(table.rows()[1].text("whose"), "ours");
   EXPECT_EQ(table.rows()[1].text("verdict"), "differs");
-  EXPECT_EQ(table.rows()[1].text("measured"), "it falls, by \"2\"");
+  EXPECT_EQ(table.rows()[1].text("measured"), "it falls, by \"2\"; 1 of 3 left out");
+}
+
+TEST(ClaimsTable, HasItsFactsAsValuesForPrograms) {
+  std::vector<JudgedClaim> claims = some;
+  claims.front().rows = {{"errors.csv", {2, 3}, {"error"}}};
+  const nlohmann::ordered_json json = claims_json(claims).at("claims");
+  ASSERT_EQ(json.size(), some.size());
+  const nlohmann::ordered_json& claim = json.front();
+  EXPECT_EQ(claim.at("problem"), "a");
+  EXPECT_EQ(claim.at("name"), "one");
+  ASSERT_EQ(claim.at("measured").size(), 2U);
+  const nlohmann::ordered_json number{
+      {"name", "ratio"}, {"value", 2.0}, {"method", "dmoc"}, {"at", "N = 8"}, {"unit", "m"}};
+  EXPECT_EQ(claim.at("measured").front().at("numbers"), nlohmann::ordered_json::array({number}));
+  EXPECT_EQ(claim.at("measured").back().at("text"), "1 of 3 left out");
+  EXPECT_EQ(claim.at("figures"), nlohmann::ordered_json::array({"orbit_state_error"}));
+  EXPECT_EQ(claim.at("rows").front().at("records"), nlohmann::ordered_json::array({2, 3}));
+}
+
+TEST(Words, CarryTheNumbersThatTheyState) {
+  const Words slope = worded("{} {:.1f}", "dmoc", Measurement{"slope", 1.96, "dmoc"});
+  const Words all = worded("slopes {}, expected {:g}", joined({slope, {}, slope}, "; "), Measurement{"order", 2.0});
+  EXPECT_EQ(all.text, "slopes dmoc 2.0; dmoc 2.0, expected 2");
+  ASSERT_EQ(all.numbers.size(), 3U);
+  EXPECT_EQ(all.numbers[1].value, 1.96);
+  EXPECT_EQ(all.numbers[2].name, "order");
+  EXPECT_TRUE(all.are_finite());
+  EXPECT_FALSE(worded("{}", listed("{:.2f}", {{"ratio", 1.0}, {"ratio", std::numeric_limits<double>::infinity()}}))
+                   .are_finite());
 }
 
 TEST(ClaimsTable, CountsThePapersStatementsApartFromOursAndFromMisprints) {

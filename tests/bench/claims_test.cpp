@@ -18,7 +18,7 @@ using tests::tables;
 
 ClaimVerdict verdict_on(const std::string& claim, const ResultTables& results) {
   for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id == std::string(orbit) + "/" + claim) return judged.verdict;
+    if (judged.id() == std::string(orbit) + "/" + claim) return judged.verdict;
   }
   ADD_FAILURE() << "no claim " << claim;
   return ClaimVerdict::not_judged;
@@ -55,7 +55,7 @@ TEST(Claims, StageControlsAndAConstantMassAreJudgedOnTheirOwnProblems) {
     }
     results.add("equivalence", tests::declared_table("equivalence", {solve}));
     std::map<std::string, ClaimVerdict> verdicts;
-    for (const JudgedClaim& claim : judge_claims(results)) verdicts[claim.id] = claim.verdict;
+    for (const JudgedClaim& claim : judge_claims(results)) verdicts[claim.id()] = claim.verdict;
     return verdicts;
   };
   auto good = judged(2.95, 1e-13);
@@ -68,7 +68,7 @@ TEST(Claims, StageControlsAndAConstantMassAreJudgedOnTheirOwnProblems) {
 
 TEST(Claims, WithoutTablesNothingIsReproducedOrRefuted) {
   for (const JudgedClaim& claim : judge_claims(ResultTables()))
-    EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << claim.id;
+    EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << claim.id();
 }
 
 TEST(Claims, OrdersOneAndThreeDiffer) {
@@ -298,17 +298,17 @@ TEST(Claims, ASlipTellsTheRowThatItWasJudgedBy) {
 TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {
   std::set<std::string> seen;
   for (const JudgedClaim& claim : judge_claims(tables())) {
-    EXPECT_TRUE(seen.insert(claim.id).second) << claim.id;
-    EXPECT_TRUE(claim.id.starts_with("orbital_transfer/") || claim.id.starts_with("two_link_manipulator/") ||
-                claim.id.starts_with("forced_oscillator/") || claim.id.starts_with("simulations/") ||
-                claim.id.starts_with("examples/") || claim.id.starts_with("eccentric_transfer/") ||
-                claim.id.starts_with("hypersensitive/") || claim.id.starts_with("constrained/") ||
-                claim.id.starts_with("cart_pole/"))
-        << claim.id;
+    EXPECT_TRUE(seen.insert(claim.id()).second) << claim.id();
+    EXPECT_TRUE(claim.id().starts_with("orbital_transfer/") || claim.id().starts_with("two_link_manipulator/") ||
+                claim.id().starts_with("forced_oscillator/") || claim.id().starts_with("simulations/") ||
+                claim.id().starts_with("examples/") || claim.id().starts_with("eccentric_transfer/") ||
+                claim.id().starts_with("hypersensitive/") || claim.id().starts_with("constrained/") ||
+                claim.id().starts_with("cart_pole/"))
+        << claim.id();
     EXPECT_FALSE(claim.states.empty());
     EXPECT_FALSE(claim.where.empty());
-    EXPECT_FALSE(claim.evidence.empty()) << claim.id;
-    EXPECT_EQ(claim.evidence.find('{'), std::string::npos) << claim.evidence;
+    EXPECT_FALSE(claim.evidence.empty()) << claim.id();
+    for (const std::string& file : claim.evidence) EXPECT_EQ(file.find('{'), std::string::npos) << file;
   }
 }
 

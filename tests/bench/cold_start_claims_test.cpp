@@ -40,7 +40,7 @@ JudgedClaim judged_cold(const ColdOutcome& outcome, const std::string& id = "col
   ResultTables results;
   results.add("cold_start_shares", tests::declared_table("cold_start_shares", shares));
   for (const JudgedClaim& claim : judge_claims(results)) {
-    if (claim.id == "orbital_transfer/" + id) return claim;
+    if (claim.id() == "orbital_transfer/" + id) return claim;
   }
   ADD_FAILURE() << "no claim " << id;
   return {};
@@ -51,7 +51,7 @@ ClaimVerdict verdict_cold(const ColdOutcome& outcome) { return judged_cold(outco
 TEST(ColdStartClaims, StateTheDifferencesAndWhatTheirIntervalsSay) {
   const auto says = [](const ColdOutcome& outcome, const char* words) {
     const JudgedClaim claim = judged_cold(outcome);
-    return claim.verdict == ClaimVerdict::measured && claim.measured.find(words) != std::string::npos;
+    return claim.verdict == ClaimVerdict::measured && claim.measured().find(words) != std::string::npos;
   };
   EXPECT_TRUE(says({.dmoc = 950, .hamiltonian = 955, .tangent = 960}, "%: no difference shown; tangent"));
   EXPECT_TRUE(says({.dmoc = 800, .hamiltonian = 800, .tangent = 950}, "DMOC less often; 95 %"));
@@ -71,7 +71,7 @@ TEST(ColdStartClaims, AreOursAndNameTheirStarts) {
     const JudgedClaim claim = judged_cold({.dmoc = 950, .hamiltonian = 950, .tangent = 950}, id);
     EXPECT_EQ(claim.whose, Whose::ours);
     EXPECT_NE(claim.states.find("cold"), std::string::npos);
-    EXPECT_NE(claim.measured.find("cold"), std::string::npos);
+    EXPECT_NE(claim.measured().find("cold"), std::string::npos);
   }
 }
 

@@ -102,7 +102,7 @@ class DoctoredClaims : public tests::InTemporaryFolder {
   static Judgements judgements_of(const ResultTables& tables,
                                   const std::function<bool(const std::string&)>& is_chosen = every) {
     Judgements judged;
-    for (const JudgedClaim& claim : judge_claims(tables, is_chosen)) judged[claim.id] = claim;
+    for (const JudgedClaim& claim : judge_claims(tables, is_chosen)) judged[claim.id()] = claim;
     return judged;
   }
 
@@ -119,11 +119,11 @@ TEST_F(DoctoredClaims, AreAllReproducedByWholeTables) {
   const std::string told_otherwise = "orbital_transfer/order_theorem_with_one_power_less";
   std::size_t reproduced = 0;
   for (const auto& [id, claim] : whole_) {
-    EXPECT_EQ(claim.measured.find("has no column"), std::string::npos) << id << ": " << claim.measured;
+    EXPECT_EQ(claim.measured().find("has no column"), std::string::npos) << id << ": " << claim.measured();
     if (claim.verdict == ClaimVerdict::reproduced) ++reproduced;
     const bool is_judged = (id.starts_with(orbit) || id.starts_with("simulations")) && id != told_otherwise;
     if (is_judged && claim.verdict != ClaimVerdict::measured) {
-      EXPECT_EQ(claim.verdict, ClaimVerdict::reproduced) << id << ": " << claim.measured;
+      EXPECT_EQ(claim.verdict, ClaimVerdict::reproduced) << id << ": " << claim.measured();
     }
   }
   EXPECT_GE(reproduced, 29U);
@@ -151,20 +151,20 @@ TEST_F(DoctoredClaims, AreNeverReproducedWhereANumberThatDecidesIsNone) {
         for (const char* number : {"1e30", "-1e30", "0.37"}) {
           for (const auto& [id, claim] : doctored(number)) {
             const JudgedClaim& before = whole_.at(id);
-            if (before.measured != claim.measured || before.verdict != claim.verdict) decided.insert(id);
+            if (before.measured() != claim.measured() || before.verdict != claim.verdict) decided.insert(id);
           }
         }
         if (decided.empty()) continue;
         ++deciding;
         for (const auto& [id, claim] : doctored("5e-324")) {  // finite, but ratios to it are not
-          if (claim.measured.find(" inf ") == std::string::npos) continue;
-          EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << name << ": " << column << ": " << claim.measured;
+          if (claim.measured().find(" inf ") == std::string::npos) continue;
+          EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << name << ": " << column << ": " << claim.measured();
         }
         for (const std::string& text : no_numbers) {
           Judgements judged = doctored(text);
           for (const std::string& id : decided) {
             EXPECT_NE(judged[id].verdict, ClaimVerdict::reproduced)
-                << name << ": " << column << " = \"" << text << "\": " << id << ": " << judged[id].measured;
+                << name << ": " << column << " = \"" << text << "\": " << id << ": " << judged[id].measured();
           }
         }
         if (!in_all_rows) continue;
@@ -220,9 +220,9 @@ TEST_F(DoctoredClaims, SayNotJudgedAndNameTheColumn) {
     for (const std::string& claim : deciding.claims) {
       const JudgedClaim& found = judged[id_of(claim)];
       EXPECT_EQ(found.verdict, ClaimVerdict::not_judged) << claim << " with " << deciding.column << " " << what;
-      EXPECT_NE(found.measured.find(deciding.table + ".csv"), std::string::npos)
-          << claim << " with " << deciding.column << " " << what << ": " << found.measured;
-      EXPECT_NE(found.measured.find(deciding.column), std::string::npos) << found.measured;
+      EXPECT_NE(found.measured().find(deciding.table + ".csv"), std::string::npos)
+          << claim << " with " << deciding.column << " " << what << ": " << found.measured();
+      EXPECT_NE(found.measured().find(deciding.column), std::string::npos) << found.measured();
     }
   };
   for (const Deciding& deciding : all) {
@@ -239,7 +239,7 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
     Judgements judged = judge();
     const JudgedClaim& claim = judged["examples/local_minima"];
     EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << sentence;
-    EXPECT_NE(claim.measured.find(sentence), std::string::npos) << claim.measured;
+    EXPECT_NE(claim.measured().find(sentence), std::string::npos) << claim.measured();
     EXPECT_EQ(judged["simulations/symplectic"].verdict, ClaimVerdict::reproduced);
     std::filesystem::remove(file);
     write(name, columns_.at(name), rows_.at(name));
@@ -274,7 +274,7 @@ TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
   const auto expect = [&](const std::string& sentence) {
     const JudgedClaim claim = judge()["orbital_transfer/objective_evolution"];
     EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << sentence;
-    EXPECT_NE(claim.measured.find(sentence), std::string::npos) << claim.measured;
+    EXPECT_NE(claim.measured().find(sentence), std::string::npos) << claim.measured();
     write("objective", columns, rows);
   };
   slip_in("objective", columns, {rows.begin(), rows.end() - 1});
@@ -306,9 +306,9 @@ TEST_F(DoctoredClaims, AreNotJudgedWhereAnyTableIsNotAsItsRunWroteIt) {
     bool is_told = false;
     const Judgements judged = judge();
     for (const JudgedClaim& claim : std::views::values(judged)) {
-      if (claim.measured.find(name + ".csv is not as its run wrote it") == std::string::npos) continue;
+      if (claim.measured().find(name + ".csv is not as its run wrote it") == std::string::npos) continue;
       is_told = true;
-      EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << claim.id;
+      EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << claim.id();
     }
     EXPECT_TRUE(is_told) << name;
     write(name, columns, rows_.at(name));
@@ -320,8 +320,8 @@ TEST_F(DoctoredClaims, NameTheOrdersThatOneRowLacks) {
   write(name, columns_.at(name), {rows_.at(name).front()});
   const JudgedClaim claim = judge()["orbital_transfer/order_of_convergence"];
   EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged);
-  EXPECT_NE(claim.measured.find("no order of momentum for orbital_transfer, dmoc, gauss 2"), std::string::npos)
-      << claim.measured;
+  EXPECT_NE(claim.measured().find("no order of momentum for orbital_transfer, dmoc, gauss 2"), std::string::npos)
+      << claim.measured();
 }
 
 TEST_F(DoctoredClaims, CountTheRowsThatTheyLeaveOutNameThemAndSayWhomThatFavours) {
@@ -330,7 +330,7 @@ TEST_F(DoctoredClaims, CountTheRowsThatTheyLeaveOutNameThemAndSayWhomThatFavours
   };
   const std::string measured =
       with("derivatives", "status", "step failed", is_stray)["orbital_transfer/derivatives_beside_central_differences"]
-          .measured;
+          .measured();
   EXPECT_NE(measured.find("4 of 6 rows left out"), std::string::npos) << measured;
   EXPECT_NE(measured.find("in favour of finite_differences by dmoc (2: N = 16, 1024)"), std::string::npos) << measured;
 }
@@ -394,7 +394,7 @@ class ReachedVerdicts {
  private:
   void note(const std::vector<JudgedClaim>& claims) {
     for (const JudgedClaim& claim : claims) {
-      const std::string name = predicate_of(claim.id);
+      const std::string name = predicate_of(claim.id());
       verdicts_[name].insert(claim.verdict);
       if (claim.by_counting) by_counting_.insert(name);
       for (const ReadRows& read : claim.rows) read_[name][read.table].insert(read.columns.begin(), read.columns.end());
@@ -450,8 +450,8 @@ TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
   std::map<std::string, std::vector<ReadRows>> read;
   for (const JudgedClaim& claim : judge_claims(tables)) {
     // It is about failures.
-    if (predicate_of(claim.id) == "automatic_differentiation_more_robust") continue;
-    if (claim.verdict != ClaimVerdict::differs) read[claim.id] = claim.rows;
+    if (predicate_of(claim.id()) == "automatic_differentiation_more_robust") continue;
+    if (claim.verdict != ClaimVerdict::differs) read[claim.id()] = claim.rows;
   }
   std::size_t failed = 0;
   for (const auto& [name, rows] : all) {
@@ -470,7 +470,7 @@ TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
         };
         for (const JudgedClaim& claim : judge_claims(tables, reads_it)) {
           EXPECT_NE(claim.verdict, ClaimVerdict::differs)
-              << name << ": " << text << ": " << claim.id << ": " << claim.measured;
+              << name << ": " << text << ": " << claim.id() << ": " << claim.measured();
         }
       }
     }
@@ -484,7 +484,7 @@ TEST(EveryPredicate, OfThePaperDrawsALine) {
   for (const auto& [name, rows] : tests::all_rows()) tables.add(name, tests::declared_table(name, rows));
   for (const JudgedClaim& claim : judge_claims(tables)) {
     if (claim.whose != Whose::paper) continue;
-    EXPECT_NE(claim.verdict, ClaimVerdict::measured) << claim.id;
+    EXPECT_NE(claim.verdict, ClaimVerdict::measured) << claim.id();
   }
 }
 

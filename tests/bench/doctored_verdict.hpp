@@ -25,7 +25,7 @@ inline ClaimVerdict doctored_verdict(const std::string& topic, const std::string
     results.add(name, declared_table(name, rows));
   }
   for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id == "orbital_transfer/" + claim) return judged.verdict;
+    if (judged.id() == "orbital_transfer/" + claim) return judged.verdict;
   }
   ADD_FAILURE() << "no claim " << claim;
   return ClaimVerdict::not_judged;

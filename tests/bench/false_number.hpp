@@ -30,7 +30,7 @@ inline ClaimVerdict verdict_with(const FalseNumber& doctored) {
     results.add(name, declared_table(name, changed));
   }
   for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id == doctored.claim) return judged.verdict;
+    if (judged.id() == doctored.claim) return judged.verdict;
   }
   ADD_FAILURE() << "no claim " << doctored.claim;
   return ClaimVerdict::not_judged;

@@ -13,7 +13,7 @@ namespace {
 /// The verdict on a claim by its whole id.
 ClaimVerdict verdict_of_claim(const ResultTables& results, const std::string& id) {
   for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id == id) return judged.verdict;
+    if (judged.id() == id) return judged.verdict;
   }
   ADD_FAILURE() << "no claim " << id;
   return ClaimVerdict::not_judged;
@@ -89,7 +89,7 @@ JudgedClaim judged_library(int dmoc_wins, int hamiltonian_wins) {
   ResultTables results;
   results.add("profile", tests::declared_table("profile", profile));
   for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id == "library/dmoc_best_by_evaluations") return judged;
+    if (judged.id() == "library/dmoc_best_by_evaluations") return judged;
   }
   ADD_FAILURE() << "the library is not judged";
   return {};
@@ -103,7 +103,7 @@ TEST(LibraryClaims, TheLibraryIsJudgedByWhoIsBestMostOftenBySolver) {
 }
 
 TEST(LibraryClaims, MethodsAreComparedWithinOneSolverWhateverItCounts) {
-  const std::string measured = judged_library(5, 2).measured;
+  const std::string measured = judged_library(5, 2).measured();
   for (const char* part : {"ipopt, 7 instances: dmoc  : best on 5, solves 7", "hamiltonian  : best on 2",
                            "interior_point, 7 instances: dmoc  : best on 4, solves 7"}) {
     EXPECT_NE(measured.find(part), std::string::npos) << part << " is not in " << measured;
@@ -111,7 +111,7 @@ TEST(LibraryClaims, MethodsAreComparedWithinOneSolverWhateverItCounts) {
 }
 
 TEST(LibraryClaims, ALibraryThatWasNotSweptIsNotInTheTable) {
-  for (const JudgedClaim& judged : judge_claims({})) EXPECT_FALSE(judged.id.starts_with("library/")) << judged.id;
+  for (const JudgedClaim& judged : judge_claims({})) EXPECT_FALSE(judged.id().starts_with("library/")) << judged.id();
 }
 
 }  // namespace

@@ -193,7 +193,7 @@ std::map<std::string, JudgedClaim> judged(const std::map<std::string, Rows>& row
   ResultTables tables;
   for (const auto& [name, of_table] : rows) tables.add(name, tests::declared_table(name, of_table));
   std::map<std::string, JudgedClaim> claims;
-  for (const JudgedClaim& claim : judge_claims(tables)) claims[claim.id] = claim;
+  for (const JudgedClaim& claim : judge_claims(tables)) claims[claim.id()] = claim;
   return claims;
 }
 
@@ -203,12 +203,12 @@ TEST_P(PlantedMistake, TurnsTheVerdict) {
   static const std::map<std::string, JudgedClaim> before = judged(tests::all_rows());
   const Mistake& mistake = GetParam();
   ASSERT_TRUE(before.contains(mistake.claim)) << mistake.claim;
-  EXPECT_EQ(before.at(mistake.claim).verdict, ClaimVerdict::reproduced) << before.at(mistake.claim).measured;
+  EXPECT_EQ(before.at(mistake.claim).verdict, ClaimVerdict::reproduced) << before.at(mistake.claim).measured();
   std::map<std::string, Rows> rows = tests::all_rows();
   ASSERT_TRUE(rows.contains(mistake.table)) << mistake.table;
   mistake.plant(rows[mistake.table]);
   const JudgedClaim claim = judged(rows).at(mistake.claim);
-  EXPECT_EQ(name_of(claim.verdict), name_of(mistake.becomes)) << claim.measured << '\n' << claim.reason;
+  EXPECT_EQ(name_of(claim.verdict), name_of(mistake.becomes)) << claim.measured() << '\n' << claim.reason();
 }
 
 INSTANTIATE_TEST_SUITE_P(Solutions, PlantedMistake, testing::ValuesIn(mistakes_about_solutions()));

@@ -17,7 +17,7 @@ using tests::has;
 
 std::vector<std::string> ids_of(const std::vector<JudgedClaim>& claims) {
   std::vector<std::string> ids;
-  for (const JudgedClaim& claim : claims) ids.push_back(claim.id);
+  for (const JudgedClaim& claim : claims) ids.push_back(claim.id());
   return ids;
 }
 

@@ -16,14 +16,13 @@ constexpr double same_cost = 1e-3;
 constexpr double fewest_searches = 10.0;
 
 /// The problems, with a column in per cent: "orbital_transfer 182.6 %, hovercraft 3.1 %".
-std::string shares_of(const Selection& rows, const char* column) {
-  std::vector<std::string> words;
-  for (const Row& row : rows) {
+Words shares_of(const Selection& rows, const char* column) {
+  return joined(rows, ", ", [&](const Row& row) {
+    const std::string& problem = row.text("problem");
     const auto share = row.number(column);
-    words.push_back(
-        fmt::format("{} {}", row.text("problem"), share ? fmt::format("{:.3g} %", 100.0 * *share) : "none"));
-  }
-  return fmt::format("{}", fmt::join(words, ", "));
+    if (!share) return worded("{} none", problem);
+    return worded("{} {:.3g} %", problem, Measurement{column, 100.0 * *share, "", problem, "%"});
+  });
 }
 
 /// Whether there is a path whose full solve ends at the best cost that is known, and multi-start at none that is less.
@@ -52,11 +51,13 @@ Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*
   }
   return found(ClaimVerdict::measured,
                "on {} of {} problems the full solve from the path ends within {:g} % of the best known cost, and no "
-               "start among those that the same time allows in a lesser one; the path itself costs more than that by "
-               "{}; the slowest plan takes {:.2g} to {:.2g} ms",
-               best, rows.size(), 100.0 * same_cost, shares_of(rows, "excess_before"), slowest.needed("plan_lower"),
-               slowest.needed("plan_upper"))
-      .because(others.empty() ? "" : fmt::format("not on {}", fmt::join(others, ", ")))
+               "start among those that the same time allows in a lesser one",
+               best, rows.size(), Measurement{"bound on the excess of the cost", 100.0 * same_cost, "", "", "%"})
+      .also(worded("the path itself costs more than that by {}", shares_of(rows, "excess_before")))
+      .also(worded("the slowest plan takes {:.2g} to {:.2g} ms",
+                   Measurement{"lower end of the slowest plan", slowest.needed("plan_lower"), "", "", "ms"},
+                   Measurement{"upper end of the slowest plan", slowest.needed("plan_upper"), "", "", "ms"}))
+      .because(others.empty() ? Words() : worded("not on {}", fmt::join(others, ", ")))
       .as_sure_as("99 % of the times of searches");
 }
 

@@ -74,17 +74,18 @@ Finding pays_in_momentum_alone(const ResultTables& tables, const std::string& pr
   }
   require(compared >= 3, "low_thrust.csv has {} grids with usable rows of dmoc and tangent; three are needed",
           compared);
-  return found(
-      ClaimVerdict::measured,
-      "on {} grids cost and replay errors differ by a factor of at most {:.2f}; angular momentum over the whole "
-      "horizon less work: of tangent-space collocation at least {:.1f} times DMOC's",
-      compared, farthest, least);
+  return found(ClaimVerdict::measured, "on {} grids cost and replay errors differ by a factor of at most {:.2f}",
+               compared, Measurement{"largest factor between cost or replay errors", farthest, "tangent"})
+      .also(worded("angular momentum over the whole horizon less work: of tangent-space collocation at least {:.1f} "
+                   "times DMOC's",
+                   Measurement{"least ratio of the momentum balance", least, "tangent"}));
 }
 
 Finding pays_beside_explicit(const ResultTables& tables, const std::string& problem) {
   const ErrorRatios ratios = ratios_of(tables, problem, "dmoc", explicit_midpoint, "state_error", 0.0);
   return found(ratios.least > 1.0, "state error of {} over DMOC's on {} grids: {:.2f} to {:.2f}", explicit_midpoint,
-               ratios.count, ratios.least, ratios.most);
+               ratios.count, Measurement{"least ratio of state errors", ratios.least, explicit_midpoint},
+               Measurement{"largest ratio of state errors", ratios.most, explicit_midpoint});
 }
 
 Finding order_pays_more(const ResultTables& tables, const std::string& problem) {
@@ -92,7 +93,9 @@ Finding order_pays_more(const ResultTables& tables, const std::string& problem) 
   const ErrorRatios ratios = ratios_of(tables, problem, runge_kutta_4, "dmoc", "cost_error", from);
   return found(ratios.least > 1.0,
                "cost error of DMOC over the one of {} on {} grids from {:g} steps on: {:.1f} to {:.1f}", runge_kutta_4,
-               ratios.count, from, ratios.least, ratios.most);
+               ratios.count, Measurement{"fewest steps per revolution", from},
+               Measurement{"least ratio of cost errors", ratios.least, "dmoc"},
+               Measurement{"largest ratio of cost errors", ratios.most, "dmoc"});
 }
 
 }  // namespace

@@ -33,7 +33,9 @@ Finding symplectic_by_principle(const ResultTables& tables, const std::string& /
       variational < within_rounding && std::min(imposed, from_left) > within_rounding,
       "D'ΩD - Ω of (q, t, p, -E) in units of rounding: variational at most {:.1f}, imposed up to {:.1e}, known "
       "before the step up to {:.1e}",
-      variational, imposed, from_left);
+      Measurement{"largest defect in units of rounding", variational, "", "variational"},
+      Measurement{"largest defect in units of rounding", imposed, "", "imposed"},
+      Measurement{"largest defect in units of rounding", from_left, "", "from_left"});
 }
 
 Finding momentum_by_every_route(const ResultTables& tables, const std::string& /*problem*/) {
@@ -46,8 +48,9 @@ Finding momentum_by_every_route(const ResultTables& tables, const std::string& /
   const double least_work = -rows.max([](const Row& row) { return -std::abs(row.needed("work")); });
   return found(rows.max("defect") < rounding && least_work > some_work,
                "{} motions of 400 steps under arbitrary thrust, steps by distance, acceleration and thrust: change of "
-               "momentum less work at most {:.1e}; work at least {:.1e}",
-               rows.size(), rows.max("defect"), least_work);
+               "momentum less work at most {:.1e}",
+               rows.size(), Measurement{"largest defect", rows.max("defect")})
+      .also(worded("work at least {:.1e}", Measurement{"least work", least_work}));
 }
 
 Finding energy_by_principle(const ResultTables& tables, const std::string& /*problem*/) {
@@ -62,11 +65,13 @@ Finding energy_by_principle(const ResultTables& tables, const std::string& /*pro
     return std::abs(row.needed("change")) > drifts * std::abs(row.needed("standard_error"));
   };
   const auto words = [](const Row& row) {
-    return fmt::format("e = {}: {} oscillates by {:.1e}, changes by {:.1e}", row.text("eccentricity"), row.text("rule"),
-                       row.needed("oscillation"), std::abs(row.needed("change")));
+    const std::string at = fmt::format("e = {}, {}", row.text("eccentricity"), row.text("rule"));
+    return worded("e = {}: {} oscillates by {:.1e}, changes by {:.1e}", row.text("eccentricity"), row.text("rule"),
+                  Measurement{"oscillation of the energy", row.needed("oscillation"), "", at},
+                  Measurement{"change of the energy", std::abs(row.needed("change")), "", at});
   };
   return found(std::ranges::all_of(variational, stays) && std::ranges::all_of(from_left, leaves), "{}",
-               rows.in_words("; ", words));
+               joined(rows, "; ", words));
 }
 
 /// The smallest and the largest quotient of numbers of rows that agree in a key.
@@ -108,13 +113,21 @@ Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*p
       "step_control.csv has {} and step_control_transfer.csv {} solved pairs of imposed and variational steps, three "
       "are needed; step_control_slopes.csv has {}",
       state.count, cost.count, operations.count);
-  return found(
-      state.least > 1.0 && cost.least > 1.0,
-      "with the same number of steps the imposed ones have {:.0f} to {:.0f} times the state error ({} pairs) and "
-      "{:.0f} to {:.0f} times the error of the optimal cost ({} pairs); variational ones take {:.1f} to {:.1f} "
-      "times the operations of a Newton pass and {:.2f} to {:.2f} times the variables",
-      state.least, state.largest, state.count, cost.least, cost.largest, cost.count, operations.least,
-      operations.largest, variables.least, variables.largest);
+  const auto least = [](const char* name, const Quotients& ratios) {
+    return Measurement{std::string("least ratio of ") + name, ratios.least};
+  };
+  const auto largest = [](const char* name, const Quotients& ratios) {
+    return Measurement{std::string("largest ratio of ") + name, ratios.largest};
+  };
+  return found(state.least > 1.0 && cost.least > 1.0,
+               "with the same number of steps the imposed ones have {:.0f} to {:.0f} times the state error ({} pairs) "
+               "and {:.0f} to {:.0f} times the error of the optimal cost ({} pairs)",
+               least("state errors", state), largest("state errors", state), state.count, least("cost errors", cost),
+               largest("cost errors", cost), cost.count)
+      .also(worded("variational ones take {:.1f} to {:.1f} times the operations of a Newton pass and {:.2f} to {:.2f} "
+                   "times the variables",
+                   least("operations", operations), largest("operations", operations), least("variables", variables),
+                   largest("variables", variables)));
 }
 
 }  // namespace
