@@ -215,7 +215,7 @@ int print_names(const std::string& kind) {
                                                                  {"tableau", tableau_names},
                                                                  {"solver", solver_names},
                                                                  {"derivatives", derivative_back_end_names},
-                                                                 {"integrator", shooting_integrator_names}};
+                                                                 {"integrator", explicit_integrator_names}};
   for (const std::string& name : value_named(kinds, kind, "--names: there is no kind")()) fmt::print("{}\n", name);
   return 0;
 }

@@ -25,11 +25,11 @@ quantities = "residual jacobian hessian"
 quantity_label(q) = word("residual Jacobian Hessian", q)
 quantity_colour(q) = word(green." ".blue." ".vermilion, q)
 quantity_marker(q) = int(word("9 7 5", q))
-way_count = 7
-way_label(w) = word("'by hand' 'machine\ncode' 'tape' 'program' 'replay' 'ADOL-C,\n64 on\na tape' 'ADOL-C,\none by\none'", w)
-way_where(w, quantity) = midpoint.(w == 1 ? "way=hand,".set_word : w == 2 ? "way=native,".set_word\
-    : w == 3 ? "way=tape,".set_word : w == 4 ? "way=program,".set_word : w == 5 ? "way=replay" : "way=adolc").\
-    ",quantity=".(w == 6 ? quantity."_block" : quantity)
+way_count = 6
+way_label(w) = word("'by hand' 'tape' 'program' 'replay' 'ADOL-C,\n64 on\na tape' 'ADOL-C,\none by\none'", w)
+way_where(w, quantity) = midpoint.(w == 1 ? "way=hand,".set_word : w == 2 ? "way=tape,".set_word\
+    : w == 3 ? "way=program,".set_word : w == 4 ? "way=replay" : "way=adolc").\
+    ",quantity=".(w == 5 ? quantity."_block" : quantity)
 paper = "orbital_transfer two_link_manipulator"
 drawn = ""
 do for [problem in paper] { if (here("way=tape,problem=".problem, "nanoseconds")) { drawn = drawn." ".problem } }

@@ -186,7 +186,6 @@ nlohmann::ordered_json metadata_schema() {
                            {"compiler", text},
                            {"flags", text},
                            {"instruction_set", text},
-                           {"native_code", text},
                            {"processor", text},
                            {"cores", {{"type", "integer"}, {"minimum", 1}}},
                            {"memory_gib", of_type("number")},

@@ -20,7 +20,6 @@
 #include "bench/run/result_file.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/instruction_set.hpp"
-#include "methods/runtime/native_code_use.hpp"
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
@@ -82,9 +81,6 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
   description["compiler"] = compiler();
   description["flags"] = DMOCBENCH_FLAGS;
   description["instruction_set"] = std::string(name_of(preferred_instruction_set()));
-  if (const NativeCodeUse use = preferred_native_code_use(); use != NativeCodeUse::when_worthwhile) {
-    description["native_code"] = std::string(name_of_use(use));
-  }
   description["processor"] = processor();
   description["cores"] = ::sysconf(_SC_NPROCESSORS_ONLN);
   description["memory_gib"] = memory_in_gibibytes();

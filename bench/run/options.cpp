@@ -76,14 +76,14 @@ std::vector<Grid> make_grids(const ExperimentOptions& options) {
 std::vector<std::string> integrated_methods(std::string_view family, const ExperimentOptions& options) {
   const std::vector<std::string> integrators =
       options.integrators.empty() ? std::vector<std::string>{"rk4"}
-                                  : in_order("integrator", options.integrators, shooting_integrator_names());
+                                  : in_order("integrator", options.integrators, explicit_integrator_names());
   std::set<int> substeps(options.substeps.begin(), options.substeps.end());
   if (substeps.empty()) substeps.insert(1);
   std::vector<std::string> names;
   for (const std::string& integrator : integrators) {
     for (const int count : substeps) {
       try {
-        require_substeps(integrator, count);
+        require_substeps(count);
       } catch (const Error& error) {
         throw Error(fmt::format("--substeps: {}", error.what()));
       }
@@ -262,8 +262,7 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
       "--control-nodes", options.control_nodes,
       "control points of galerkin per interval: Gauss points, 1 for a constant control, or with --controls shared "
       "Lobatto points, for a continuous control; default: s");
-  line.list("--integrator", options.integrators,
-            "integrators of shooting: rk4, midpoint, dmoc (a step of DMOC); default: rk4");
+  line.list("--integrator", options.integrators, "integrators of shooting: rk4, midpoint; default: rk4");
   line.list("--substeps", options.substeps, "steps of the integrator of shooting per interval; default: 1");
   line.group("Grid");
   line.option("--intervals", options.intervals,

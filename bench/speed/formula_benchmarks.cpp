@@ -6,7 +6,6 @@
 #include "bench/speed/interval_benchmark.hpp"
 #include "bench/speed/kernels.hpp"
 #include "methods/error.hpp"
-#include "methods/expression/native/native_code.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
@@ -16,28 +15,13 @@ namespace dmocbench::speed {
 namespace {
 
 /// The tapes of residual, Jacobian and Hessian, and one tape for the three.
-void register_tapes(const BenchmarkedFormulas& point, const std::string& way, InstructionSet set, NativeCodeUse use) {
+void register_tapes(const BenchmarkedFormulas& point, InstructionSet set) {
   const std::string name(name_of(set));
-  IntervalBenchmark benchmark{.way = way, .formulas = point.formulas(), .instruction_set = name};
-  register_quantities(benchmark, point, [&](std::size_t i) { return by_tape(point, *point.schedules()[i], set, use); });
+  IntervalBenchmark benchmark{.way = "tape", .formulas = point.formulas(), .instruction_set = name};
+  register_quantities(benchmark, point, [&](std::size_t i) { return by_tape(point, *point.schedules()[i], set); });
   const Schedule all = fused(point);
   benchmark.quantity = "fused";
-  register_benchmark(benchmark, checked_evaluation(point, all, "the tape on " + name, by_tape(point, all, set, use)));
-}
-
-/// Times the making of the three tapes with their machine code.
-void register_making(const BenchmarkedFormulas& point, InstructionSet set) {
-  Evaluation making{.evaluate = [&point, set] {
-    for (const Schedule* schedule : point.schedules()) {
-      benchmark::DoNotOptimize(Tape(*schedule, set, NativeCodeUse::always));
-    }
-  }};
-  for (const Schedule* schedule : point.schedules()) making.work.operations += schedule->operation_count();
-  register_benchmark({.way = "native",
-                      .quantity = "making",
-                      .formulas = point.formulas(),
-                      .instruction_set = std::string(name_of(set))},
-                     making);
+  register_benchmark(benchmark, checked_evaluation(point, all, "the tape on " + name, by_tape(point, all, set)));
 }
 
 void register_replays(const BenchmarkedFormulas& point) {
@@ -104,12 +88,7 @@ HandFunctions hand_written(const std::string& problem, InstructionSet set) {
 
 void register_expression_benchmarks(const FormulasOfPaper& paper) {
   for (const auto& point : paper) {
-    for (const InstructionSet set : available_instruction_sets()) {
-      register_tapes(*point, "tape", set, NativeCodeUse::never);
-      if (!has_native_code(set)) continue;
-      register_tapes(*point, "native", set, NativeCodeUse::always);
-      register_making(*point, set);
-    }
+    for (const InstructionSet set : available_instruction_sets()) register_tapes(*point, set);
     register_replays(*point);
   }
 }

@@ -117,9 +117,8 @@ void register_benchmark(const IntervalBenchmark& measured, const Evaluation& eva
   register_benchmark(measured, std::function([evaluation] { return evaluation; }));
 }
 
-ColumnWriter by_tape(const BenchmarkedFormulas& point, const Schedule& schedule, InstructionSet set,
-                     NativeCodeUse use) {
-  const auto tape = std::make_shared<Tape>(schedule, set, use);
+ColumnWriter by_tape(const BenchmarkedFormulas& point, const Schedule& schedule, InstructionSet set) {
+  const auto tape = std::make_shared<Tape>(schedule, set);
   const auto workspace = std::make_shared<Tape::Workspace>(*tape);
   return [&point, tape, workspace](std::span<double* const> outputs) {
     tape->evaluate(BenchmarkedFormulas::intervals, point.columns(), outputs, *workspace);
@@ -153,7 +152,7 @@ void register_quantities(IntervalBenchmark benchmark, const BenchmarkedFormulas&
 void require_agreement(const BenchmarkedFormulas& point, const Schedule& schedule, const std::string& name,
                        const std::function<std::vector<double>(std::size_t interval)>& values, double tolerance) {
   AlignedSeries outputs(schedule.outputs().size());
-  by_tape(point, schedule, preferred_instruction_set(), NativeCodeUse::never)(outputs.columns());
+  by_tape(point, schedule, preferred_instruction_set())(outputs.columns());
   for (std::size_t k = 0; k < BenchmarkedFormulas::intervals; ++k) {
     const std::vector<double> expected = outputs.row(k);
     const std::vector<double> found = values(k);

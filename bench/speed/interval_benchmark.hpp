@@ -72,9 +72,8 @@ void register_benchmark(const IntervalBenchmark& measured, const Evaluation& eva
 
 /// Writes the outputs of a schedule for all intervals, a column per output.
 using ColumnWriter = std::function<void(std::span<double* const> outputs)>;
-/// The same by a tape, interpreted or as machine code.
-[[nodiscard]] ColumnWriter by_tape(const BenchmarkedFormulas& point, const Schedule& schedule, InstructionSet set,
-                                   NativeCodeUse use);
+/// The same by a tape.
+[[nodiscard]] ColumnWriter by_tape(const BenchmarkedFormulas& point, const Schedule& schedule, InstructionSet set);
 
 /// An evaluation that writes the outputs of a schedule to columns of its own. Throws as `require_agreement`.
 [[nodiscard]] Evaluation checked_evaluation(const BenchmarkedFormulas& point, const Schedule& schedule,

@@ -13,7 +13,4 @@ namespace dmocbench {
     const ExpressionMatrix& a, const ExpressionVector& b,
     const char* singular = "a system of linear equations has a pivot that is zero for all values");
 
-/// The same for a matrix that need not be symmetric, by elimination without an exchange of rows.
-[[nodiscard]] ExpressionVector solve_unsymmetric(const ExpressionMatrix& a, const ExpressionVector& b);
-
 }  // namespace dmocbench

@@ -10,8 +10,6 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/compound_steps.hpp"
-#include "methods/expression/native/late_code.hpp"
-#include "methods/expression/native/staged_outputs.hpp"
 #include "methods/expression/tape_kernel.hpp"
 
 namespace dmocbench {
@@ -68,7 +66,7 @@ std::uint32_t place_in_slots(const std::vector<CompoundStep>& compounds, std::ui
 
 }  // namespace
 
-Tape::Tape(const Schedule& schedule, InstructionSet set, NativeCodeUse use)
+Tape::Tape(const Schedule& schedule, InstructionSet set)
     : input_count_(schedule.input_count()),
       output_count_(schedule.outputs().size()),
       operation_count_(schedule.operation_count()),
@@ -98,7 +96,6 @@ Tape::Tape(const Schedule& schedule, InstructionSet set, NativeCodeUse use)
     const std::uint32_t output = first_output() + j;
     if (source != output) instructions_.push_back(copy_instruction(source, output));
   }
-  late_code_ = late_code_for(schedule, {places, first_output(), static_cast<std::uint32_t>(series_count())}, set, use);
 }
 
 std::vector<std::uint32_t> Tape::place_values(const Schedule& schedule, const std::vector<CompoundStep>& compounds) {
@@ -135,26 +132,7 @@ Tape::Workspace::Workspace(const Tape& tape)
     if (!is_output) series_[i] = (next++)->numbers.data();
   }
   for (std::size_t i = 0; i < tape.constants_.size(); ++i) std::fill_n(series_[i], block_width, tape.constants_[i]);
-  if (const NativeCode* code = tape.late_code_ ? tape.late_code_->get() : nullptr) {
-    make_room_for(*code, tape);
-  }
 }
-
-Tape::Workspace::Workspace(Workspace&&) noexcept = default;
-Tape::Workspace& Tape::Workspace::operator=(Workspace&&) noexcept = default;
-Tape::Workspace::~Workspace() = default;
-
-void Tape::Workspace::make_room_for(const NativeCode& code, const Tape& tape) {
-  const std::size_t first_slot = tape.series_count();
-  const std::size_t first_column = first_slot + code.slots;
-  slots_of_code_ = std::make_unique_for_overwrite<Series[]>(code.slots);  // NOLINT(*-avoid-c-arrays)
-  series_.resize(first_column + tape.output_count_);
-  for (std::size_t i = 0; i < code.slots; ++i) series_[first_slot + i] = slots_of_code_[i].numbers.data();
-  staged_outputs_ = std::make_unique<StagedOutputs>(tape.output_count_, tape.first_output(),
-                                                    static_cast<std::uint32_t>(first_column));
-}
-
-bool Tape::is_native() const noexcept { return late_code_ && late_code_->get() != nullptr; }
 
 void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                     Workspace& workspace) const {
@@ -173,23 +151,11 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
     std::fill_n(spread, block_width, *inputs[input.index].data);
     workspace.series_[input.position] = spread;
   }
-  const NativeCode* code = late_code_ ? late_code_->get_for(end - begin) : nullptr;
-  if (code != nullptr && !workspace.staged_outputs_) workspace.make_room_for(*code, *this);
-  // On short grids all columns together are hardly longer than the cache.
-  const bool stages =
-      code != nullptr && end - begin >= 2 * block_width && StagedOutputs::are_needed(outputs.first(output_count_));
-  StagedOutputs* const staged = stages ? workspace.staged_outputs_.get() : nullptr;
   const TapeKernel kernel = compiled_for(set_, kernels);
   for (std::size_t first = begin; first < end; first += block_width) {
     point_to_block(first, inputs, outputs, workspace);
     const std::size_t width = std::min(block_width, end - first);
-    if (code != nullptr && width >= code->vector_width) {
-      if (staged != nullptr) staged->redirect(workspace.series_);
-      code->run(kernel, workspace.series_.data(), width);
-      if (staged != nullptr) kernel(staged->copies().data(), staged->copies().size(), workspace.series_.data(), width);
-    } else {
-      kernel(instructions_.data(), instructions_.size(), workspace.series_.data(), width);
-    }
+    kernel(instructions_.data(), instructions_.size(), workspace.series_.data(), width);
   }
 }
 

@@ -10,23 +10,18 @@
 #include "methods/expression/schedule.hpp"
 #include "methods/expression/tape_kernel.hpp"
 #include "methods/runtime/instruction_set.hpp"
-#include "methods/runtime/native_code_use.hpp"
 
 namespace dmocbench {
 
-class LateCode;
 struct CompoundStep;
-struct NativeCode;
-class StagedOutputs;
 
 /// A schedule compiled for evaluation over all intervals of a grid.
 ///
 /// The code is straight-line and runs on a block of intervals at a time: every instruction is a loop over `block_width`
 /// numbers, which becomes vector instructions. A sum or product with a single reader is computed together with that
 /// reader, in registers (`compound_steps`). All other values live in slots, which are reused as soon as a value is
-/// dead, so that a block stays in the first-level cache. A tape that is evaluated often becomes machine code, which
-/// keeps values in registers and gives the same ones bit by bit (`NativeCode`). To its users a tape is immutable:
-/// threads may share it, each with its own `Workspace`.
+/// dead, so that a block stays in the first-level cache. A tape is immutable: threads may share it, each with its own
+/// `Workspace`.
 class Tape {
  public:
   /// Intervals evaluated together.
@@ -46,13 +41,12 @@ class Tape {
     // The table of series points into this workspace's own memory, which stays in place when it is moved.
     Workspace(const Workspace&) = delete;
     Workspace& operator=(const Workspace&) = delete;
-    Workspace(Workspace&&) noexcept;             ///< takes the memory of the other
-    Workspace& operator=(Workspace&&) noexcept;  ///< takes the memory of the other
-    ~Workspace();
+    Workspace(Workspace&&) noexcept = default;             ///< takes the memory of the other
+    Workspace& operator=(Workspace&&) noexcept = default;  ///< takes the memory of the other
+    ~Workspace() = default;
 
    private:
     friend class Tape;
-    void make_room_for(const NativeCode& code, const Tape& tape);
     // Aligned to cache lines, which are as long as the widest registers: a load or store across two lines takes twice
     // as long.
     struct alignas(64) Series {
@@ -60,24 +54,20 @@ class Tape {
     };
     std::uint64_t serial_;  // of the tape
     // Not cleared. Of constants, inputs that are the same for all intervals, and slots.
-    std::unique_ptr<Series[]> memory_;         // NOLINT(*-avoid-c-arrays)
-    std::unique_ptr<Series[]> slots_of_code_;  // NOLINT(*-avoid-c-arrays): once there is machine code
+    std::unique_ptr<Series[]> memory_;  // NOLINT(*-avoid-c-arrays)
     std::vector<double*> series_;
-    std::unique_ptr<StagedOutputs> staged_outputs_;  // once there is machine code
   };
 
   Tape() = default;
   /// Makes a schedule ready to be evaluated with the instructions of this set.
-  explicit Tape(const Schedule& schedule, InstructionSet set = preferred_instruction_set(),
-                NativeCodeUse use = preferred_native_code_use());
+  explicit Tape(const Schedule& schedule, InstructionSet set = preferred_instruction_set());
 
   /// Evaluates intervals 0 to count - 1, or from `begin` to `end` - 1.
   ///
   /// `inputs[i]` holds the values of input i and is read at the entries of these intervals only; inputs that the
   /// schedule does not read may be null. `outputs[j]` receives the values of output j, each at the entry of its
-  /// interval. Outputs must not overlap inputs or each other. Allocates nothing, except in the evaluation that turns
-  /// the tape into machine code and the next one by every workspace. Throws `Error` if there are too few inputs or
-  /// outputs, or if the workspace belongs to another tape.
+  /// interval. Outputs must not overlap inputs or each other. Allocates nothing. Throws `Error` if there are too few
+  /// inputs or outputs, or if the workspace belongs to another tape.
   void evaluate(std::size_t count, std::span<const Input> inputs, std::span<double* const> outputs,
                 Workspace& workspace) const {
     evaluate(0, count, inputs, outputs, workspace);
@@ -94,8 +84,6 @@ class Tape {
   [[nodiscard]] std::size_t operation_count() const noexcept { return operation_count_; }
   /// The number of slots, of `block_width` numbers each, for intermediate values.
   [[nodiscard]] std::size_t slot_count() const noexcept { return slot_count_; }
-  /// Whether it has become machine code.
-  [[nodiscard]] bool is_native() const noexcept;
   /// The set whose instructions it uses.
   [[nodiscard]] InstructionSet instruction_set() const noexcept { return set_; }
 
@@ -115,8 +103,7 @@ class Tape {
   void point_to_block(std::size_t first, std::span<const Input> inputs, std::span<double* const> outputs,
                       Workspace& workspace) const;
 
-  // The table of series holds first the constants, then the inputs that are read, the outputs, and the slots; once
-  // there is machine code its slots, and columns of outputs that are staged.
+  // The table of series holds first the constants, then the inputs that are read, the outputs, and the slots.
   std::vector<TapeInstruction> instructions_;
   std::vector<double> constants_;
   std::vector<ReadInput> read_inputs_;
@@ -126,7 +113,6 @@ class Tape {
   std::size_t operation_count_ = 0;
   std::uint64_t serial_ = 0;  // distinguishes tapes; a copy is the same tape
   InstructionSet set_ = InstructionSet::baseline;
-  std::shared_ptr<LateCode> late_code_;  // null if it stays interpreted
 };
 
 }  // namespace dmocbench

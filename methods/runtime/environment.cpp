@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "methods/runtime/instruction_set.hpp"
-#include "methods/runtime/native_code_use.hpp"
 #include "methods/runtime/parallel.hpp"
 
 namespace dmocbench {
@@ -11,7 +10,6 @@ namespace dmocbench {
 void check_environment() {
   static_cast<void>(thread_count());
   static_cast<void>(preferred_instruction_set());
-  static_cast<void>(preferred_native_code_use());
 }
 
 void order_by_one_thread() {

@@ -2,8 +2,8 @@
 
 namespace dmocbench {
 
-/// Throws `Error` if DMOCBENCH_THREADS, DMOCBENCH_INSTRUCTION_SET or DMOCBENCH_NATIVE_CODE has a value that is not
-/// available here. Every program calls it first.
+/// Throws `Error` if DMOCBENCH_THREADS or DMOCBENCH_INSTRUCTION_SET has a value that is not available here. Every
+/// program calls it first.
 void check_environment();
 
 /// Lets MUMPS order unknowns on one thread, unless the environment sets SCOTCH_PTHREAD_NUMBER: Scotch 7, which orders

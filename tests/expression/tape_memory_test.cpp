@@ -54,15 +54,6 @@ Schedule all_operations() {
   return Schedule(std::span<const Expression>(outputs));
 }
 
-/// Tapes on every instruction set, interpreted and as machine code.
-std::vector<std::pair<InstructionSet, NativeCodeUse>> every_way() {
-  std::vector<std::pair<InstructionSet, NativeCodeUse>> ways;
-  for (const InstructionSet set : available_instruction_sets()) {
-    for (const NativeCodeUse use : {NativeCodeUse::never, NativeCodeUse::always}) ways.emplace_back(set, use);
-  }
-  return ways;
-}
-
 /// Numbers between two pages that must not be touched, adjacent to the upper or to the lower one.
 class GuardedColumn {
  public:
@@ -96,8 +87,8 @@ class GuardedColumn {
 
 TEST(TapeMemory, NothingIsTouchedNextToInputsAndOutputs) {
   const Schedule schedule = all_operations();
-  for (const auto& [set, use] : every_way()) {
-    const Tape tape(schedule, set, use);
+  for (const InstructionSet set : available_instruction_sets()) {
+    const Tape tape(schedule, set);
     Tape::Workspace workspace(tape);
     for (const auto side : {GuardedColumn::Side::lower, GuardedColumn::Side::upper}) {
       for (const std::size_t count : tests::interval_counts()) {
@@ -121,8 +112,8 @@ TEST(TapeMemory, NumbersAroundOutputsKeepTheirValuesAndSoDoInputs) {
   constexpr double canary = 12345.678;
   constexpr std::size_t guard = 2 * Tape::block_width;
   const Schedule schedule = all_operations();
-  for (const auto& [set, use] : every_way()) {
-    const Tape tape(schedule, set, use);
+  for (const InstructionSet set : available_instruction_sets()) {
+    const Tape tape(schedule, set);
     Tape::Workspace workspace(tape);
     for (const std::size_t count : tests::interval_counts()) {
       tests::RandomPoints random;
@@ -169,8 +160,8 @@ TEST(TapeMemory, EvaluationAllocatesNothing) {
   constexpr std::size_t count = 200;
   const std::vector<double> x(count, 0.5);
   const std::vector<Tape::Input> inputs{{x.data(), false}, {x.data(), true}};
-  for (const auto& [set, use] : every_way()) {
-    const Tape tape(schedule, set, use);
+  for (const InstructionSet set : available_instruction_sets()) {
+    const Tape tape(schedule, set);
     Tape::Workspace workspace(tape);
     tests::SeriesTable columns(tape.output_count(), std::vector<double>(count));
     std::vector<double*> outputs;

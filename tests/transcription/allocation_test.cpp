@@ -1,7 +1,6 @@
 // Evaluations inside a solve allocate nothing.
 
 #include <cstddef>
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -17,10 +16,7 @@ class Evaluations : public testing::TestWithParam<std::tuple<std::string, std::s
  protected:
   void SetUp() override {
     if (!tests::counts_allocations()) GTEST_SKIP() << "malloc is not ours in this build";
-    // Machine code is made beforehand: a tape that becomes machine code between two evaluations allocates once.
-    setenv("DMOCBENCH_NATIVE_CODE", "always", 1);  // NOLINT(concurrency-mt-unsafe): nothing else runs yet
   }
-  void TearDown() override { unsetenv("DMOCBENCH_NATIVE_CODE"); }  // NOLINT(concurrency-mt-unsafe)
 };
 
 TEST_P(Evaluations, TheCounterSeesAllocationsOfEigenAndOfTheLibrary) {

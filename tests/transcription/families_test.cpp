@@ -54,7 +54,6 @@ TEST(Families, TellWhatAnIntegrationLacks) {
   refuses("multiple_shooting_rk4", "multiple_shooting_rk4_1");
   refuses("single_shooting_rk5_1", "rk5");
   refuses("single_shooting_rk4_0", "substeps");
-  refuses("multiple_shooting_dmoc_2", "one step per interval");
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ std::vector<std::string> all_methods() {
         names.emplace_back(family.name);
         break;
       case MethodSuffix::integration:
-        for (const std::string& integrator : shooting_integrator_names()) {
+        for (const std::string& integrator : explicit_integrator_names()) {
           names.push_back(shooting_name(family.name, integrator, 1));
         }
         break;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,11 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/expression/linear_solve.hpp"
 #include "methods/runtime/parsed.hpp"
-#include "methods/transcription/elements/dmoc_shooting_element.hpp"
 
 namespace dmocbench {
 
@@ -86,16 +83,11 @@ State on_cubic(const Flow& left, const Flow& right, const Expression& h, double 
   return state;
 }
 
-void require_at_most(int most, int substeps) {
-  if (substeps >= 1 && substeps <= most) return;
-  throw Error(fmt::format("shooting takes 1 to {} substeps per interval, got {}", most, substeps));
-}
-
 }  // namespace
 
 ShootingElement::ShootingElement(Shooting shooting, ExplicitIntegrator integrator, int substeps)
     : shooting_(shooting), integrator_(std::move(integrator)), substeps_(substeps) {
-  require_at_most(most_substeps, substeps);
+  require_substeps(substeps);
 }
 
 std::string ShootingElement::name() const {
@@ -137,16 +129,10 @@ IntervalTrace ShootingElement::trace(const TracedProblem& problem, const Tableau
   return trace;
 }
 
-std::vector<std::string> shooting_integrator_names() {
-  std::vector<std::string> names = explicit_integrator_names();
-  names.emplace_back(dmoc_integrator);
-  return names;
-}
-
-void require_substeps(std::string_view integrator, int substeps) {
-  static_cast<void>(position_of(shooting_integrator_names(), std::identity(), integrator, "there is no integrator"));
-  if (integrator != dmoc_integrator) return require_at_most(ShootingElement::most_substeps, substeps);
-  if (substeps != 1) throw Error(fmt::format("shooting by dmoc takes one step per interval, got {}", substeps));
+void require_substeps(int substeps) {
+  constexpr int most = ShootingElement::most_substeps;
+  if (substeps >= 1 && substeps <= most) return;
+  throw Error(fmt::format("shooting takes 1 to {} substeps per interval, got {}", most, substeps));
 }
 
 std::string shooting_name(std::string_view family, std::string_view integrator, int substeps) {
@@ -160,10 +146,7 @@ std::unique_ptr<Element> make_shooting_element(Shooting shooting, std::string_vi
     const std::string name = fmt::format("{}_{}", shooting_family(shooting), integration);
     throw Error(fmt::format(R"("{}" names no number of substeps; "{}_1" does)", name, name));
   }
-  const std::string_view integrator = integration.substr(0, bar);
-  require_substeps(integrator, *substeps);
-  if (integrator == dmoc_integrator) return std::make_unique<DmocShootingElement>(shooting);
-  return std::make_unique<ShootingElement>(shooting, explicit_integrator(integrator), *substeps);
+  return std::make_unique<ShootingElement>(shooting, explicit_integrator(integration.substr(0, bar)), *substeps);
 }
 
 }  // namespace dmocbench

@@ -55,15 +55,8 @@ class ShootingElement final : public Element {
   int substeps_;
 };
 
-/// The integrator that is the map of DMOC itself (`DmocShootingElement`).
-inline constexpr std::string_view dmoc_integrator = "dmoc";
-
-/// Names of all integrators of shooting: the explicit ones, and DMOC's.
-[[nodiscard]] std::vector<std::string> shooting_integrator_names();
-
-/// Throws `Error` in a sentence unless the integrator exists and is offered with so many steps per interval: 1 to
-/// `ShootingElement::most_substeps` of an explicit one, 1 of DMOC.
-void require_substeps(std::string_view integrator, int substeps);
+/// Throws `Error` unless `substeps` is in [1, `ShootingElement::most_substeps`].
+void require_substeps(int substeps);
 
 /// FAMILY_INTEGRATOR_SUBSTEPS, such as "multiple_shooting_rk4_1".
 [[nodiscard]] std::string shooting_name(std::string_view family, std::string_view integrator, int substeps);
