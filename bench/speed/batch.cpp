@@ -14,7 +14,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "bench/run/even_draws.hpp"
+#include "bench/run/uniform_01.hpp"
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "methods/numerics/median.hpp"
@@ -91,7 +91,7 @@ class Instances {
         double& value = (end.*part)[i];
         const double size = value != 0.0 ? value : (last.*part)[i] - (first.*part)[i];
         constexpr double share = 0.1;
-        const double unit = 2.0 * even(engine_) - 1.0;
+        const double unit = 2.0 * uniform_01(engine_) - 1.0;
         value += share * unit * std::abs(size);
         units_.push_back(unit);
       }

@@ -6,7 +6,7 @@
 #include <random>
 #include <utility>
 
-#include "bench/run/even_draws.hpp"
+#include "bench/run/uniform_01.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/tableau.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 /// Numbers around 1, the same on every run: no radius vanishes, and every angle is an ordinary one.
 Eigen::VectorXd random_numbers(std::mt19937_64& generator, std::size_t size) {
-  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(size), [&] { return 0.5 + even(generator); });
+  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(size), [&] { return 0.5 + uniform_01(generator); });
 }
 
 Grid uneven_grid() {

@@ -17,8 +17,8 @@
 
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
-#include "bench/speed/timed_solves.hpp"
 #include "methods/runtime/parallel.hpp"
+#include "methods/solvers/solver.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "problems/two_link_manipulator.hpp"
@@ -93,10 +93,35 @@ std::optional<double> peak_bytes(const SolveCase& solve) {
   return before && peak ? std::optional(std::max(0.0, *peak - *before)) : std::nullopt;
 }
 
+/// Every turn of the timed loop is one solve from the guess. A solver's set-up before its first iteration is part of
+/// it; the trace, its derivatives and judging the answer are not. Sets the counters of the solve.
+void measure_solves(benchmark::State& state, const Solver& solver, const GuessedProgram& made) {
+  constexpr double nanoseconds = 1e9;  // of a second
+  Solution solution;
+  double seconds = 0.0;
+  double evaluation_seconds = 0.0;
+  for ([[maybe_unused]] auto turn : state) {
+    solution = solver.solve(*made.program, made.start);
+    state.SetIterationTime(solution.seconds);
+    seconds += solution.seconds;
+    evaluation_seconds += solution.evaluation_seconds;
+  }
+  const double iterations = solution.major_iterations.value_or(0);
+  const auto intervals = static_cast<double>(made.program->interval_structure()->intervals);
+  const double interval_turns = static_cast<double>(state.iterations()) * intervals;
+  state.counters["major_iterations"] = iterations;
+  if (solution.linear_systems) state.counters["linear_systems"] = *solution.linear_systems;
+  state.counters["objective"] = solution.objective;
+  state.counters["solved"] = is_solved(solution.status) ? 1.0 : 0.0;
+  state.counters["evaluation_share"] = evaluation_seconds / seconds;
+  state.counters["ns_per_interval_iteration"] = nanoseconds * seconds / interval_turns / std::max(1.0, iterations);
+  state.counters["setup_seconds"] = made.setup_seconds;
+}
+
 /// Every repetition makes the program again. So making it is measured as often as solving it, the place of its arrays
 /// is part of the noise of the repetitions, and no program of a million intervals, a gigabyte, waits for its turn.
 void run(benchmark::State& state, const SolveCase& solve, std::optional<double> bytes) {
-  static_cast<void>(time_solves(state, *make_solver_of(solve), program_of(solve)));
+  measure_solves(state, *make_solver_of(solve), program_of(solve));
   if (bytes) state.counters["bytes_per_interval"] = *bytes / solve.intervals;
   state.SetLabel(fmt::format("problem={} method={} intervals={} solver={} threads={}", solve.problem, solve.method,
                              solve.intervals, solve.solver, solve.threads));

@@ -72,18 +72,6 @@ standard_error number standard error of the exponent
 grids integer number of grids used
 coarsest integer smallest number of intervals used
 finest integer largest number of intervals used"""},
-    "prepared": {"": """
-problem string name of the problem
-method string family of elements
-start string warm or cold
-intervals integer number of intervals N
-iterations number iterations of a solve
-solved integer 1 if the program is solved
-plain_microseconds number [us] time of a solve by Solver::solve
-prepared_microseconds number [us] time of a solve by PreparedSolve
-residuals_microseconds number [us] time of a PreparedSolve that judges by residuals only
-plain_over_prepared number plain_microseconds by prepared_microseconds
-over_long_grid number time per interval and iteration by a long grid's"""},
     "batch": {"": """
 problem string name of the problem
 start string cold, warm or nearest
@@ -202,10 +190,6 @@ def exponents(runs):
     return rows
 
 
-def prepared(runs):
-    return sorted(map(row_of, runs), key=operator.itemgetter("problem", "method", "start", "intervals"))
-
-
 def batch(runs):
     rows = []
     for run in runs:
@@ -221,7 +205,7 @@ def batch(runs):
 
 
 ROWS = {"speed": {"": evaluations, "_machine": machine}, "solves": {"": solves, "_ratios": ratios, "_exponents": exponents},
-        "prepared": {"": prepared}, "batch": {"": batch}}
+        "batch": {"": batch}}
 
 
 def declared(text):
