@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,8 +19,11 @@
 #include "bench/tables/cold_starts.hpp"
 #include "bench/tables/selection.hpp"
 #include "bench/tables/share_interval.hpp"
+#include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
+#include "methods/runtime/parsed.hpp"
+#include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 #include "problems/registry.hpp"
@@ -67,6 +71,44 @@ const Columns<IndirectStarts> indirect_columns{
     {"best", "", "number of these at a cost not above the certified one",
      [](const IndirectStarts& of) { return static_cast<long long>(of.best.hits); }}};
 
+/// Starts per case: a number for all solvers, SOLVER=NUMBER for one of them; 0 where neither is given.
+class StartCounts {
+ public:
+  static constexpr const char* indirect = "indirect";  ///< the indirect method, in place of a solver
+
+  StartCounts() = default;
+  /// Throws `Error` that names the option where a word is neither.
+  StartCounts(const char* option, const std::vector<std::string>& words) {
+    std::vector<std::string> names = solver_names();
+    names.emplace_back(indirect);
+    for (const std::string& word : words) {
+      const std::size_t equals = word.find('=');
+      const bool is_for_all = equals == std::string::npos;
+      const auto count = parsed<long long>(is_for_all ? word : word.substr(equals + 1));
+      if (!count || *count < 0 || *count > most) {
+        throw Error(fmt::format("{}: {} is neither a number from 0 to {} nor SOLVER=NUMBER", option, word, most));
+      }
+      const std::string solver = is_for_all ? all : word.substr(0, equals);
+      if (!is_for_all) {
+        static_cast<void>(position_of(names, std::identity(), solver, fmt::format("{}: there is no solver", option)));
+      }
+      counts_[solver] = *count;
+    }
+  }
+
+  [[nodiscard]] long long of(const std::string& solver) const {
+    const auto own = counts_.find(solver);
+    if (own != counts_.end()) return own->second;
+    const auto of_all = counts_.find(all);
+    return of_all != counts_.end() && solver != indirect ? of_all->second : 0;
+  }
+
+ private:
+  static constexpr long long most = 100000;
+  static constexpr const char* all = "";
+  std::map<std::string, long long> counts_;
+};
+
 class ColdStart final : public Experiment {
  public:
   ColdStart()
@@ -88,7 +130,7 @@ class ColdStart final : public Experiment {
                          .most_iterations = 200,
                          .jobs = 2},
              .further_files = {"_shares.csv", "_profiles.csv", "_indirect.csv"},
-             .branches = BranchesTold::none,
+             .branches = BranchReport::none,
              .problems_are_independent = true,
              .takes_batches = true},
             {{"start", "", "number of the start, cold; 0 is the guess itself",
@@ -100,20 +142,19 @@ class ColdStart final : public Experiment {
                 return reference ? std::optional(reference->objective) : std::nullopt;
               }}}) {}
   void add_options(CommandLine& line) override {
-    constexpr long long most = 100000;
-    line.number("--starts", starts_, 1, most, "starts per case by interior_point and auto on the paper's problems");
-    line.number("--library-starts", library_starts_, 0, most, "by interior_point and auto on the other problems");
-    line.number("--other-starts", other_starts_, 0, most, "by other solvers on the paper's problems");
-    line.number("--other-library-starts", other_library_starts_, 0, most, "by other solvers on the other problems");
-    line.number("--indirect-starts", indirect_starts_, 0, most, "of the indirect method on the paper's problems");
+    line.list(
+        "--starts", starts_,
+        "starts per case on the paper's problems: a number for all solvers, SOLVER=NUMBER for one; indirect=NUMBER "
+        "for the indirect method");
+    line.list("--library-starts", library_starts_, "the same on the other problems, without the indirect method");
     line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
     line.number("--amplitude", amplitude_, 0.0, 10.0,
                 "of the random curves, relative to the range of each coordinate and the size of each control");
-    line.number("--objective-tolerance", objective_tolerance_, 0.0, 1.0,
-                "largest excess of the cost over the reference, relative, of an answer on the best branch");
   }
   /// All methods, solvers and grids start from the same curves.
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
+    paper_counts_ = StartCounts("--starts", starts_);
+    library_counts_ = StartCounts("--library-starts", library_starts_);
     std::vector<Case> cases = from_starts(
         chosen, [this](const Case& the_case) { return starts_of(the_case); },
         [this](const Motion& motion, const Problem& problem, std::size_t start) {
@@ -123,24 +164,25 @@ class ColdStart final : public Experiment {
       varied_[the_case.problem->name()] = varied_in_words(*the_case.problem);
       problems_[the_case.problem->name()] = the_case.problem;
     }
-    if (cases.empty()) throw Error("no case has a start; see --starts and the options like it");
+    if (cases.empty()) throw Error("no case has a start; see --starts and --library-starts");
     return cases;
   }
 
   void finish(Table& table, FurtherOutput& output) override {
     nlohmann::ordered_json& metadata = output.metadata;
-    const Table shares = cold_start_shares(table, objective_tolerance_);
+    const Table shares = cold_start_shares(table, objective_tolerance);
     output.write("_shares.csv", shares);
     output.write("_profiles.csv", cold_start_profiles(table));
     std::vector<IndirectStarts> indirect;
+    const long long indirect_starts = paper_counts_.of(StartCounts::indirect);
     for (const auto& [name, problem] : problems_) {
-      if (is_of_paper(name) && indirect_starts_ > 0) indirect.push_back(by_indirect_method(problem));
+      if (is_of_paper(name) && indirect_starts > 0) indirect.push_back(by_indirect_method(problem, indirect_starts));
     }
     if (!indirect.empty()) output.write("_indirect.csv", table_of(indirect_columns, indirect));
     metadata["start"] = "cold";
     metadata["seed"] = seed_;
     metadata["amplitude"] = amplitude_;
-    metadata["objective_tolerance"] = objective_tolerance_;
+    metadata["objective_tolerance"] = objective_tolerance;
     for (const auto& [problem, words] : varied_) metadata["varied"][problem] = words;
     const Table summary = summed_up(shares);
     output.findings.show("shares", summary, {}, output.prefix.string() + "_shares.csv");
@@ -152,22 +194,20 @@ class ColdStart final : public Experiment {
     return std::ranges::find(paper, problem) != paper.end();
   }
   [[nodiscard]] long long starts_of(const Case& the_case) const {
-    const bool is_papers = is_of_paper(the_case.problem->name());
-    if (the_case.solver == "interior_point" || the_case.solver == "auto") return is_papers ? starts_ : library_starts_;
-    return is_papers ? other_starts_ : other_library_starts_;
+    return (is_of_paper(the_case.problem->name()) ? paper_counts_ : library_counts_).of(the_case.solver);
   }
   /// The boundary value problem of the maximum principle from the motions of the direct methods' starts. Costates are
   /// unknown there, so that they begin at 0.
-  [[nodiscard]] IndirectStarts by_indirect_method(const std::shared_ptr<const Problem>& problem) const {
+  [[nodiscard]] IndirectStarts by_indirect_method(const std::shared_ptr<const Problem>& problem,
+                                                  long long starts) const {
     constexpr long long intervals = 64;
     constexpr double agreement = 1e-6;
     const Case grid{.problem = problem, .method = "dmoc", .tableau = "gauss", .grid = Grid::uniform(intervals)};
     const std::unique_ptr<Transcription> program = grid.transcribe();
     const Motion guess = guessed_motion(*problem);
     const auto& reference = problem->card().reference;
-    const auto trials = static_cast<std::size_t>(indirect_starts_);
-    IndirectStarts result{
-        problem->name(), indirect_starts_, {.hits = 0, .trials = trials}, {.hits = 0, .trials = trials}};
+    const auto trials = static_cast<std::size_t>(starts);
+    IndirectStarts result{problem->name(), starts, {.hits = 0, .trials = trials}, {.hits = 0, .trials = trials}};
     for (std::size_t number = 0; number < trials; ++number) {
       throw_if_interrupted();
       const Motion motion = perturbed(guess, amplitude_, seed_, number, control_scales(*problem));
@@ -178,8 +218,7 @@ class ColdStart final : public Experiment {
             solve_indirect(*problem, start, {.tolerance = agreement, .most_intervals = intervals});
         if (!(solution.agreement().worst() <= agreement)) continue;
         ++result.converged.hits;
-        if (reference &&
-            solution.cost() - reference->objective <= objective_tolerance_ * std::abs(reference->objective))
+        if (reference && solution.cost() - reference->objective <= objective_tolerance * std::abs(reference->objective))
           ++result.best.hits;
       } catch (const Error&) {
         continue;  // it counts as not converged
@@ -188,14 +227,15 @@ class ColdStart final : public Experiment {
     return result;
   }
 
-  long long starts_ = 1000;
-  long long library_starts_ = 100;
-  long long other_starts_ = 50;
-  long long other_library_starts_ = 0;
-  long long indirect_starts_ = 0;
+  /// The largest excess of the cost over the reference, relative, of an answer on the best branch.
+  static constexpr double objective_tolerance = 0.02;
+
+  std::vector<std::string> starts_{"1000"};
+  std::vector<std::string> library_starts_{"100"};
+  StartCounts paper_counts_;
+  StartCounts library_counts_;
   std::uint64_t seed_ = 1;
   double amplitude_ = 0.3;
-  double objective_tolerance_ = 0.02;
   std::map<std::string, std::string> varied_;  // the quantities that starts vary, by problem
   std::map<std::string, std::shared_ptr<const Problem>> problems_;
 };

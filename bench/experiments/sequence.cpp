@@ -25,10 +25,7 @@ struct SequenceOptions {
   std::vector<std::string> methods = paper_families();
   int intervals = 64;
   int steps = 200;
-  int cold_every = 5;
   int repeats = 3;
-  double disturbance = 0.01;
-  double barrier = 0.0;
   std::uint64_t seed = 1;
   std::string over = {};
 };
@@ -68,11 +65,12 @@ std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std:
 
 /// All methods through one kind of sequence, step by step in turn, so that other load of the machine slows all alike.
 void run_in_turn(std::vector<SequenceRun>& runs, const SequenceOptions& options, std::vector<SequenceStep>& steps) {
+  constexpr int steps_between_cold_solves = 5;
   for (int step = 0; step < options.steps; ++step) {
     for (std::size_t turn = 0; turn < runs.size(); ++turn) {
       throw_if_interrupted();
       SequenceRun& run = runs[(turn + static_cast<std::size_t>(step)) % runs.size()];
-      if (!run.is_at_end()) steps.push_back(run.next(options.cold_every > 0 && step % options.cold_every == 0));
+      if (!run.is_at_end()) steps.push_back(run.next(step % steps_between_cold_solves == 0));
     }
   }
 }
@@ -87,17 +85,15 @@ std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std:
   const std::vector<SolvedCase> answers = first_answers(options, problem, starts, solver_options);
   // NOLINTNEXTLINE(bugprone-unchecked-optional-access): every one of them is solved
   const Trajectory& motion = *answers.front().trajectory;
-  const SequenceChoices choices{
-      .repeats = options.repeats,
-      .barrier_parameter = options.barrier > 0.0 ? std::optional(options.barrier) : std::nullopt};
+  constexpr double disturbance = 0.01;  // of the initial states, a share of the range of the first motion
   std::vector<SequenceRun> receding;
   std::vector<SequenceRun> continued;
   for (const SolvedCase& answer : answers) {
-    receding.emplace_back(answer, receding_horizon(problem, motion, options.disturbance, options.seed), solver_options,
-                          choices);
+    receding.emplace_back(answer, receding_horizon(problem, motion, disturbance, options.seed), solver_options,
+                          options.repeats);
     if (!quantity) continue;
     continued.emplace_back(answer, homotopy(problem, options.problems.settings, *quantity, options.steps),
-                           solver_options, choices);
+                           solver_options, options.repeats);
   }
   run_in_turn(receding, options, steps);
   run_in_turn(continued, options, steps);
@@ -109,12 +105,7 @@ void add_options(CommandLine& line, SequenceOptions& options) {
   line.list("--method", options.methods, fmt::format("methods: {}", fmt::join(paper_families(), ", ")));
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
   line.number("--steps", options.steps, 1, 100000, "problems in a sequence");
-  line.number("--cold-every", options.cold_every, 0, 100000, "number of steps between cold solves; 0: no cold solves");
   line.number("--repeats", options.repeats, 1, 1000, "solves of every step; its time is the smallest of them");
-  line.number("--disturbance", options.disturbance, 0.0, 1.0,
-              "of the initial states of a receding horizon, a share of the range of the first motion");
-  line.number("--barrier", options.barrier, 0.0, 1.0,
-              "barrier parameter that warm solves begin with; 0: the final one of the previous solve");
   line.number("--seed", options.seed, 0, 0xffffffffU, "of the disturbances");
   line.option("--over", options.over, "NAME=LOWER:UPPER: the parameter or end state that a homotopy changes");
 }

@@ -43,10 +43,10 @@ std::optional<bool> SequenceStep::is_warm_worse() const {
 }
 
 SequenceRun::SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, const SolverOptions& options,
-                         const SequenceChoices& choices)
+                         int repeats)
     : case_(solved.the_case),
       neighbours_(std::move(neighbours)),
-      choices_(choices),
+      repeats_(repeats),
       program_(std::make_unique<Transcription>(*case_.problem, *make_element(case_.method),
                                                make_tableau(case_.tableau, case_.stages), case_.grid,
                                                OpenParameters{neighbours_->open_parameters()})),
@@ -58,9 +58,9 @@ SequenceRun::SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> n
 SequenceStep SequenceRun::next(bool also_cold) {
   const std::shared_ptr<const Problem> problem = neighbours_->next(++step_, trajectory_);
   neighbours_->give_values(*program_);
-  const std::optional<double> barrier_parameter = start_barrier_parameter();
+  const std::optional<double> barrier_parameter = barrier_parameter_;
   const Eigen::VectorXd start = warm_start();
-  Solution answer = solve_step(*prepared_, start, multipliers_, barrier_parameter, choices_.repeats);
+  Solution answer = solve_step(*prepared_, start, multipliers_, barrier_parameter, repeats_);
   SequenceStep step{.scheme = {case_.problem->name(), case_.method, case_.tableau, case_.stages},
                     .intervals = case_.intervals(),
                     .sequence = neighbours_->name(),
@@ -69,7 +69,7 @@ SequenceStep SequenceRun::next(bool also_cold) {
                     .start_barrier_parameter = barrier_parameter};
   if (also_cold || !is_solved(step.warm)) {
     const Eigen::VectorXd guess = sample(*program_, guessed_motion(*problem));
-    Solution cold = solve_step(*prepared_, guess, Eigen::VectorXd(), std::nullopt, choices_.repeats);
+    Solution cold = solve_step(*prepared_, guess, Eigen::VectorXd(), std::nullopt, repeats_);
     step.cold = told_of(cold);
     if (!is_solved(step.warm)) answer = std::move(cold);
   }
@@ -84,11 +84,6 @@ Eigen::VectorXd SequenceRun::warm_start() {
   if (neighbours_->moves_on()) multipliers_ = shifted(program_->layout().structure().rows, multipliers_);
   const Motion motion = neighbours_->moves_on() ? one_interval_later(trajectory_) : smooth_motion(trajectory_);
   return sample(*program_, moved_to_ends(motion, program_->bounds()));
-}
-
-std::optional<double> SequenceRun::start_barrier_parameter() const {
-  const bool has_barrier = barrier_parameter_.has_value();
-  return has_barrier && choices_.barrier_parameter ? choices_.barrier_parameter : barrier_parameter_;
 }
 
 void SequenceRun::go_on_from(const Solution& answer) {

@@ -33,19 +33,13 @@ struct SequenceStep {
   [[nodiscard]] std::optional<bool> is_warm_worse() const;
 };
 
-/// How the steps of a sequence are solved.
-struct SequenceChoices {
-  int repeats = 1;  ///< solves of every step; its time is the smallest of them
-  /// The barrier parameter that warm solves begin with; by default the final one of the previous solve.
-  std::optional<double> barrier_parameter = std::nullopt;
-};
-
 /// One method on its way through a sequence.
 class SequenceRun {
  public:
-  /// `solved`: the case of the first problem with its answer.
+  /// `solved`: the case of the first problem with its answer. Every step is solved `repeats` times; its time is the
+  /// smallest of them.
   SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, const SolverOptions& options,
-              const SequenceChoices& choices);
+              int repeats);
 
   /// Solves the next problem warm, and also cold if requested or if the warm start fails. If both fail, the
   /// sequence ends.
@@ -55,20 +49,18 @@ class SequenceRun {
  private:
   /// The last motion, moved to the next problem's ends. Moves the multipliers with it.
   [[nodiscard]] Eigen::VectorXd warm_start();
-  /// Empty if there is no barrier.
-  [[nodiscard]] std::optional<double> start_barrier_parameter() const;
   void go_on_from(const Solution& answer);
 
   Case case_;
   std::unique_ptr<Neighbours> neighbours_;
-  SequenceChoices choices_;
+  int repeats_;
   int step_ = 0;
   bool is_at_end_ = false;
   std::unique_ptr<Transcription> program_;  // made once; its values change from step to step
   std::unique_ptr<PreparedSolve> prepared_;
   Trajectory trajectory_;
   Eigen::VectorXd multipliers_;
-  std::optional<double> barrier_parameter_;  // with which the last solve ended
+  std::optional<double> barrier_parameter_;  // with which the last solve ended; empty if there is no barrier
 };
 
 /// A row per step.

@@ -28,8 +28,8 @@ constexpr std::string_view harmless_options =
     " --problem --method --integrator --substeps --tableau --controls --stages --quadrature --points --control-nodes "
     "--solver --derivatives --intervals --set --form --start-seconds --tolerance --tolerances --iterations --seconds "
     "--repeats --verbose --jobs --batch --no-batch --reference --polish --no-polish --fit --routes --no-indirect "
-    "--starts --library-starts --other-starts --indirect-starts --other-library-starts --seed --amplitude --plane "
-    "--objective-tolerance --hessian --crash --factorisation --over --samples --constraints --condition --fresh "
+    "--starts --library-starts --seed --amplitude --plane "
+    "--hessian --crash --factorisation --over --samples --constraints --condition --fresh "
     "--quiet --json ";
 
 /// Options that `merge` sets itself.

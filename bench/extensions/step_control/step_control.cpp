@@ -241,11 +241,10 @@ class Measurement {
 };
 
 int measure_all(CommandLine& line) {
-  double exponent = 1.5;
+  constexpr double exponent = 1.5;  // of the steps by distance, sigma = |q|^p
   int steps_per_period = 128;
   int steps = 400;
   long long periods = 200;
-  line.number("--exponent", exponent, -1000.0, 1000.0, "p of the steps by distance, sigma = |q|^p");
   line.number("--steps", steps, 1, 1000000, "steps under an arbitrary thrust");
   line.number("--steps-per-period", steps_per_period, 32, 100000, "steps per period of the energies");
   line.number("--periods", periods, 3, 10000000, "periods of the energies");
