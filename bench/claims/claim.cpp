@@ -87,7 +87,7 @@ Finding judge_misprint(const Row& row) {
 
 /// The misprints in the table, if it exists; a single row with the error if it cannot be read.
 std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
-  if (!tables.has("slips")) return {};
+  if (!tables.has("misprints")) return {};
   std::vector<JudgedClaim> judged;
   const auto append = [&](const std::string& problem, const std::string& name, const Row& row, Finding finding,
                           std::vector<ReadRows> rows = {}) {
@@ -100,20 +100,20 @@ std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
                       .clauses = std::move(finding.clauses),
                       .verdict = finding.verdict,
                       .reasons = {std::move(finding.reason)},
-                      .evidence = {"slips.csv"},
+                      .evidence = {"misprints.csv"},
                       .sure = std::move(finding.sure),
                       .rows = std::move(rows)});
   };
   try {
-    for (const Row& row : tables.rows("slips")) {
+    for (const Row& row : tables.rows("misprints")) {
       const ReadFields fields;
       Finding finding = finding_in(tables, fields, [&] { return judge_misprint(row); });
-      append(row.text("problem"), row.text("slip"), row, std::move(finding), read_rows(fields));
+      append(row.text("problem"), row.text("misprint"), row, std::move(finding), read_rows(fields));
     }
   } catch (const Error& fault) {
     Row unread;
     unread.set("printed", "(misprints)");
-    append("paper", "slips", unread, {.clauses = {{.text = fault.what()}}, .sure = ""});
+    append("paper", "misprints", unread, {.clauses = {{.text = fault.what()}}, .sure = ""});
   }
   return judged;
 }

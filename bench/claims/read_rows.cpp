@@ -13,7 +13,7 @@ namespace dmocbench {
 namespace {
 
 /// The fields read from the rows of one table, by their records.
-using RowsOfTable = std::map<std::size_t, const ReadFields::OfRow*>;
+using RowsOfTable = std::map<std::size_t, const ReadFields::ReadRow*>;
 
 /// The rows grouped by table, according to their places ("objective.csv, record 2").
 std::map<std::string, RowsOfTable> by_tables(const ReadFields& fields) {

@@ -143,51 +143,51 @@ ResultTables ResultTables::read(const std::filesystem::path& folder) {
   return tables;
 }
 
-ResultTables::Sought ResultTables::sought_in(const std::filesystem::path& folder, const std::string& name) {
+ResultTables::LoadedTable ResultTables::load(const std::filesystem::path& folder, const std::string& name) {
   const ReadFields no_evidence;  // these fields are read from every table
-  Sought sought;
+  LoadedTable loaded;
   const std::string file = name + ".csv";
   try {
     if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) {
       refuse_parts(folder, name);
-      return sought;
+      return loaded;
     }
     const std::string content = content_of(folder / file);
-    sought.table = Table::from_csv(content);
-    sought.table->name_places(file);
-    check_run(folder, name, *sought.table, content);
-    sought.table = of_plain_statements(*sought.table);
+    loaded.table = Table::from_csv(content);
+    loaded.table->name_places(file);
+    check_run(folder, name, *loaded.table, content);
+    loaded.table = of_plain_statements(*loaded.table);
   } catch (const Error& error) {
     const std::string sentence = error.what();
     const bool names_it = sentence.find(file) != std::string::npos;
-    sought.fault = names_it ? sentence : fmt::format("{}: {}", file, sentence);
+    loaded.fault = names_it ? sentence : fmt::format("{}: {}", file, sentence);
   }
-  return sought;
+  return loaded;
 }
 
-const ResultTables::Sought& ResultTables::sought(std::string_view table) const {
-  const auto found = sought_.find(table);
-  if (found != sought_.end()) return found->second;
+const ResultTables::LoadedTable& ResultTables::loaded(std::string_view table) const {
+  const auto found = loaded_.find(table);
+  if (found != loaded_.end()) return found->second;
   const std::string name(table);
-  return sought_.emplace(name, folder_.empty() ? Sought() : sought_in(folder_, name)).first->second;
+  return loaded_.emplace(name, folder_.empty() ? LoadedTable() : load(folder_, name)).first->second;
 }
 
 void ResultTables::add(const std::string& name, Table table) {
   table.name_places(name + ".csv");
-  sought_[name] = {.table = std::move(table), .fault = ""};
+  loaded_[name] = {.table = std::move(table), .fault = ""};
 }
 
 bool ResultTables::has(std::string_view table) const {
-  const Sought& found = sought(table);
+  const LoadedTable& found = loaded(table);
   return found.table || !found.fault.empty();
 }
 
 bool ResultTables::has_any() const {
-  return std::ranges::any_of(sought_, [this](const auto& of_name) { return has(of_name.first); });
+  return std::ranges::any_of(loaded_, [this](const auto& of_name) { return has(of_name.first); });
 }
 
 Selection ResultTables::rows(std::string_view table) const {
-  const Sought& found = sought(table);
+  const LoadedTable& found = loaded(table);
   if (!found.fault.empty()) throw Error(found.fault);
   if (!found.table) throw Error(fmt::format("there is no {}.csv", table));
   return *found.table;
@@ -201,7 +201,7 @@ Selection ResultTables::rows(std::string_view table, std::string_view problem) c
 
 void ResultTables::require_columns(const ReadFields& fields) const {
   for (const auto& [file, columns] : read_columns(fields)) {
-    const auto& table = sought(file.substr(0, file.rfind('.'))).table;
+    const auto& table = loaded(file.substr(0, file.rfind('.'))).table;
     for (const std::string& column : columns) {
       if (table && std::ranges::count(table->columns(), column) == 0)
         throw Error(fmt::format("{} has no column {}", file, column));

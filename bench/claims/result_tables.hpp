@@ -27,7 +27,7 @@ class ResultTables {
   /// Adds a table, or puts it in the place of one. Errors in numbers name the table and the record.
   void add(const std::string& name, Table table);
   /// Reads a table again on its next use.
-  void forget(const std::string& name) { sought_.erase(name); }
+  void forget(const std::string& name) { loaded_.erase(name); }
   /// Whether there is such a table, valid or not.
   [[nodiscard]] bool has(std::string_view table) const;
   /// Whether any of the requested tables exists.
@@ -41,15 +41,15 @@ class ResultTables {
 
  private:
   /// The result of looking for a table.
-  struct Sought {
+  struct LoadedTable {
     std::optional<Table> table;  ///< empty if it does not exist
     std::string fault;           ///< its fault, in a sentence
   };
-  [[nodiscard]] static Sought sought_in(const std::filesystem::path& folder, const std::string& name);
-  [[nodiscard]] const Sought& sought(std::string_view table) const;
+  [[nodiscard]] static LoadedTable load(const std::filesystem::path& folder, const std::string& name);
+  [[nodiscard]] const LoadedTable& loaded(std::string_view table) const;
 
   std::filesystem::path folder_;
-  mutable std::map<std::string, Sought, std::less<>> sought_;  ///< by name
+  mutable std::map<std::string, LoadedTable, std::less<>> loaded_;  ///< by name
 };
 
 }  // namespace dmocbench

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bench/experiments/measured_derivatives.hpp"
-#include "bench/run/even_draws.hpp"
 #include "bench/run/experiment.hpp"
+#include "bench/run/uniform_01.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench::derivatives_program {
@@ -25,7 +25,8 @@ constexpr std::size_t most_dense_intervals = 64;
 /// Multipliers around 1 of either sign, the same on every run.
 Eigen::VectorXd fixed_multipliers(std::size_t constraints) {
   std::mt19937 engine(20090101U);
-  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(constraints), [&] { return 2.0 * even(engine) - 1.0; });
+  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(constraints),
+                                      [&] { return 2.0 * uniform_01(engine) - 1.0; });
 }
 
 struct Measured {

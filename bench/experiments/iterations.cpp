@@ -34,7 +34,7 @@ class Iterations final : public ExperimentOf<Measured> {
                           "solves start at the problem's guess.",
                       .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
                       .further_files = {"_ratios.csv"},
-                      .branches = BranchesTold::of_any_start,
+                      .branches = BranchReport::of_any_start,
                       .takes_turns = true,
                       .compares_tolerances = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {

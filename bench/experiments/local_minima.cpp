@@ -58,7 +58,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
                  "each start ends in.",
              .options = {.solvers = {"auto"}, .intervals = "64", .start = "guess", .jobs = 2, .batch = true},
              .further_files = {"_minima.csv", "_shares.csv", "_basins.csv"},
-             .branches = BranchesTold::none,
+             .branches = BranchReport::none,
              .problems_are_independent = true,
              .takes_batches = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {

@@ -4,8 +4,8 @@
 #include <random>
 #include <utility>
 
-#include "bench/run/even_draws.hpp"
 #include "bench/run/restated_problem.hpp"
+#include "bench/run/uniform_01.hpp"
 
 namespace dmocbench {
 
@@ -38,7 +38,7 @@ class RecedingHorizon final : public Neighbours {
 
  private:
   void disturb(Eigen::VectorXd& values, const Eigen::VectorXd& range) {
-    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] += (2.0 * even(engine_) - 1.0) * range[i];
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] += (2.0 * uniform_01(engine_) - 1.0) * range[i];
   }
 
   std::shared_ptr<const Problem> base_;

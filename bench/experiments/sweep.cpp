@@ -34,7 +34,7 @@ class Sweep final : public ExperimentOf<Instance> {
                          .solvers = {"auto"},
                          .intervals = "64",
                          .batch = true},
-             .branches = BranchesTold::none,
+             .branches = BranchReport::none,
              .takes_batches = true,
              .example = "--over mass_1=0.5:2:20 --over final_q1=0.3:0.8:11"}) {}
 

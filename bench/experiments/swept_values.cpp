@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "bench/run/even_draws.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/restated_problem.hpp"
+#include "bench/run/uniform_01.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/runtime/parsed.hpp"
@@ -52,7 +52,7 @@ std::vector<std::vector<double>> sampled(const std::vector<SweptQuantity>& quant
   std::vector<std::vector<double>> instances(static_cast<std::size_t>(samples));
   for (std::vector<double>& values : instances) {
     for (const SweptQuantity& quantity : quantities) {
-      values.push_back(quantity.lower + even(engine) * (quantity.upper - quantity.lower));
+      values.push_back(quantity.lower + uniform_01(engine) * (quantity.upper - quantity.lower));
     }
   }
   return instances;

@@ -21,7 +21,7 @@ class IndirectReference;
 class KeptRows;
 
 /// Which rows state whether their answer is on the branch of their start (the column `branch`).
-enum class BranchesTold : std::uint8_t {
+enum class BranchReport : std::uint8_t {
   of_chosen_start,  ///< those that start from the common start or from a file
   of_any_start,     ///< also those that start at the guess: methods are compared by rows of one branch, and a common
                     ///< start is looked for to know it
@@ -46,7 +46,7 @@ struct ExperimentCard {
   /// of an earlier run are removed when the first row is written, so that old and new files are never mixed.
   std::vector<std::string> further_files = {};
   RowUse rows = RowUse::curves;                           ///< the use of the rows
-  BranchesTold branches = BranchesTold::of_chosen_start;  ///< which rows state their branch
+  BranchReport branches = BranchReport::of_chosen_start;  ///< which rows state their branch
   bool problems_are_independent = false;  ///< rows of one problem do not depend on other problems: --jobs is offered
   bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that
                              ///< other load of the machine slows all of them alike

@@ -40,7 +40,7 @@ std::vector<SharedBy> respects_of_parts(const Experiment& experiment) {
   const ExperimentCard& card = experiment.card();
   std::vector<SharedBy> respects = respects_of(experiment);
   const std::string& start = card.options.start;
-  if (start == "common" || (start == "guess" && card.branches == BranchesTold::of_any_start))
+  if (start == "common" || (start == "guess" && card.branches == BranchReport::of_any_start))
     respects.emplace_back(scheme);
   return respects;
 }

@@ -11,10 +11,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/run/even_draws.hpp"
 #include "bench/run/json_place.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/result_file.hpp"
+#include "bench/run/uniform_01.hpp"
 #include "bench/run/written_tables.hpp"
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/error.hpp"
@@ -309,7 +309,7 @@ Start StartProvider::start_for(const Case& the_case) {
     return start_for(nominal);
   }
   Start start{guessed_motion(*the_case.problem)};
-  if (from_guess && !rules_.tells_branch_from_guess) return start;
+  if (from_guess && !rules_.reports_branch_from_guess) return start;
   const FoundStart& found = common_start(the_case);
   if (!found) {
     if (options_.stop_requested && options_.stop_requested()) throw Interrupted();
@@ -318,7 +318,7 @@ Start StartProvider::start_for(const Case& the_case) {
   }
   const bool own = found->method == the_case.method && the_case.intervals() == found->intervals;
   if (!from_guess) start.motion = own ? found->finer : found->motion;
-  if (rules_.tells_branch) start.branch = from_guess ? found->motion : start.motion;
+  if (rules_.reports_branch) start.branch = from_guess ? found->motion : start.motion;
   return start;
 }
 
@@ -330,7 +330,7 @@ Start StartProvider::start_in_file(const Case& the_case) {
                               rules_.start, the_case.label()));
   }
   const Motion motion = smooth_motion(tables);
-  Start start{motion, rules_.tells_branch ? std::optional(motion) : std::nullopt};
+  Start start{motion, rules_.reports_branch ? std::optional(motion) : std::nullopt};
   if (rules_.takes_costates && tables.has_costates()) start.with_costates = tables;
   return start;
 }
@@ -365,7 +365,7 @@ Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std
     Eigen::MatrixXd amplitudes(sizes.size(), modes);
     for (Eigen::Index k = 0; k < modes; ++k) {
       for (Eigen::Index i = 0; i < sizes.size(); ++i) {
-        amplitudes(i, k) = amplitude * sizes[i] * (2.0 * even(engine) - 1.0) / static_cast<double>(k + 1);
+        amplitudes(i, k) = amplitude * sizes[i] * (2.0 * uniform_01(engine) - 1.0) / static_cast<double>(k + 1);
       }
     }
     return amplitudes;

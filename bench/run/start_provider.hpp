@@ -47,11 +47,11 @@ class StartProvider {
  public:
   /// The options of the command line about starts.
   struct Rules {
-    std::string start = "common";          ///< common, guess or the name of a node file
-    double most_seconds = 30.0;            ///< of the search of one common start
-    bool tells_branch = true;              ///< starts come with the motion whose branch a case should be on
-    bool takes_costates = false;           ///< a file's costates come with its motion, where it has them
-    bool tells_branch_from_guess = false;  ///< also starts at the guess, which takes the search of a common start
+    std::string start = "common";            ///< common, guess or the name of a node file
+    double most_seconds = 30.0;              ///< of the search of one common start
+    bool reports_branch = true;              ///< starts come with the motion whose branch a case should be on
+    bool takes_costates = false;             ///< a file's costates come with its motion, where it has them
+    bool reports_branch_from_guess = false;  ///< also starts at the guess, which takes the search of a common start
 
     /// The kind that `start` names.
     [[nodiscard]] StartKind kind() const;

@@ -51,7 +51,7 @@ ReplayedIntervals replayed(ExtremalFlow& flow, ExtremalCoordinates& coordinates,
   constexpr double tolerance = 1e-12;
   const Eigen::Index intervals = motion.intervals();
   const ExtremalStates nodes = coordinates.of_nodes(motion);
-  const ExtremalFlow::Carried carried = flow.carry(nodes, motion, tolerance);
+  const ExtremalFlow::CarriedNodes carried = flow.carry(nodes, motion, tolerance);
   const auto canonical = coordinates.canonical(carried.states, motion.node_times.tail(intervals));
   const auto missed = [&](const Eigen::MatrixXd& there, const Eigen::MatrixXd& at_nodes) -> Eigen::MatrixXd {
     return there - at_nodes.bottomRows(intervals);

@@ -127,7 +127,8 @@ void ExtremalFlow::find_controls(const std::vector<double>& state, const Traject
   }
 }
 
-ExtremalFlow::Carried ExtremalFlow::carry(const ExtremalStates& nodes, const Trajectory& motion, double tolerance) {
+ExtremalFlow::CarriedNodes ExtremalFlow::carry(const ExtremalStates& nodes, const Trajectory& motion,
+                                               double tolerance) {
   const Eigen::Index rows = motion.intervals();
   const Eigen::VectorXd left = motion.node_times.head(rows);
   const Eigen::VectorXd steps = motion.node_times.tail(rows) - left;

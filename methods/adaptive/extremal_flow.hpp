@@ -32,14 +32,14 @@ class ExtremalFlow {
   ExtremalFlow(const TracedProblem& problem, double cost_scale);
 
   /// The end points of the flow in the intervals.
-  struct Carried {
+  struct CarriedNodes {
     ExtremalStates states;  ///< row k at t_{k+1}, begun at node k
     Eigen::VectorXd cost;   ///< ∫ C dt over interval k, times `cost_scale`
   };
   /// Carries rows 0 to N - 1 of `nodes` (N + 1 rows) through the intervals of a motion, by an adaptive method of order
   /// 7(8) that takes the same relative steps in all of them; the controls of the motion begin Newton's method for H_u =
   /// 0. If an interval cannot be carried, all of its row is NaN.
-  [[nodiscard]] Carried carry(const ExtremalStates& nodes, const Trajectory& motion, double tolerance);
+  [[nodiscard]] CarriedNodes carry(const ExtremalStates& nodes, const Trajectory& motion, double tolerance);
 
  private:
   /// The control from H_u = 0 at `state` (N rows of 4 n + 1 entries, column by column), into `controls_`.

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/call_formula.hpp"
 
 namespace dmocbench {
 
@@ -80,7 +80,7 @@ std::pair<std::string, std::string> name_and_unit(const std::string& column) {
 
 void require_names(const Problem& problem) {
   TakenColumns columns(problem.name() + ": among configuration_names and control_names", "t");
-  const auto names_of = [&](const char* function, const auto& call) { return asked(problem, function, call); };
+  const auto names_of = [&](const char* function, const auto& call) { return call_formula(problem, function, call); };
   const auto configurations = names_of("configuration_names", [&] { return problem.configuration_names(); });
   const auto controls = names_of("control_names", [&] { return problem.control_names(); });
   if (configurations.empty()) {

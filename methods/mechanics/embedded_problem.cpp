@@ -13,7 +13,7 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/call_formula.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
@@ -78,11 +78,11 @@ EmbeddedProblem::EmbeddedProblem(std::shared_ptr<const Problem> redundant) : red
 void EmbeddedProblem::trace_embedding() {
   const Eigen::Index n = redundant_->configuration_size();
   const Eigen::Index c =
-      asked(*redundant_, "constraints", [&] { return redundant_->constraints(input_vector(0, n)).size(); });
+      call_formula(*redundant_, "constraints", [&] { return redundant_->constraints(input_vector(0, n)).size(); });
   if (c == 0) throw Error(redundant_->name() + " has no constraints g(q) = 0, and needs no embedding");
   freedoms_ = n - c;
   const ExpressionVector theta = input_vector(0, freedoms_);
-  const ExpressionVector q = asked(*redundant_, "embedding", [&] { return redundant_->embedding(theta); });
+  const ExpressionVector q = call_formula(*redundant_, "embedding", [&] { return redundant_->embedding(theta); });
   if (q.size() == 0) throw Error(redundant_->name() + " states no embedding(theta); state it or take multipliers");
   if (q.size() != n) {
     throw Error(fmt::format("{}: embedding has {} entries, expected {}", redundant_->name(), q.size(), n));

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/call_formula.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/point_function.hpp"
 
@@ -57,8 +57,8 @@ std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
       n, m,
       [&](const ControlledState& x) {
         ExpressionVector both(2);
-        both << asked(problem, "running_cost", [&] { return problem.running_cost(x); }),
-            asked(problem, "final_cost", [&] { return problem.final_cost(x.state()); });
+        both << call_formula(problem, "running_cost", [&] { return problem.running_cost(x); }),
+            call_formula(problem, "final_cost", [&] { return problem.final_cost(x.state()); });
         return both;
       },
       l);

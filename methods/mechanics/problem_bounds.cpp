@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/call_formula.hpp"
 
 namespace dmocbench {
 
@@ -144,16 +144,16 @@ void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
 }  // namespace
 
 ProblemBounds problem_bounds(const Problem& problem) {
-  const BoundaryState first = asked(problem, "initial_state", [&] { return problem.initial_state(); });
-  const BoundaryState last = asked(problem, "final_state", [&] { return problem.final_state(); });
-  const double horizon = asked(problem, "horizon", [&] { return problem.horizon(); });
+  const BoundaryState first = call_formula(problem, "initial_state", [&] { return problem.initial_state(); });
+  const BoundaryState last = call_formula(problem, "final_state", [&] { return problem.final_state(); });
+  const double horizon = call_formula(problem, "horizon", [&] { return problem.horizon(); });
   require_state(first, problem, "initial_state");
   require_state(last, problem, "final_state");
   if (!(horizon > 0.0) || !std::isfinite(horizon)) {
     throw Error(fmt::format("{}: the horizon must be {}, got {:g}", problem.name(),
                             horizon > 0.0 ? "finite" : "positive", horizon));
   }
-  ProblemBounds bounds = complete_bounds(problem, asked(problem, "bounds", [&] { return problem.bounds(); }));
+  ProblemBounds bounds = complete_bounds(problem, call_formula(problem, "bounds", [&] { return problem.bounds(); }));
   require_inside(horizon, bounds.horizon.lower, bounds.horizon.upper, problem.name() + ": horizon");
   require_state_inside(first, bounds.first, problem, "initial_state");
   require_state_inside(last, bounds.last, problem, "final_state");

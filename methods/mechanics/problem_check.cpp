@@ -8,7 +8,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/vectors.hpp"
-#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/call_formula.hpp"
 #include "methods/mechanics/column_names.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/mechanics/traced_problem.hpp"
@@ -45,7 +45,7 @@ void check_guess_sizes(const Problem& problem) {
   constexpr int points = 64;
   for (int i = 0; i <= points; ++i) {
     const double t = problem.horizon() * i / points;
-    const MotionPoint point = asked(problem, "guess", [&] { return problem.guess(t); });
+    const MotionPoint point = call_formula(problem, "guess", [&] { return problem.guess(t); });
     const std::string flaw =
         flaw_of_sizes(point, problem.configuration_size(), problem.control_size(), problem.first_order_size());
     if (!flaw.empty()) throw Error(fmt::format("{}: guess({:g}): {}", problem.name(), t, flaw));
@@ -103,7 +103,7 @@ void check_picture(const Problem& problem) {
   x.u = inputs.take(problem.control_size());
   x.y = inputs.take(problem.first_order_size());
   x.t = inputs.take();
-  const Picture picture = asked(problem, "card().picture", [&] { return pictured_quantities(problem, x); });
+  const Picture picture = call_formula(problem, "card().picture", [&] { return pictured_quantities(problem, x); });
   for (const PictureQuantity& quantity : picture) require_one_line(problem, "a unit of the picture", quantity.unit);
   require_names(problem, picture);
 }
@@ -116,16 +116,16 @@ void check_problem(const Problem& problem) try {
   static_cast<void>(problem_bounds(problem));
   check_guess_sizes(problem);
   static_cast<void>(positive_cost_scale(problem));
-  check_card(problem, asked(problem, "card", [&] { return problem.card(); }));
+  check_card(problem, call_formula(problem, "card", [&] { return problem.card(); }));
   check_picture(problem);
 } catch (const Error&) {
   throw;
 } catch (...) {  // of a function that returns numbers, as horizon() or bounds()
-  throw_as_told_by(problem, "a function");
+  rethrow_naming(problem, "a function");
 }
 
 double positive_cost_scale(const Problem& problem) {
-  const double scale = asked(problem, "cost_scale", [&] { return problem.cost_scale(); });
+  const double scale = call_formula(problem, "cost_scale", [&] { return problem.cost_scale(); });
   if (scale > 0.0 && std::isfinite(scale)) return scale;
   throw Error(fmt::format("{}: cost_scale must be a positive number, got {:g}", problem.name(), scale));
 }

@@ -10,7 +10,7 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/call_formula.hpp"
 #include "methods/mechanics/column_names.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 
@@ -75,12 +75,12 @@ class FormulaReader {
 }  // namespace
 
 TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::string>& open_parameters)
-    : n_(asked(problem, "configuration_names", [&] { return problem.configuration_size(); })),
-      m_(asked(problem, "control_names", [&] { return problem.control_size(); })),
-      l_(asked(problem, "first_order_names", [&] { return problem.first_order_size(); })) {
+    : n_(call_formula(problem, "configuration_names", [&] { return problem.configuration_size(); })),
+      m_(call_formula(problem, "control_names", [&] { return problem.control_size(); })),
+      l_(call_formula(problem, "first_order_names", [&] { return problem.first_order_size(); })) {
   require_names(problem);
   const Eigen::VectorXd values = parameter_values(problem);
-  const ProblemCard card = asked(problem, "card", [&] {
+  const ProblemCard card = call_formula(problem, "card", [&] {
     return problem.card();
   });  // before the trace: parameters that it reads are not constants of formulas
   const ParameterTrace parameters(problem, open_parameters);
@@ -112,10 +112,11 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   ControlledState point{inputs.take(n_), inputs.take(n_), inputs.take(m_), {}};
   point.y = inputs.take(l_);
   point.t = inputs.take();
-  const Expression lagrangian = asked(problem, "lagrangian", [&] { return problem.lagrangian(point.state()); });
-  const ExpressionVector force = asked(problem, "force", [&] { return problem.force(point); });
+  const Expression lagrangian = call_formula(problem, "lagrangian", [&] { return problem.lagrangian(point.state()); });
+  const ExpressionVector force = call_formula(problem, "force", [&] { return problem.force(point); });
   require_size(force.size(), n_, problem, "force");
-  const ExpressionVector rates = asked(problem, "first_order_rates", [&] { return problem.first_order_rates(point); });
+  const ExpressionVector rates =
+      call_formula(problem, "first_order_rates", [&] { return problem.first_order_rates(point); });
   require_size(rates.size(), l_, problem, "first_order_rates");
 
   const ExpressionVector momentum = gradient(lagrangian, point.v);
@@ -134,9 +135,9 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   append(formulas, momentum);
   append(formulas, configuration_force);
   append(formulas, force);
-  formulas.push_back(asked(problem, "running_cost", [&] { return problem.running_cost(point); }));
+  formulas.push_back(call_formula(problem, "running_cost", [&] { return problem.running_cost(point); }));
   const ExpressionVector path_constraints =
-      asked(problem, "path_constraints", [&] { return problem.path_constraints(point); });
+      call_formula(problem, "path_constraints", [&] { return problem.path_constraints(point); });
   path_constraints_ = path_constraints.size();
   for (const Expression& entry : path_constraints) {
     constraints_read_controls_.push_back(reads(Schedule(std::span(&entry, 1)),
@@ -154,10 +155,10 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   const ExpressionMatrix momentum_by_first_order = jacobian(momentum, point.y);
   momentum_depends_on_first_order_ = !std::ranges::all_of(momentum_by_first_order.reshaped(), is_zero);
   append(formulas, momentum_by_first_order);
-  const ExpressionVector integrands = asked(problem, "integrands", [&] { return problem.integrands(point); });
+  const ExpressionVector integrands = call_formula(problem, "integrands", [&] { return problem.integrands(point); });
   integrals_ = integrands.size();
   append(formulas, integrands);
-  if (const auto generator = asked(problem, "symmetry", [&] { return problem.symmetry(point.q); })) {
+  if (const auto generator = call_formula(problem, "symmetry", [&] { return problem.symmetry(point.q); })) {
     require_size(generator->size(), n_, problem, "symmetry");
     has_symmetry_ = true;
     append(formulas, *generator);
@@ -172,7 +173,7 @@ void TracedProblem::trace_holonomic(const Problem& problem) {
   InputCounter inputs(parameter_inputs());
   const ExpressionVector q = inputs.take(n_);
   const ExpressionVector v = inputs.take(n_);
-  const ExpressionVector residual = asked(problem, "constraints", [&] { return problem.constraints(q); });
+  const ExpressionVector residual = call_formula(problem, "constraints", [&] { return problem.constraints(q); });
   holonomic_count_ = residual.size();
   if (holonomic_count_ == 0) return;
   if (holonomic_count_ >= n_) {
@@ -219,11 +220,11 @@ void TracedProblem::trace_ends(const Problem& problem) {
   State last{inputs.take(n_), inputs.take(n_), {}, inputs.take(l_)};
   last.t = inputs.take();
   const ExpressionVector conditions =
-      asked(problem, "boundary_conditions", [&] { return problem.boundary_conditions(first, last); });
+      call_formula(problem, "boundary_conditions", [&] { return problem.boundary_conditions(first, last); });
   boundary_conditions_ = conditions.size();
   std::vector<Expression> formulas;
   append(formulas, conditions);
-  formulas.push_back(asked(problem, "final_cost", [&] { return problem.final_cost(last); }));
+  formulas.push_back(call_formula(problem, "final_cost", [&] { return problem.final_cost(last); }));
   ends_ = Schedule(formulas);
 }
 

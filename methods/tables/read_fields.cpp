@@ -16,7 +16,7 @@ ReadFields::~ReadFields() { innermost = outer_; }
 
 void note_read_field(const std::string& place, std::string_view column, bool is_number) {
   if (innermost == nullptr || place.empty()) return;
-  ReadFields::OfRow& row = innermost->rows_[place];
+  ReadFields::ReadRow& row = innermost->rows_[place];
   row.has_number = row.has_number || is_number;
   if (!row.columns.contains(column)) row.columns.emplace(column);
 }

@@ -12,12 +12,12 @@ namespace dmocbench {
 class ReadFields {
  public:
   /// The fields read of a row.
-  struct OfRow {
+  struct ReadRow {
     std::set<std::string, std::less<>> columns;  ///< their names
     bool has_number = false;                     ///< a field was read as a number, not only to choose the row
   };
   /// Fields by the places of rows.
-  using ByPlace = std::map<std::string, OfRow, std::less<>>;
+  using ByPlace = std::map<std::string, ReadRow, std::less<>>;
 
   /// Begins to record.
   ReadFields();

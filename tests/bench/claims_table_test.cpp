@@ -71,11 +71,11 @@ using ClaimsFolder = tests::InTemporaryFolder;
 
 TEST_F(ClaimsFolder, LacksEvidenceThatTheRowNames) {
   std::vector<JudgedClaim> claims{claim_of("a", "one", Whose::paper, ClaimVerdict::reproduced)};
-  claims.front().evidence = {"slips.csv", "figures/orbit.svg"};
-  write_file(folder() / "slips.csv", "a\n");
+  claims.front().evidence = {"misprints.csv", "figures/orbit.svg"};
+  write_file(folder() / "misprints.csv", "a\n");
   mark_missing_evidence(claims, folder());
   EXPECT_EQ(claims.front().missing, std::vector<std::string>{"figures/orbit.svg"});
-  EXPECT_EQ(claims_table(claims).rows().front().text("evidence"), "slips.csv; figures/orbit.svg (not there)");
+  EXPECT_EQ(claims_table(claims).rows().front().text("evidence"), "misprints.csv; figures/orbit.svg (not there)");
 }
 
 const std::vector<JudgedClaim> some{claim_of("a", "one", Whose::paper, ClaimVerdict::reproduced),

@@ -265,12 +265,12 @@ TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
   ResultTables results;
   Row row;
   row.set("problem", orbit);
-  row.set("slip", "boundary_momenta");
+  row.set("misprint", "boundary_momenta");
   row.set("value_as_printed", 1.02);
   row.set("value_as_meant", 1.0);
   row.set("required_value", 1.0);
   const auto verdict = [&] {
-    results.add("slips", tests::declared_table("slips", {row}));
+    results.add("misprints", tests::declared_table("misprints", {row}));
     return verdict_on("boundary_momenta", results);
   };
   EXPECT_EQ(verdict(), ClaimVerdict::differs);
@@ -283,13 +283,14 @@ TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
 
 TEST(Claims, ASlipTellsTheRowThatItWasJudgedBy) {
   ResultTables results;
-  results.add("slips", Table::from_csv("problem,slip,where,printed,meant,quantity,value_as_printed,value_as_meant,"
-                                       "required_value\norbit,first,,,,,2,1,1\norbit,second,,,,,3,1,1\n"));
+  results.add("misprints",
+              Table::from_csv("problem,misprint,where,printed,meant,quantity,value_as_printed,value_as_meant,"
+                              "required_value\norbit,first,,,,,2,1,1\norbit,second,,,,,3,1,1\n"));
   const std::vector<JudgedClaim> judged =
       judge_claims(results, [](const std::string& id) { return id == "orbit/second"; });
   ASSERT_EQ(judged.size(), 1U);
   ASSERT_EQ(judged.front().rows.size(), 1U);
-  EXPECT_EQ(judged.front().rows.front().table, "slips.csv");
+  EXPECT_EQ(judged.front().rows.front().table, "misprints.csv");
   EXPECT_EQ(judged.front().rows.front().records, std::vector<std::size_t>{3});
   for (const char* const column : {"value_as_printed", "value_as_meant", "required_value"})
     EXPECT_EQ(std::ranges::count(judged.front().rows.front().columns, column), 1) << column;

@@ -44,7 +44,8 @@ int write(CommandLine& line) {
   const Case the_case = exchanged_case(expand_cases(options));
   check(file);
   const SolverOptions solver = solver_options(options);
-  StartProvider starts({.start = options.start, .most_seconds = options.start_seconds, .tells_branch = false}, solver);
+  StartProvider starts({.start = options.start, .most_seconds = options.start_seconds, .reports_branch = false},
+                       solver);
   starts.check({the_case});
   const auto program = the_case.transcribe();
   const AmplModel model = ampl_model(*program, sample(*program, starts.start_for(the_case).motion));

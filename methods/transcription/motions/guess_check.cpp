@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/call_formula.hpp"
 #include "methods/mechanics/formula_check.hpp"
 #include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/problem_check.hpp"
@@ -67,7 +67,7 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
   Eigen::VectorXd times(count + 2);
   for (int i = 0; i < count; ++i) {
     times[i] = horizon * (i + 0.5) / count;
-    points.push_back(asked(problem, "guess", [&] { return problem.guess(times[i]); }));
+    points.push_back(call_formula(problem, "guess", [&] { return problem.guess(times[i]); }));
     const std::string flaw = flaw_of(points.back(), traced);
     if (!flaw.empty()) throw Error(place_of(times[i], problem, grid) + flaw);
   }

@@ -6,16 +6,16 @@ namespace dmocbench {
 
 /// To be called where an exception is handled: throws it again as an `Error` that names the problem and the function.
 /// Missing memory, and the end of a `StopScope`, are rethrown unchanged.
-[[noreturn]] void throw_as_told_by(const Problem& problem, const char* function);
+[[noreturn]] void rethrow_naming(const Problem& problem, const char* function);
 
 /// Calls a function of a problem, which anybody may have written: its exceptions become an `Error` that names the
 /// problem and the function.
 template <class Call>
-[[nodiscard]] auto asked(const Problem& problem, const char* function, const Call& call) -> decltype(call()) {
+[[nodiscard]] auto call_formula(const Problem& problem, const char* function, const Call& call) -> decltype(call()) {
   try {
     return call();
   } catch (...) {
-    throw_as_told_by(problem, function);
+    rethrow_naming(problem, function);
   }
 }
 

@@ -15,7 +15,7 @@
 #include "methods/transcription/motions/interpolation.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench::slips_program {
+namespace dmocbench::misprints_program {
 
 struct Misprint {
   std::string problem;
@@ -230,7 +230,7 @@ Misprint lagrangian_form(const std::shared_ptr<const Problem>& problem) {
 
 const Columns<Misprint> columns{
     {"problem", "", "name of the problem", &Misprint::problem, in_key},
-    {"slip", "", "short name of the statement", &Misprint::name, in_key},
+    {"misprint", "", "short name of the statement", &Misprint::name, in_key},
     {"where", "", "in the paper", &Misprint::where},
     {"printed", "", "the printed statement", &Misprint::printed},
     {"meant", "", "the intended statement", &Misprint::meant},
@@ -241,7 +241,7 @@ const Columns<Misprint> columns{
 };
 
 int evaluate_misprints(CommandLine& line) {
-  TableRun run("slips", line);
+  TableRun run("misprints", line);
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
   StartProvider starts({}, TableRun::solver_options());
   const Trajectory motion = starts.solve(
@@ -250,13 +250,14 @@ int evaluate_misprints(CommandLine& line) {
       potential_without_sine(),       swapped_momenta(*orbit, motion), mayer_gradient(*orbit, motion),
       force_in_lemma(*orbit),         transversality(starts),          saddle_point(),
       final_momentum(*orbit, motion), figure_of_iterations(),          lagrangian_form(orbit)};
-  run.add("slips", columns, misprints);
+  run.add("misprints", columns, misprints);
   return run.write();
 }
 
 int run(int argc, char** argv) {
-  return run_program("slips", "Misprints of the paper: each formula evaluated as printed and as corrected (slips.csv).",
+  return run_program("misprints",
+                     "Misprints of the paper: each formula evaluated as printed and as corrected (misprints.csv).",
                      argc, argv, evaluate_misprints);
 }
 
-}  // namespace dmocbench::slips_program
+}  // namespace dmocbench::misprints_program

@@ -1,4 +1,4 @@
-#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/call_formula.hpp"
 
 #include <exception>
 #include <new>
@@ -11,7 +11,7 @@
 
 namespace dmocbench {
 
-void throw_as_told_by(const Problem& problem, const char* function) {
+void rethrow_naming(const Problem& problem, const char* function) {
   const std::string name = problem.name();
   try {
     throw;
