@@ -32,8 +32,9 @@ struct PeriodEnergy {
   double largest = 0.0;   ///< over the same
 };
 
-/// Energy minus the initial energy along the ellipse of `Kepler`, period by period; of many periods the first ten and
-/// 200 evenly spaced ones are watched. Throws `Error` if a step cannot be solved.
+/// Energy minus the initial energy along the ellipse of `Kepler`, a row per watched period: every period if there are
+/// fewer than 400, else the first ten and at least 200 others at even distances. Throws `Error` if a step cannot be
+/// solved.
 [[nodiscard]] std::vector<PeriodEnergy> long_time_energy(const LongTimeMethod& method, int steps_per_period,
                                                          long long periods);
 

@@ -72,7 +72,8 @@ struct Worst {
   Eigen::RowVectorXd point;  // (q, v, u, y, t)
 };
 
-/// Goes along a motion, some intervals at a time.
+/// Evaluates a motion at points between the stages, for some intervals at a time, and keeps the worst violation of each
+/// bound and path constraint.
 class Measurement {
  public:
   Measurement(const Problem& problem, const ProblemBounds& bounds, const TracedProblem& traced,

@@ -9,7 +9,7 @@ namespace dmocbench {
 
 namespace {
 
-/// Unknowns with consecutive numbers.
+/// Some of the unknowns of a program, numbered consecutively: the columns of the least-squares problem.
 class Numbered {
  public:
   explicit Numbered(std::size_t unknowns) : numbers_(unknowns, -1) {}

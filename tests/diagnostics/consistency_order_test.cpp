@@ -8,7 +8,8 @@
 namespace dmocbench {
 namespace {
 
-/// Far enough from both neighbouring orders that a lost or a gained power of h fails.
+/// A slope within this distance of an order is nearer to it than to the orders above and below: the test fails if a
+/// formula gains or loses a power of h.
 constexpr double slope_tolerance = 0.25;
 
 double slope_of(const std::vector<std::vector<ConsistencyErrors>>& errors, const std::vector<double>& steps,
