@@ -12,8 +12,8 @@
 namespace dmocbench {
 namespace {
 
-/// This test is a program of its own: `vector_loops` chooses its instruction set at the first call and keeps it, so that
-/// no other test may call it before.
+/// This test is a program of its own: `vector_loops` chooses its instruction set at the first call and keeps it, so
+/// that no other test may call it before.
 TEST(InstructionSet, OneOverrideGovernsTapesVectorLoopsAndSegmentKernels) {
   for (const InstructionSet set : available_instruction_sets()) {
     setenv("DMOCBENCH_INSTRUCTION_SET", std::string(name_of(set)).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
