@@ -16,22 +16,36 @@ namespace dmocbench {
 
 namespace {
 
-constexpr Eigen::Index points = 9;              // of an interval, both ends among them
+constexpr Eigen::Index points = 9;              // of an interval, or of a part of one, both ends among them
 constexpr Eigen::Index intervals_at_once = 64;  // their points stay in the cache
 constexpr double rounding = 1e-8;
+constexpr double narrowest_part = 1e-10;  // of an interval
 constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Displacements of an entry of (q, v, u, y) to either side: 4δ of its range, half of that, and so on.
+constexpr Eigen::Index displacements = 24;
+constexpr double largest_displacement = 4.0;
+constexpr Eigen::Index displacement_by_delta = 2;
+
+using AtPoints = Eigen::Matrix<double, points, 1>;
 
 double tau_of(Eigen::Index point) { return static_cast<double>(point) / static_cast<double>(points - 1); }
 
-/// The Lagrange polynomials of the stage times at the points of an interval, a row per point, and their integrals from
-/// its beginning, by Simpson's rule, which is exact for up to four stages.
+/// The part [from, to] of an interval, whose ends are 0 and 1.
+struct Part {
+  [[nodiscard]] double tau(Eigen::Index point) const { return from + tau_of(point) * (to - from); }
+  double from = 0.0;
+  double to = 1.0;
+};
+
+/// The Lagrange polynomials of the stage times at the points of a part, a row per point, and their integrals from its
+/// beginning, by Simpson's rule, which is exact for up to four stages.
 struct PolynomialsAtPoints {
-  explicit PolynomialsAtPoints(const Eigen::VectorXd& c)
+  explicit PolynomialsAtPoints(const Eigen::VectorXd& c, const Part& part = {})
       : value(points, c.size()), integral(Eigen::MatrixXd::Zero(points, c.size())) {
-    for (Eigen::Index i = 0; i < points; ++i) value.row(i) = lagrange_basis(c, tau_of(i)).transpose();
+    for (Eigen::Index i = 0; i < points; ++i) value.row(i) = lagrange_basis(c, part.tau(i)).transpose();
     for (Eigen::Index i = 1; i < points; ++i) {
-      const double width = tau_of(i) - tau_of(i - 1);
-      const Eigen::RowVectorXd middle = lagrange_basis(c, tau_of(i) - 0.5 * width).transpose();
+      const double width = part.tau(i) - part.tau(i - 1);
+      const Eigen::RowVectorXd middle = lagrange_basis(c, part.tau(i) - 0.5 * width).transpose();
       integral.row(i) = integral.row(i - 1) + width / 6.0 * (value.row(i - 1) + 4.0 * middle + value.row(i));
     }
   }
@@ -95,7 +109,7 @@ class Measurement {
     scales_ << range_of_q_.each, range_of_v_.each, Ranges(trajectory.stage_u).each, Ranges(trajectory.y).each;
     if (traced.path_constraint_count() == 0) return;
     path_bounds_ = bounds.of_path(traced.path_constraint_count());
-    path_.emplace(traced, std::max(points * intervals_at_once, 2 * scales_.size() + 1));
+    path_.emplace(traced, std::max(points * intervals_at_once, 2 * displacements * scales_.size() + 1));
     violated_.resize(static_cast<std::size_t>(path_->count()));
   }
 
@@ -173,21 +187,79 @@ class Measurement {
   static double tolerated(double scale) { return rounding * std::max(1.0, scale); }
 
   void evaluate_path_constraints() {
-    const Eigen::Ref<const Eigen::MatrixXd> h = path_->at(rows_, points * count_);
-    for (Eigen::Index i = 0; i < h.cols(); ++i) {
-      Eigen::Index row = 0;
-      Worst& worst = violated_[static_cast<std::size_t>(i)];
-      // Where a constraint is not a number, the motion has left its domain.
-      if (!h.col(i).allFinite()) {
-        while (std::isfinite(h(row, i))) ++row;
-        keep(worst, infinite, row);
-      } else {
-        const double below = path_bounds_.lower[i] - h.col(i).minCoeff(&row);
-        keep(worst, below, row);
-        const double above = h.col(i).maxCoeff(&row) - path_bounds_.upper[i];
-        keep(worst, above, row);
+    const Eigen::MatrixXd h = path_->at(rows_, points * count_);
+    for (Eigen::Index k = 0; k < count_; ++k) {
+      for (Eigen::Index i = 0; i < h.cols(); ++i) {
+        search(i, first_ + k, Part{}, rows_.middleRows(k * points, points), h.col(i).segment<points>(k * points));
       }
     }
+  }
+
+  /// Keeps the worst of h_i at the points of a part of interval k, and searches on about each of its least values that
+  /// may hide a worse one.
+  void search(Eigen::Index i, Eigen::Index k, const Part& part, const Eigen::Ref<const Eigen::MatrixXd>& rows,
+              const AtPoints& h) {
+    Worst& worst = violated_[static_cast<std::size_t>(i)];
+    const auto keep_worse = [&](double amount, Eigen::Index row) {
+      if (amount > worst.amount) worst = {amount, k, rows(row, 2 * n_ + m_ + l_), rows.row(row)};
+    };
+    // Where a constraint is not a number, the motion has left its domain.
+    if (!h.allFinite()) {
+      Eigen::Index row = 0;
+      while (std::isfinite(h[row])) ++row;
+      return keep_worse(infinite, row);
+    }
+    for (const AtPoints& inside :
+         {AtPoints(h.array() - path_bounds_.lower[i]), AtPoints(path_bounds_.upper[i] - h.array())}) {
+      Eigen::Index least = 0;
+      const double lowest = inside.minCoeff(&least);
+      keep_worse(-lowest, least);
+      for (Eigen::Index point = 0; point < points; ++point) {
+        if (!may_hide_worse(inside, point, worst.amount)) continue;
+        const Part next{part.tau(std::max<Eigen::Index>(point - 1, 0)), part.tau(std::min(point + 1, points - 1))};
+        if (next.to - next.from < narrowest_part) continue;
+        const Eigen::MatrixXd rows_of_next = rows_of(k, next);
+        search(i, k, next, rows_of_next, path_->at(rows_of_next, points).col(i));
+      }
+    }
+  }
+
+  /// Whether a distance to a bound has a minimum about a point, and its differences there would carry it further
+  /// beyond the bound than `amount`. Half of `most_descent` would do for what is convex.
+  [[nodiscard]] static bool may_hide_worse(const AtPoints& inside, Eigen::Index point, double amount) {
+    const double here = inside[point];
+    const double before = point > 0 ? inside[point - 1] : infinite;
+    const double after = point + 1 < points ? inside[point + 1] : infinite;
+    if (!(here < before && here <= after)) return false;
+    constexpr double most_descent = 4.0;
+    constexpr double worth = 1.01;
+    const double highest = std::max(point > 0 ? before : here, point + 1 < points ? after : here);
+    return here - most_descent * (highest - here) < -worth * amount - rounding;
+  }
+
+  /// (q, v, u, y, t) at the points of a part of interval k.
+  [[nodiscard]] Eigen::MatrixXd rows_of(Eigen::Index k, const Part& part) const {
+    const Eigen::Index s = trajectory_.stages();
+    const PolynomialsAtPoints basis(trajectory_.tableau.c, part);
+    const Eigen::RowVectorXd until = integral_until(part.from);
+    const double step = trajectory_.step(k);
+    const auto integrated = [&](const Eigen::MatrixXd& nodes, const Eigen::MatrixXd& rates) -> Eigen::MatrixXd {
+      const auto of_interval = rates.middleRows(k * s, s);
+      return ((basis.integral.rowwise() + until) * of_interval * step).rowwise() + nodes.row(k);
+    };
+    Eigen::MatrixXd rows(points, 2 * n_ + m_ + l_ + 1);
+    rows.leftCols(n_) = integrated(trajectory_.q, trajectory_.stage_v);
+    rows.middleCols(n_, n_) = basis.value * trajectory_.stage_v.middleRows(k * s, s);
+    rows.middleCols(2 * n_, m_) = basis.value * trajectory_.stage_u.middleRows(k * s, s);
+    if (l_ > 0) rows.middleCols(2 * n_ + m_, l_) = integrated(trajectory_.y, trajectory_.stage_y_rates);
+    for (Eigen::Index i = 0; i < points; ++i) {
+      rows(i, 2 * n_ + m_ + l_) = trajectory_.node_times[k] + part.tau(i) * step;
+    }
+    return rows;
+  }
+  /// The integrals of the Lagrange polynomials from the beginning of an interval.
+  [[nodiscard]] Eigen::RowVectorXd integral_until(double tau) const {
+    return PolynomialsAtPoints(trajectory_.tableau.c, {0.0, tau}).integral.bottomRows(1);
   }
 
   /// Whether a control is beyond its bounds at a point.
@@ -268,16 +340,28 @@ class Measurement {
     if (std::isinf(worst.amount)) return infinite;
     constexpr double delta = largest_violation_of_a_motion;
     const Eigen::Index moved = scales_.size();
-    Eigen::MatrixXd rows = worst.point.replicate(2 * moved + 1, 1);  // the last one stays
+    const Eigen::Index last = 2 * displacements * moved;
+    Eigen::MatrixXd rows = worst.point.replicate(last + 1, 1);  // the last one stays
     for (Eigen::Index j = 0; j < moved; ++j) {
-      rows(2 * j, j) += delta * scales_[j];
-      rows(2 * j + 1, j) -= delta * scales_[j];
+      double size = largest_displacement * delta * scales_[j];
+      for (Eigen::Index row = 2 * displacements * j; row < 2 * displacements * (j + 1); row += 2, size *= 0.5) {
+        rows(row, j) += size;
+        rows(row + 1, j) -= size;
+      }
     }
-    const Eigen::VectorXd values = path_->at(rows, 2 * moved + 1).col(i);
-    const Eigen::VectorXd changes = (values.head(2 * moved).array() - values[2 * moved]).abs();
+    const Eigen::VectorXd h = path_->at(rows, last + 1).col(i);
+    const double sign = h[last] > path_bounds_.upper[i] ? -1.0 : 1.0;
+    const Eigen::VectorXd rises = sign * (h.array() - h[last]);
     double change = 0.0;
-    for (Eigen::Index j = 0; j < moved; ++j) change += std::max(changes[2 * j], changes[2 * j + 1]);
-    return delta * worst.amount / change;
+    double descent = 0.0;
+    for (Eigen::Index j = 0; j < moved; ++j) {
+      const auto of_entry = rises.segment(2 * displacements * j, 2 * displacements);
+      change += of_entry.segment<2>(2 * displacement_by_delta).cwiseAbs().maxCoeff();
+      descent += std::max(0.0, -of_entry.minCoeff<Eigen::PropagateNumbers>());
+    }
+    const double share = delta * worst.amount / change;
+    const double of_depth = worst.amount / (worst.amount + descent);
+    return share <= delta && of_depth > largest_share_of_depth ? of_depth : share;
   }
 
   [[nodiscard]] ViolationBetweenStages summary() {

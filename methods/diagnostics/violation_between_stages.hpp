@@ -38,12 +38,18 @@ struct ViolationBetweenStages {
 
 /// Measures the element's polynomial of q with its time derivative, and the stage polynomial of u, at nine points per
 /// interval, both ends among them. Violations up to 1e-8 of the range, or of 1 if that is more, count as rounding.
+/// Where a path constraint has a minimum among these points, and its differences there would carry it further beyond
+/// its bound than it is anywhere else, the part about the minimum gets nine points too, and so on: an obstacle that all
+/// points step over is entered at its middle. What no difference of nine points shows is not found.
 ///
 /// The scale of a bound is the range of its component along the motion; the range of all components of q, or of q̇,
 /// where it is constant. The share of a path constraint is δ |h_i| / D_i at its least value, where D_i adds up by how
 /// much h_i changes at most when each entry of (q, q̇, u) moves by ± δ of its range, δ =
 /// `largest_violation_of_a_motion`: the share is above δ exactly where such displacements do not make up for the
-/// violation, also where ∂h_i vanishes.
+/// violation, also where ∂h_i vanishes. An obstacle may be thinner than these displacements, which then carry the
+/// motion to its other side. So a share of at most δ is replaced by the share of the depth of the obstacle, |h_i| /
+/// (|h_i| + E_i), if that is above `largest_share_of_depth`. E_i adds up by how much h_i falls further at most when
+/// each entry moves by ± 4δ of its range or less; where h_i is linear this replaces nothing.
 ///
 /// A polynomial through the stages overshoots the bounds of u wherever a control switches or has a kink. The share of
 /// the controls is the largest mean excess |u - clipped u| of a component in an interval, relative to its range: a
@@ -57,6 +63,9 @@ struct ViolationBetweenStages {
 /// The largest share of its scale by which a motion may leave a bound or path constraint. Above it the discrete program
 /// is solved, but its answer is not a trustworthy motion: `Status::violates_between_stages`.
 inline constexpr double largest_violation_of_a_motion = 0.005;
+
+/// The largest share of the depth of an obstacle that a motion may enter, however thin it is.
+inline constexpr double largest_share_of_depth = 0.2;
 
 /// The permitted miss of a motion with clipped controls, however far they exceed their bounds. It is small because an
 /// optimum makes use of every excess, which then acts on the motion until its end.

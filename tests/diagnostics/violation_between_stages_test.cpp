@@ -72,6 +72,22 @@ TEST_F(OptimumOfDoubleIntegrator, LeavesAPathConstraintByWhatADisplacementWouldR
   EXPECT_NEAR(around(1e3), around(1.0), 1e-9);
 }
 
+TEST_F(OptimumOfDoubleIntegrator, EntersAnObstacleByItsDepthInAnyUnit) {
+  // q passes through the middle of h = ((q - 0.53)/r)² - 1 >= 0, the whole of its depth.
+  const auto share = [&](double radius, double unit) {
+    return violating([&](Statement& s) {
+             s.path_constraints = [radius, unit](const ControlledState& x) {
+               const Expression d = (x.q[0] - 0.53) / radius;
+               return ExpressionVector::Constant(1, unit * (d * d - 1.0));
+             };
+           })
+        .state.share;
+  };
+  for (const double radius : {1e-3, 1e-4, 1e-6}) {
+    for (const double unit : {1.0, 1e3}) EXPECT_NEAR(share(radius, unit), 1.0, 0.03) << radius << ' ' << unit;
+  }
+}
+
 TEST_F(OptimumOfDoubleIntegrator, IsNoMotionWhereAConstraintIsNotANumber) {
   const ViolationBetweenStages undefined = violating([](Statement& s) {
     s.path_constraints = [](const ControlledState& x) {
@@ -94,6 +110,45 @@ TEST_F(OptimumOfDoubleIntegrator, MissesByTheImpulseThatClippingTakesAway) {
   EXPECT_NEAR(strong.control.share, 8.0 / 24.0 / range, 1e-3);
   EXPECT_EQ(strong.state.share, 0.0);
   EXPECT_FALSE(strong.is_motion());
+}
+
+TEST(ViolationBetweenStages, MayGrazeAThinObstacleAndNotCrossIt) {
+  // A disc in the plane of q and q̇: at t = ½ the optimum passes through (½, 3/2) along q, as deep inside as `depth`.
+  const tests::DoubleIntegrator base;
+  const Trajectory motion = solved_on(base, {"dmoc", 2}, 64);
+  const auto is_motion = [&](double depth) {
+    const Restated around(base, [depth](Statement& s) {
+      s.path_constraints = [depth](const ControlledState& x) {
+        constexpr double radius = 0.01;
+        const Expression along = (x.q[0] - 0.5) / radius;
+        const Expression across = (x.v[0] - 1.5) / radius - (1.0 - depth);
+        return ExpressionVector::Constant(1, along * along + across * across - 1.0);
+      };
+    });
+    return violation_of(around, motion).is_motion();
+  };
+  EXPECT_TRUE(is_motion(0.05));
+  EXPECT_FALSE(is_motion(0.5));
+  EXPECT_FALSE(is_motion(1.0));
+}
+
+TEST(ViolationBetweenStages, IsSeenWhereAThinWallIsCrossedBetweenTwoStages) {
+  const tests::DoubleIntegrator base;
+  for (const double radius : {0.03, 0.01, 0.003, 0.001}) {
+    const Restated walled(base, [radius](Statement& s) {
+      s.path_constraints = [radius](const ControlledState& x) {
+        const Expression d = (x.q[0] - 0.53) / radius;
+        return ExpressionVector::Constant(1, d * d - 1.0);
+      };
+    });
+    for (const char* method : {"dmoc", "tangent"}) {
+      for (const Eigen::Index intervals : {8, 16, 32, 64, 128}) {
+        const ViolationBetweenStages found = violation_of(walled, solved_on(walled, {method}, intervals));
+        EXPECT_FALSE(found.is_motion()) << method << ' ' << radius << ' ' << intervals;
+        EXPECT_NEAR(found.largest, 1.0, 0.02) << method << ' ' << radius << ' ' << intervals;
+      }
+    }
+  }
 }
 
 TEST(ViolationBetweenStages, OfASmoothMotionAlongAConstraintFallsWithTheSquareOfTheStep) {
