@@ -7,11 +7,11 @@ load plots."/style.gp"
 has_free_motions = exists_table("structure_modified_energy")
 if (has_free_motions) {
   eval require("structure_modified_energy", "problem,method,tableau,stages,h,truncation,drift")
-  eval require("structure_modified_energy_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
+  eval require("structure_modified_energy_slopes", "problem,method,tableau,stages,quantity,truncation,slope,standard_error")
 }
 eval require("structure_energy_work", "problem,method,tableau,stages,h,largest_gap")
 eval require("structure_modified_work", "problem,method,tableau,stages,h,truncation,gap_to_modified_work")
-eval require("structure_energy_work_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
+eval require("structure_energy_work_slopes", "problem,method,tableau,stages,quantity,truncation,slope,standard_error")
 
 truncations = "2 4 6"
 colour(truncation) = truncation == 2 ? blue : truncation == 4 ? vermilion : purple
@@ -40,11 +40,11 @@ do for [where in has_free_motions ? problems_of("structure_modified_energy", "dr
     plot for [i in truncations] rows("structure_modified_energy", of_truncation(problem, "dmoc", i), "drift")\
            using "h":"drift" with linespoints linecolor rgb colour(int(i)) linewidth 2.5 dashtype 1 pointtype 7\
            pointsize 0.7 title with_slope("DMOC, ".energy_label(int(i)),\
-             slope("structure_modified_energy_slopes", scheme(problem, "dmoc"), "drift_".i)),\
+             slope("structure_modified_energy_slopes", of_truncation(problem, "dmoc", i), "drift")),\
          for [i in truncations] rows("structure_modified_energy", of_truncation(problem, "tangent", i), "drift")\
            using "h":"drift" with linespoints linecolor rgb colour(int(i)) linewidth 1.2 dashtype (8, 5)\
            pointtype triangle(int(i)) pointsize 1.2 title with_slope("Tangent-space, ".energy_label(int(i)),\
-             slope("structure_modified_energy_slopes", scheme(problem, "tangent"), "drift_".i))
+             slope("structure_modified_energy_slopes", of_truncation(problem, "tangent", i), "drift"))
     eval end_figure(kind, problem."_modified_energy")
   }
 }
@@ -75,11 +75,11 @@ do for [where in problems_of("structure_energy_work", "largest_gap")] {
     plot for [i in truncations] rows("structure_modified_work", of_truncation(problem, "dmoc", i), "gap_to_modified_work")\
            using "h":"gap_to_modified_work" with linespoints linecolor rgb colour(int(i)) linewidth 2.5 dashtype 1\
            pointtype 7 pointsize 0.7 title with_slope("DMOC, ".energy_label(int(i)),\
-             slope("structure_energy_work_slopes", scheme(problem, "dmoc"), "gap_to_modified_work_".i)),\
+             slope("structure_energy_work_slopes", of_truncation(problem, "dmoc", i), "gap_to_modified_work")),\
          for [i in truncations] rows("structure_modified_work", of_truncation(problem, "tangent", i),\
            "gap_to_modified_work") using "h":"gap_to_modified_work" with linespoints linecolor rgb colour(int(i))\
            linewidth 1.2 dashtype (8, 5) pointtype triangle(int(i)) pointsize 1.2 title with_slope("Tangent, ".energy_label(int(i)),\
-             slope("structure_energy_work_slopes", scheme(problem, "tangent"), "gap_to_modified_work_".i))
+             slope("structure_energy_work_slopes", of_truncation(problem, "tangent", i), "gap_to_modified_work"))
     unset multiplot
     eval end_figure(kind, problem."_energy_work")
   }

@@ -13,24 +13,18 @@ const std::vector<std::string> truncations{"2", "4", "6"};
 Selection of_truncations(const Selection& slopes, const std::string& quantity, std::string_view table) {
   Selection rows;
   for (const std::string& truncation : truncations) {
-    const Selection found = slopes.where("quantity", quantity + truncation);
-    require(!found.empty(), "{}.csv has no slope of {}{}", table, quantity, truncation);
+    const Selection found = slopes.where("quantity", quantity).where("truncation", truncation);
+    require(!found.empty(), "{}.csv has no slope of {} with truncation {}", table, quantity, truncation);
     rows.append(found);
   }
   return rows;
 }
 
-/// The number after the last "_" of a quantity.
-double truncation_of(const Row& row) {
-  const std::string& quantity = row.text("quantity");
-  return std::stod(quantity.substr(quantity.rfind('_') + 1));
-}
-
-ClaimVerdict has_order_of_its_truncation(const Row& row) { return verdict_on_order(row, truncation_of(row)); }
+ClaimVerdict has_order_of_its_truncation(const Row& row) { return verdict_on_order(row, row.needed("truncation")); }
 
 Words slope_in_words(const Row& row) {
   return worded("{:.2f}", Measurement{"slope of " + row.text("quantity"), row.needed("slope"), row.text("method"),
-                                      row.text("problem")});
+                                      fmt::format("{}, truncation {}", row.text("problem"), row.text("truncation"))});
 }
 
 Finding gap_beside_tangent(const ResultTables& tables, const std::string& problem) {
@@ -56,7 +50,7 @@ Finding gap_beside_tangent(const ResultTables& tables, const std::string& proble
 
 Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*problem*/) {
   const char* const table = "structure_modified_energy_slopes";
-  const Selection slopes = of_truncations(tables.rows(table), "drift_", table);
+  const Selection slopes = of_truncations(tables.rows(table), "drift", table);
   const Selection structured = slopes.where([](const Row& row) { return row.text("method") != "tangent"; });
   // With a constant mass tangent-space collocation is the same rule.
   const Selection tangent =
@@ -74,8 +68,8 @@ Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*
 Finding balances_modified_work(const ResultTables& tables, const std::string& problem) {
   const char* const table = "structure_energy_work_slopes";
   const Selection dmoc = tables.rows(table, problem).where("method", "dmoc");
-  const Selection modified = of_truncations(dmoc, "gap_to_modified_work_", table);
-  const Selection plain = of_truncations(dmoc, "gap_to_work_", table);
+  const Selection modified = of_truncations(dmoc, "gap_to_modified_work", table);
+  const Selection plain = of_truncations(dmoc, "gap_to_work", table);
   return found(verdict_on_all(modified, has_order_of_its_truncation), "slopes of the gap to the modified work: {}",
                joined(modified, ", ", slope_in_words))
       .also(worded("of the gap to the virtual work: {}", joined(plain, ", ", slope_in_words)));

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-
-#include <fmt/format.h>
 
 #include "bench/experiments/example_systems.hpp"
 #include "bench/run/column.hpp"
@@ -90,22 +89,34 @@ class FollowedEnergy {
 
 Scheme midpoint_of(const Problem& problem, const std::string& method) { return {problem.name(), method, "gauss", 1}; }
 
+/// A quantity, and the order at which the modified energy in it is cut off; empty where it has none.
+struct EnergyQuantity {
+  std::string name;
+  std::optional<int> truncation = std::nullopt;
+
+  auto operator<=>(const EnergyQuantity&) const = default;
+};
+
 struct FittedQuantity {
   Scheme scheme;
-  std::string quantity;
+  EnergyQuantity quantity;
   FittedOrder fit;
 };
+
+constexpr auto quantity_of = &FittedQuantity::quantity;
 
 const Columns<FittedQuantity> fitted_columns =
     scheme_columns<FittedQuantity>() +
     Columns<FittedQuantity>{
-        {"quantity", "", "quantity that shrinks with the step", &FittedQuantity::quantity, in_key}} +
+        {"quantity", "", "quantity that shrinks with the step", from(quantity_of, &EnergyQuantity::name), in_key},
+        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself",
+         from(quantity_of, &EnergyQuantity::truncation), in_key}} +
     fitted_order_columns(&FittedQuantity::fit);
 
-/// Points of several curves of one scheme, by the names of their quantities.
+/// Points of several curves of one scheme, by their quantities.
 class Curves {
  public:
-  void add(const std::string& quantity, double h, double error) { points_[quantity].push_back({h, error}); }
+  void add(const EnergyQuantity& quantity, double h, double error) { points_[quantity].push_back({h, error}); }
   void fit_into(std::vector<FittedQuantity>& fits, const Scheme& scheme) const {
     for (const auto& [quantity, points] : points_) {
       if (const auto order = asymptotic_order(points, 0.0)) fits.push_back({scheme, quantity, *order});
@@ -113,7 +124,7 @@ class Curves {
   }
 
  private:
-  std::map<std::string, std::vector<GridError>> points_;
+  std::map<EnergyQuantity, std::vector<GridError>> points_;
 };
 
 struct Drift {
@@ -234,14 +245,14 @@ void follow_optimal_motions(const std::shared_ptr<const Problem>& problem, const
     }
     const auto& [h, balance, gaps] = *measured;
     rows.plain.push_back({scheme, intervals, h, balance, {}});
-    const auto add = [&, h = h, work = balance.largest_work](const std::string& quantity, double gap, double share) {
+    const auto add = [&, h = h, work = balance.largest_work](const EnergyQuantity& quantity, double gap, double share) {
       if (gap > share * work) curves.add(quantity, h, gap);
     };
-    add("gap", balance.largest_gap, share_of_solver);
+    add({"gap"}, balance.largest_gap, share_of_solver);
     for (std::size_t i = 0; i < truncations.size(); ++i) {
       rows.modified.push_back({scheme, intervals, h, truncations[i], gaps.from_work[i], gaps.from_modified_work[i]});
-      add(fmt::format("gap_to_work_{}", truncations[i]), gaps.from_work[i], share_of_replay);
-      add(fmt::format("gap_to_modified_work_{}", truncations[i]), gaps.from_modified_work[i], share_of_replay);
+      add({"gap_to_work", truncations[i]}, gaps.from_work[i], share_of_replay);
+      add({"gap_to_modified_work", truncations[i]}, gaps.from_modified_work[i], share_of_replay);
     }
   }
   curves.fit_into(rows.fits, scheme);
@@ -263,7 +274,7 @@ ModifiedEnergyTables modified_energy_tables() {
         const auto range = followed.along(system.start, no_control, h).range;
         for (std::size_t i = 0; i < truncations.size(); ++i) {
           drifts.push_back({scheme, steps, h, truncations[i], range[i]});
-          curves.add(fmt::format("drift_{}", truncations[i]), h, range[i]);
+          curves.add({"drift", truncations[i]}, h, range[i]);
         }
       }
       curves.fit_into(fits, scheme);

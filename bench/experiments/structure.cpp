@@ -142,8 +142,8 @@ void show_findings(TableRun& run) {
   run.findings().show("defect of the symplectic form", largest_defects(run.table("structure_symplecticity")), {},
                       "structure_symplecticity.csv", most_shown);
   run.findings().show("orders of the gap between energy and work", run.table("structure_energy_work_slopes"),
-                      {"problem", "method", "quantity", "slope", "standard_error"}, "structure_energy_work_slopes.csv",
-                      most_shown);
+                      {"problem", "method", "quantity", "truncation", "slope", "standard_error"},
+                      "structure_energy_work_slopes.csv", most_shown);
 }
 
 void add_long_time_energy(TableRun& run, const StructureOptions& options) {

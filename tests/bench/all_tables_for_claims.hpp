@@ -81,18 +81,18 @@ inline Rows truncation_rows(const char* problem, const std::vector<std::string>&
   Rows rows;
   for (const std::string& quantity : quantities) {
     for (const char* truncation : {"2", "4", "6"}) {
-      const bool is_tangent = std::string(method) == "tangent" || quantity == "gap_to_work_";
+      const bool is_tangent = std::string(method) == "tangent" || quantity == "gap_to_work";
       rows.push_back(
-          row_of_texts({"problem", "method", "tableau", "stages", "quantity", "slope", "standard_error"},
-                       {problem, method, "gauss", "1", quantity + truncation, is_tangent ? "2" : truncation, "0.01"}));
+          row_of_texts({"problem", "method", "tableau", "stages", "quantity", "truncation", "slope", "standard_error"},
+                       {problem, method, "gauss", "1", quantity, truncation, is_tangent ? "2" : truncation, "0.01"}));
     }
   }
   return rows;
 }
 
 inline Rows drift_rows() {
-  Rows rows = truncation_rows("radial_thrust", {"drift_"}, "dmoc");
-  std::ranges::copy(truncation_rows("radial_thrust", {"drift_"}, "tangent"), std::back_inserter(rows));
+  Rows rows = truncation_rows("radial_thrust", {"drift"}, "dmoc");
+  std::ranges::copy(truncation_rows("radial_thrust", {"drift"}, "tangent"), std::back_inserter(rows));
   return rows;
 }
 
@@ -461,7 +461,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["consistency_order_slopes"] = consistency_order_rows();
   rows["structure_modified_energy_slopes"] = drift_rows();
   rows["structure_energy_work"] = energy_work_rows();
-  rows["structure_energy_work_slopes"] = truncation_rows(orbit, {"gap_to_work_", "gap_to_modified_work_"}, "dmoc");
+  rows["structure_energy_work_slopes"] = truncation_rows(orbit, {"gap_to_work", "gap_to_modified_work"}, "dmoc");
   rows["structure_orthogonal_forces"] = orthogonal_rows();
   rows["structure_rotations"] = rotation_rows();
   rows["consistency_order_transforms"] = transform_rows();
