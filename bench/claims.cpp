@@ -37,6 +37,7 @@ int judge_all(CommandLine& line) {
   mark_missing_evidence(claims, out);
   const std::vector<std::string> missed = not_reproduced(claims, required);
   write_file(out / "claims.csv", claims_table(claims).csv());
+  write_file(out / "findings.csv", findings_table(claims).csv());
   write_file(out / "claims_rows.csv", claims_rows_table(claims).csv());
   write_file(out / "claims.json", claims_json(claims).dump(1) + "\n");
   write_file(out / "claims.md", claims_markdown(claims));

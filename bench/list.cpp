@@ -173,10 +173,11 @@ int print_schema(const std::string& name) {
   if (name == "problems") return print_json(problem_cards_schema());
   if (name == "metadata") return print_json(metadata_schema());
   if (name == "claims") return print_json(row_schema("claims.csv", claims_table({})));
+  if (name == "findings") return print_json(row_schema("findings.csv", findings_table({})));
   if (name == "claims_rows") return print_json(row_schema("claims_rows.csv", claims_rows_table({})));
   throw Error(
-      fmt::format("--schema {}: there are the schemas problems (of --json), metadata (of NAME.json), claims and "
-                  "claims_rows (of the rows of these tables)",
+      fmt::format("--schema {}: there are the schemas problems (of --json), metadata (of NAME.json), claims, "
+                  "findings and claims_rows (of the rows of these tables)",
                   name));
 }
 
@@ -230,9 +231,9 @@ int print_all(CommandLine& line) {
   bool as_json = false;
   std::string schema;
   line.flag("--json", as_json, "the problems as cards in JSON, for other programs");
-  line.option(
-      "--schema", schema,
-      "a JSON Schema instead: problems (of --json), metadata (NAME.json next to results), claims or claims_rows");
+  line.option("--schema", schema,
+              "a JSON Schema instead: problems (of --json), metadata (NAME.json next to results), claims, findings or "
+              "claims_rows");
   bool as_gnuplot = false;
   line.flag("--families", as_gnuplot, "the families of methods with labels and line styles instead, for figures");
   std::string kind;

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "bench/claims/claim.hpp"
-#include "bench/tables/ratio_interval.hpp"
 #include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
@@ -101,22 +100,6 @@ Finding fewer_intervals(const ResultTables& tables, const std::string& problem) 
   return found(ClaimVerdict::measured, "adapted grids need {}", joined(words, "; "));
 }
 
-Finding time_of_all_grids(const ResultTables& tables, const std::string& problem) {
-  const Selection timed = reached(tables, problem, "dmoc", "adapted").with_number("seconds");
-  require(!timed.empty(), "adaptive.csv has no times of {} by dmoc", problem);
-  const Row& best = *std::ranges::min_element(timed, {}, [](const Row& row) { return row.needed("seconds"); });
-  const std::vector<double> rounds = best.numbers("round_seconds");
-  require(!rounds.empty(), "{}, column round_seconds: there is no number", best.place());
-  const RatioInterval interval = ratio_interval(rounds);
-  constexpr double per_second = 1e3;
-  return found(ClaimVerdict::measured, "s = {}, {} grids: {:.1f} ms ({:.1f} to {:.1f}) in {} rounds",
-               best.text("stages"), best.text("grids"),
-               Measurement{"median time", per_second * interval.ratio, "dmoc", "", "ms"},
-               Measurement{"lower end of the time", per_second * interval.lower, "dmoc", "", "ms"},
-               Measurement{"upper end of the time", per_second * interval.upper, "dmoc", "", "ms"}, interval.rounds)
-      .as_sure_as("99 % of the medians of rounds");
-}
-
 Finding more_variables_by_collocation(const ResultTables& tables, const std::string& problem) {
   const Selection dmoc = reached(tables, problem, "dmoc", "adapted");
   std::vector<Words> words;
@@ -160,15 +143,8 @@ Claims adaptive_claims() {
                  "adapts, the best number of stages of each",
        .judge = fewer_intervals,
        .condition = "true errors of q, p and cost, relative to their ranges",
-       .evidence = {"adaptive.csv", "figures/{}_adaptive.svg"}},
-      {.id = "time_of_adapting",
-       .problems = uneven_problems,
-       .where = "section 5, Adaptive Time Steps",
-       .whose = Whose::extension,
-       .states = "how long the way from the guess to an estimated error of 1e-8 takes, all grids counted",
-       .judge = time_of_all_grids,
-       .condition = "DMOC by interior_point, the quickest number of stages, on the machine of the run",
-       .evidence = {"adaptive.csv"}},
+       .evidence = {"adaptive.csv", "figures/{}_adaptive.svg"},
+       .has_verdict = false},
       {.id = "dmoc_keeps_its_advantage_on_adapted_grids",
        .problems = uneven_problems,
        .where = "section 5, Adaptive Time Steps",

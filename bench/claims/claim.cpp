@@ -160,7 +160,8 @@ JudgedClaim judge_claim(const Claim& claim, const ResultTables& tables, const st
           .sure = std::move(finding.sure),
           .rows = read_rows(fields),
           .by_counting = claim.by_counting,
-          .headline = claim.headline};
+          .headline = claim.headline,
+          .has_verdict = claim.has_verdict};
 }
 
 }  // namespace

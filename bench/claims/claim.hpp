@@ -23,7 +23,7 @@ enum class ClaimVerdict : std::uint8_t {
   differs,     ///< the predicate does not hold
   undecided,   ///< the interval of the measurement contains the threshold
   floor,       ///< the measurement is at the level of rounding: no verdict is possible
-  measured,    ///< a finding of ours or of an extension without a threshold: its numbers are the result
+  measured,    ///< of a finding, which has no threshold: its numbers are the result
   not_judged,  ///< a table, a number or usable rows are missing
 };
 /// All verdicts, in the order of tables.
@@ -118,6 +118,7 @@ struct Claim {
   std::vector<std::string> evidence;  ///< files of the results folder; "{}" stands for the problem
   bool by_counting = false;           ///< it follows from counting unknowns or from a choice: no solve can turn it
   bool headline = false;              ///< a finding that the summary of the written table states
+  bool has_verdict = true;            ///< false of a finding without a threshold, which findings.csv has
   std::string needs = {};  ///< left out where this table is not there: the experiment is not part of every run
 };
 
@@ -137,6 +138,7 @@ struct JudgedClaim {
   std::vector<ReadRows> rows = {};  ///< by which it was judged
   bool by_counting = false;         ///< it follows from counting unknowns or from a choice
   bool headline = false;            ///< the summary states it
+  bool has_verdict = true;          ///< false of a finding, whose numbers are the result
   std::vector<std::string> missing = {};  ///< files of the evidence that are not there
 
   /// "orbital_transfer/state_slope"

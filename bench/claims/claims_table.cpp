@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <ranges>
 #include <string_view>
 #include <system_error>
@@ -41,6 +42,33 @@ const Columns<JudgedClaim>& claim_columns() {
   return all;
 }
 
+/// Findings have no verdict, and the paper has no figure of them.
+const Columns<JudgedClaim>& finding_columns() {
+  static const Columns<JudgedClaim> all{
+      {"finding", "", "problem and short name", &JudgedClaim::id, in_key},
+      {"where", "", "the place in the paper that it is about", &JudgedClaim::where},
+      {"whose", "", "ours, or about an extension", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
+      {"question", "", "what is measured", &JudgedClaim::states},
+      {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
+      {"condition", "", "when it holds", &JudgedClaim::reason},
+      {"evidence", "", "tables and figures", evidence_in_words},
+      {"sure", "", "exact, or the share of replicates within the intervals", &JudgedClaim::sure},
+  };
+  return all;
+}
+
+std::vector<JudgedClaim> with_verdict(const std::vector<JudgedClaim>& claims) {
+  std::vector<JudgedClaim> some;
+  std::ranges::copy_if(claims, std::back_inserter(some), &JudgedClaim::has_verdict);
+  return some;
+}
+
+std::vector<JudgedClaim> without_verdict(const std::vector<JudgedClaim>& claims) {
+  std::vector<JudgedClaim> some;
+  std::ranges::copy_if(claims, std::back_inserter(some), std::not_fn(&JudgedClaim::has_verdict));
+  return some;
+}
+
 /// The name of the claims of a source in the closing lines and as a heading.
 struct Title {
   const char* line;
@@ -59,7 +87,7 @@ Title title_of(Whose whose) {
 std::vector<JudgedClaim> stated_by(const std::vector<JudgedClaim>& claims, Whose whose) {
   std::vector<JudgedClaim> of_source;
   std::ranges::copy_if(claims, std::back_inserter(of_source),
-                       [&](const JudgedClaim& claim) { return claim.whose == whose; });
+                       [&](const JudgedClaim& claim) { return claim.has_verdict && claim.whose == whose; });
   return of_source;
 }
 
@@ -73,10 +101,10 @@ std::string escaped(const std::string& field) {
   return text;
 }
 
-std::string markdown_table(const std::vector<JudgedClaim>& claims) {
-  const Table table = claims_table(claims);
+/// The columns of a table but for those that its heading states.
+std::string markdown_table(const Table& table) {
   std::vector<std::string> names = table.columns();
-  std::erase(names, "whose");  // the heading states it
+  std::erase(names, "whose");
   std::string text = fmt::format("| {} |\n|", fmt::join(names, " | "));
   for (std::size_t i = 0; i < names.size(); ++i) text += "---|";
   for (const Row& claim : table.rows()) {
@@ -183,25 +211,36 @@ Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
 }
 
 nlohmann::ordered_json claims_json(const std::vector<JudgedClaim>& claims) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const JudgedClaim& claim : claims) all.push_back(claim_json(claim));
-  return {{"claims", all}};
+  const auto all = [](const std::vector<JudgedClaim>& some) {
+    nlohmann::ordered_json array = nlohmann::ordered_json::array();
+    for (const JudgedClaim& claim : some) array.push_back(claim_json(claim));
+    return array;
+  };
+  return {{"claims", all(with_verdict(claims))}, {"findings", all(without_verdict(claims))}};
 }
 
-Table claims_table(const std::vector<JudgedClaim>& claims) { return table_of(claim_columns(), claims); }
+Table claims_table(const std::vector<JudgedClaim>& claims) { return table_of(claim_columns(), with_verdict(claims)); }
+
+Table findings_table(const std::vector<JudgedClaim>& claims) {
+  return table_of(finding_columns(), without_verdict(claims));
+}
 
 std::string claims_markdown(const std::vector<JudgedClaim>& claims) {
   std::string text =
       "# Claims, measured\n\nEach verdict is computed by a predicate on the tables next to this file. *Reproduced*: it "
       "holds. *Differs*: it does not. *Undecided*: the interval of the measurement contains the threshold. *Floor*: "
-      "only rounding was measured. *Measured*: a finding without a threshold, whose numbers are the result. *Not "
-      "judged*: a table, a number or usable rows are missing; failed solves do not affect verdicts. *Sure* is *exact* "
+      "only rounding was measured. *Not judged*: a table, a number or usable rows are missing; failed solves do not "
+      "affect verdicts. *Sure* is *exact* "
       "if the verdict depends neither on times nor on random numbers.\n\n" +
       summary_markdown(claims);
   for (const Whose whose : all_sources) {
     const std::vector<JudgedClaim> of_source = stated_by(claims, whose);
     if (of_source.empty()) continue;
-    text += fmt::format("\n## {}\n\n{}", title_of(whose).heading, markdown_table(of_source));
+    text += fmt::format("\n## {}\n\n{}", title_of(whose).heading, markdown_table(claims_table(of_source)));
+  }
+  if (const Table findings = findings_table(claims); !findings.rows().empty()) {
+    text += fmt::format("\n## Measurements without a verdict: their numbers are the result\n\n{}",
+                        markdown_table(findings));
   }
   return text;
 }
@@ -217,6 +256,10 @@ std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims) {
       if (count > 0) counts.push_back(told_together(count, verdict));
     }
     lines.push_back(fmt::format("{}: {}", title_of(whose).line, fmt::join(counts, ", ")));
+  }
+  if (const std::vector<JudgedClaim> findings = without_verdict(claims); !findings.empty()) {
+    const auto count = std::ranges::count(findings, ClaimVerdict::measured, &JudgedClaim::verdict);
+    lines.push_back(fmt::format("measurements without a verdict: {} of {}", count, findings.size()));
   }
   return lines;
 }
@@ -234,7 +277,8 @@ std::vector<std::string> not_reproduced(const std::vector<JudgedClaim>& claims, 
   std::vector<std::string> sentences;
   for (const std::string& name : names) {
     const auto claim = std::ranges::find(claims, name, &JudgedClaim::id);
-    if (claim == claims.end()) throw Error(fmt::format("there is no claim {}; claims.csv lists all", name));
+    if (claim == claims.end() || !claim->has_verdict)
+      throw Error(fmt::format("there is no claim {}; claims.csv lists all", name));
     if (claim->verdict == ClaimVerdict::reproduced) continue;
     sentences.push_back(
         fmt::format("{} is not reproduced but {}: {}", name, name_of(claim->verdict), claim->measured()));

@@ -11,15 +11,19 @@
 
 namespace dmocbench {
 
-/// The judged claims as claims.csv has them, a row each in their order.
+/// The claims that have a verdict as claims.csv has them, a row each in their order.
 [[nodiscard]] Table claims_table(const std::vector<JudgedClaim>& claims);
 
-/// The table rows that each claim is based on, written as claims_rows.csv: one row per claim and table, with the
-/// records and columns that were read ("2-5 9", the header is record 1).
+/// The findings without a verdict as findings.csv has them.
+[[nodiscard]] Table findings_table(const std::vector<JudgedClaim>& claims);
+
+/// The table rows that each claim and each finding is based on, written as claims_rows.csv: one row per claim and
+/// table, with the records and columns that were read ("2-5 9", the header is record 1).
 [[nodiscard]] Table claims_rows_table(const std::vector<JudgedClaim>& claims);
 
-/// The claims as claims.json has them, for programs: under "claims" every claim with the clauses of its measurement and its reasons,
-/// each a text with the numbers in it (name, value, method, case, unit), and with the rows by which it was judged.
+/// All of it as claims.json has it, for programs: under "claims" every claim, under "findings" every finding, with the
+/// clauses of its measurement and its reasons, each a text with the numbers in it (name, value, method, case, unit),
+/// and with the rows by which it was judged.
 [[nodiscard]] nlohmann::ordered_json claims_json(const std::vector<JudgedClaim>& claims);
 
 /// The claims for readers: the paper's statements, its remarks, our findings and the misprints, each in its own table

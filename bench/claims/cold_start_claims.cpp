@@ -87,13 +87,15 @@ Claims cold_start_claims() {
            .states = "how often DMOC and collocation are solved and confirmed from cold starts, the guess and near it",
            .judge = how_often_in("confirmed"),
            .condition = "by interior_point; section 3.3 names the indirect methods",
-           .evidence = evidence},
+           .evidence = evidence,
+           .has_verdict = false},
           {.id = "cold_starts_best",
            .where = "section 5, Global Minima",
            .states = "how often DMOC and collocation end on the best branch from cold starts, the guess and near it",
            .judge = how_often_in("best"),
            .condition = "by interior_point",
-           .evidence = evidence}};
+           .evidence = evidence,
+           .has_verdict = false}};
 }
 
 }  // namespace dmocbench

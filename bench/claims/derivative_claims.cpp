@@ -224,31 +224,6 @@ Finding faster(const ResultTables& tables, const std::string& problem) {
                       costs_of_jacobians(tables, problem)));
 }
 
-/// With second derivatives, where central differences reach the tolerance as well.
-Finding times_beside_central_differences(const ResultTables& tables, const std::string& problem) {
-  const Selection rows = by_ipopt(tables, warm, problem).where("hessian", "exact");
-  TimedRatios ratios(1.0);
-  std::vector<Words> unsolved;
-  for (const auto& [name, exact] :
-       {std::pair("the tape", "tape"), std::pair("ADOL-C", "adolc"), std::pair("ADOL-C once", "adolc_whole")}) {
-    if (rows.where("derivatives", exact).empty()) continue;
-    unsolved.push_back(add_ratio(ratios, rows, name, "finite_differences", exact));
-  }
-  require(ratios.rounds() > 0, "{}.csv: no program of {} is solved by central differences and by exact derivatives",
-          warm, problem);
-  const auto cost = [&](const char* derivatives) { return range_of(rows, derivatives, "hessian_over_residual"); };
-  return found(ClaimVerdict::measured, "solves by central differences over solves by {}", ratios.in_words())
-      .also(worded("a Hessian costs {} residuals by the tape, {} by ADOL-C and {} by ADOL-C once, {} by central "
-                   "differences",
-                   cost("tape"), cost("adolc"), cost("adolc_whole"), cost("finite_differences")))
-      .also(joined(unsolved, "; "))
-      .because(worded(
-          "a solve takes two or three iterations, in which derivatives take a small part of the time; ADOL-C's "
-          "drivers are called once for every interval, or once for the whole program, and the differences cost one "
-          "pass over all intervals per unknown of one interval"))
-      .as_sure_as("99 % of the medians of rounds");
-}
-
 }  // namespace
 
 /// Automatic differentiation.
@@ -270,14 +245,7 @@ Claims derivative_claims() {
            .states = "the optimization is faster with automatic differentiation than with finite differences",
            .judge = faster,
            .condition = setting,
-           .evidence = {"derivatives_quasi_newton.csv", "derivatives.csv", "figures/{}_derivatives.svg"}},
-          {.id = "derivatives_beside_central_differences",
-           .where = section,
-           .states = "time saved by second derivatives from the tape and ADOL-C over central differences that use the "
-                     "structure of the program",
-           .judge = times_beside_central_differences,
-           .condition = "warm, from the common start",
-           .evidence = {"derivatives.csv", "figures/{}_derivatives.svg"}}};
+           .evidence = {"derivatives_quasi_newton.csv", "derivatives.csv", "figures/{}_derivatives.svg"}}};
 }
 
 }  // namespace dmocbench

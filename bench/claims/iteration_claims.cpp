@@ -185,25 +185,6 @@ Finding minor_iterations_by_updates_of_the_identity(const ResultTables& tables, 
       .also(worded("major iterations of collocation and DMOC {}", joined(ratios.majors, "; ")));
 }
 
-/// SLSQP does not report minor iterations. Its steps are counted by its evaluations.
-Finding evaluations_by_slsqp(const ResultTables& tables, const std::string& problem) {
-  std::vector<Words> words;
-  for (const auto& [table, start] :
-       {std::pair("iterations_slsqp", "from the guess"), std::pair("iterations_slsqp_common", "from a common start")}) {
-    if (!tables.has(table)) continue;
-    const Selection rows = tables.rows(table, problem).where("solver", "nlopt");
-    try {
-      const SqpRatios ratios(rows, "evaluations", {});
-      words.push_back(worded("{} {}", start, ratios.in_words(start)));
-      words.push_back(ratios.rows_left_out());
-    } catch (const Error& lacking) {
-      words.push_back(worded("{} too few ({})", start, lacking.what()));
-    }
-  }
-  require(!words.empty(), "there is no iterations_slsqp.csv");
-  return found(ClaimVerdict::measured, "evaluations, collocation to DMOC {}", joined(words, "; "));
-}
-
 /// With active bounds: the ratio of collocation's minor iterations to DMOC's, next to the ratio of the numbers of
 /// variables that they should reflect.
 Finding minor_iterations_with_active_bounds(const ResultTables& tables, const std::string& /*problem*/) {
@@ -283,7 +264,8 @@ Claims iteration_claims() {
        .condition = "the cost is flat in these units: every method takes many major iterations, each with a minor "
                     "iteration more, and DMOC on the orbit the most of them; scaling rows, by the step or to one size, "
                     "changes little, and scaling the control to unit curvature of the cost saves most iterations",
-       .evidence = {"iterations_limited_memory.csv", "iterations_limited_memory_common.csv"}},
+       .evidence = {"iterations_limited_memory.csv", "iterations_limited_memory_common.csv"},
+       .has_verdict = false},
       {.id = "minor_iterations_saved_in_phase_1",
        .where = section,
        .figure = figure,
@@ -300,13 +282,6 @@ Claims iteration_claims() {
        .condition = "cold, from the guess; other problems than the paper's, whose controls have no bounds",
        .cause = "a step that a bound cuts short costs one minor iteration more, by collocation as by DMOC",
        .evidence = {"iterations_bounds.csv"}},
-      {.id = "evaluation_ratio_by_slsqp",
-       .where = section,
-       .figure = figure,
-       .states = "how many times as many evaluations SLSQP of NLopt needs for collocation as for DMOC",
-       .judge = evaluations_by_slsqp,
-       .condition = "its least-squares subproblems are dense, and it does not report minor iterations",
-       .evidence = {"iterations_slsqp.csv", "iterations_slsqp_common.csv"}},
   };
 }
 

@@ -51,36 +51,6 @@ Finding order_of_shooting(const ResultTables& tables, const std::string& problem
   return found(verdict, "slopes of the state against the indirect solution: {}", joined(words, ", "));
 }
 
-/// The solved row of a method on the finest grid of shooting.csv.
-Row program_of(const ResultTables& tables, const std::string& problem, const char* method) {
-  const Selection rows = tables.rows("shooting", problem).sorted_by("intervals");
-  const Selection finest = midpoint(rows, method).where("intervals", rows.back().text("intervals"));
-  require(finest.size() == 1 && finest.front().text("status") == "solved",
-          "shooting.csv: {} by {} is not solved once at N = {}", problem, method, rows.back().text("intervals"));
-  return finest.front();
-}
-
-Finding sizes_of_programs(const ResultTables& tables, const std::string& problem) {
-  const Row dmoc = program_of(tables, problem, "dmoc");
-  const auto unknowns = [&](const char* method) {
-    return Measurement{"unknowns", program_of(tables, problem, method).needed("unknowns"), method};
-  };
-  const Measurement of_dmoc = unknowns("dmoc");
-  return found(unknowns(single).value < of_dmoc.value && of_dmoc.value < unknowns(multiple).value,
-               "unknowns at N = {}: single shooting {}, DMOC {}, multiple shooting {}", dmoc.text("intervals"),
-               unknowns(single), of_dmoc, unknowns(multiple));
-}
-
-Finding condition_of_programs(const ResultTables& tables, const std::string& problem) {
-  const Row dmoc = program_of(tables, problem, "dmoc");
-  const auto condition = [&](const char* method) {
-    return Measurement{"condition", program_of(tables, problem, method).needed("condition"), method};
-  };
-  return found(ClaimVerdict::measured,
-               "condition at N = {}: DMOC {:.1e}, multiple shooting {:.1e}, single shooting {:.1e}",
-               dmoc.text("intervals"), condition("dmoc"), condition(multiple), condition(single));
-}
-
 /// The row of cold starts of a method by Ipopt.
 Row cold_starts_of(const ResultTables& tables, const std::string& problem, const char* method) {
   const Selection rows = midpoint(tables.rows("cold_start_shooting_shares", problem), method).where("solver", "ipopt");
@@ -168,7 +138,6 @@ Predicate costs_more(const char* method) {
 
 /// Claims that compare direct shooting with DMOC.
 Claims shooting_claims() {
-  const std::vector<std::string> programs{"shooting.csv", "figures/{}_shooting.svg"};
   const std::vector<std::string> cold{"cold_start_shooting_shares.csv", "figures/{}_shooting.svg"};
   const char* const where = "section 3.3, direct methods";
   const auto more_often = [](const char* first, const char* second) -> Predicate {
@@ -192,20 +161,6 @@ Claims shooting_claims() {
            .condition = "the midpoint rule with s = 1: of two controls it would weigh one alone",
            .evidence = {"convergence_shooting_slopes.csv", "convergence_shooting_two_stages_slopes.csv",
                         "figures/{}_shooting.svg"}},
-          {.id = "single_shooting_smallest",
-           .problems = with_swing_up,
-           .where = where,
-           .states = "single shooting has the fewest unknowns and multiple shooting the most; DMOC is between them",
-           .judge = sizes_of_programs,
-           .evidence = programs,
-           .by_counting = true},
-          {.id = "condition_of_shooting",
-           .problems = with_swing_up,
-           .where = where,
-           .states = "how well the programs of DMOC and of shooting are conditioned",
-           .judge = condition_of_programs,
-           .condition = "eigenvalues of the KKT matrix at the optimum, rows and columns brought to one size",
-           .evidence = programs},
           {.id = "multiple_shooting_more_robust_than_single",
            .problems = with_swing_up,
            .where = where,

@@ -106,7 +106,8 @@ Claims warm_start_claims() {
                      "multipliers of the problem before",
            .judge = ratios_of_iterations,
            .condition = "by interior_point",
-           .evidence = {"sequence.csv", "figures/{}_sequence.svg"}},
+           .evidence = {"sequence.csv", "figures/{}_sequence.svg"},
+           .has_verdict = false},
           {.id = "warm_starts_in_less_time",
            .where = "section 3.4, rem:savings",
            .states = "started warm, from unknowns and multipliers of the problem before, a step by DMOC takes less "

@@ -114,6 +114,18 @@ std::vector<std::string> key_of(const std::string& file, const Json* metadata) {
   return {};
 }
 
+/// A finding in the columns of claims, with the verdict "measured".
+Row as_claim(const Row& finding) {
+  Row claim;
+  for (const auto& [column, field] :
+       {std::pair("claim", "finding"), std::pair("where", "where"), std::pair("whose", "whose"),
+        std::pair("states", "question"), std::pair("measured", "measured"), std::pair("reason", "condition"),
+        std::pair("evidence", "evidence"), std::pair("sure", "sure")})
+    claim.set(column, finding.text(field));
+  claim.set("verdict", "measured");
+  return claim;
+}
+
 void read_tables(const std::filesystem::path& folder, ResultsFolder& results) {
   const std::set<std::string> of_motions = files_of_motions(results.runs);
   for (const std::filesystem::path& file : files_in(folder, ".csv")) {
@@ -122,6 +134,8 @@ void read_tables(const std::filesystem::path& folder, ResultsFolder& results) {
       Table table = Table::from_csv(read_file(file));
       if (name == "claims.csv") {
         results.claims = std::move(table);
+      } else if (name == "findings.csv") {
+        for (const Row& finding : table.rows()) results.claims.append(as_claim(finding));
       } else if (name == "claims_rows.csv") {
         results.claim_rows = std::move(table);
       } else if (!of_motions.contains(name)) {

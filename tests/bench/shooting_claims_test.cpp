@@ -32,20 +32,6 @@ TEST(ShootingClaims, OnTheOrderTurnWithTheSlopeOfAnyIntegrator) {
   }
 }
 
-TEST(ShootingClaims, OnTheSizeTurnWhereDmocIsNotBetween) {
-  const std::string claim = "single_shooting_smallest";
-  EXPECT_EQ(verdict_on_shooting(claim), ClaimVerdict::reproduced);
-  EXPECT_EQ(verdict_on_shooting(claim, "shooting", "dmoc", sets("unknowns", "400")), ClaimVerdict::differs);
-  EXPECT_EQ(verdict_on_shooting(claim, "shooting", by_controls, sets("unknowns", "200")), ClaimVerdict::differs);
-  EXPECT_EQ(verdict_on_shooting(claim, "shooting", by_nodes, sets("status", "step failed")), ClaimVerdict::not_judged);
-}
-
-TEST(ShootingClaims, OnTheConditionStateNumbers) {
-  const std::string claim = "condition_of_shooting";
-  EXPECT_EQ(verdict_on_shooting(claim), ClaimVerdict::measured);
-  EXPECT_EQ(verdict_on_shooting(claim, "shooting", by_nodes, sets("condition", "")), ClaimVerdict::not_judged);
-}
-
 TEST(ShootingClaims, OnColdStartsTurnWithTheCountsAndAreUndecidedNearEqualOnes) {
   const char* const table = "cold_start_shooting_shares";
   for (const auto& [claim, weaker] : {std::pair("multiple_shooting_more_robust_than_single", by_controls),

@@ -111,7 +111,8 @@ Claims low_thrust_claims() {
            "in polar coordinates, with 8 to 32 steps per revolution: by how much tangent-space collocation differs "
            "from DMOC in the errors of cost and replay, and in the balance of momentum",
        .judge = pays_in_momentum_alone,
-       .evidence = evidence},
+       .evidence = evidence,
+       .has_verdict = false},
       {.id = "low_thrust_structure_pays_beside_explicit",
        .problems = only_orbit,
        .where = "section 4.2.1, with many revolutions",
