@@ -145,7 +145,8 @@ class Solve final : public ExperimentOf<Measured> {
     std::set<std::string> doubts;
     for (const Answer& answer : answers_) {
       const Status status = answer.solved.solution.status;
-      if (is_solved(status) || is_no_motion(status)) doubts.insert(doubt_about_units(*answer.solved.the_case.problem));
+      if (is_solved(status) || is_no_motion(status))
+        doubts.insert(in_words(doubt_about_units(*answer.solved.the_case.problem)));
     }
     for (const std::string& doubt : doubts) {
       if (!doubt.empty()) output.findings.say(doubt);

@@ -190,8 +190,11 @@ void bind_numbers(py::class_<Answer>& answer) {
   number("status", [](const SolvedCase& solved) { return std::string(name_of(solved.solution.status)); });
   number("message", [](const SolvedCase& solved) { return solved.solution.message; });
   number("advice", [](const SolvedCase& solved) {
-    const std::string next = next_to_try(solved, "");
-    return next.empty() ? doubt_about_units(*solved.the_case.problem) : next;
+    const Advice next = next_to_try(solved, "");
+    const Advice advice = next.remedy == Remedy::none ? doubt_about_units(*solved.the_case.problem) : next;
+    return py::dict(py::arg("remedy") = name_of(advice.remedy), py::arg("coordinate") = advice.coordinate,
+                    py::arg("size") = advice.size, py::arg("smallest") = advice.smallest,
+                    py::arg("smallest_size") = advice.smallest_size);
   });
   number("is_solved", [](const SolvedCase& solved) { return is_solved(solved.solution.status); });
   number("cost", [](const SolvedCase& solved) {

@@ -1,6 +1,7 @@
 #include "bench/run/advice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -40,7 +41,7 @@ bool has_period_of_angle(const Problem& problem, Eigen::Index i) {
 /// A coordinate that is likely an angle in degrees: it turns by more than a full turn, and by a multiple of 15.
 /// `is_angle(i, unit)`: whether q_i, with a unit that may be empty, can be an angle.
 template <class IsAngle>
-std::optional<std::string> angle_in_degrees(const Problem& problem, const IsAngle& is_angle) {
+std::optional<Advice> angle_in_degrees(const Problem& problem, const IsAngle& is_angle) {
   constexpr double full_turn = 6.3;
   constexpr double step = 15.0;
   const Eigen::VectorXd turned = problem.final_state().q - problem.initial_state().q;
@@ -50,14 +51,14 @@ std::optional<std::string> angle_in_degrees(const Problem& problem, const IsAngl
     const auto k = static_cast<std::size_t>(i);
     const bool turns_by_degrees = std::abs(turned[i]) > full_turn && std::fmod(turned[i], step) == 0.0;
     if (turns_by_degrees && is_angle(i, units.empty() ? "" : units[k])) {
-      return fmt::format("Try radians: {} changes by {:g}, which looks like an angle in degrees.", names[k], turned[i]);
+      return Advice{.remedy = Remedy::radians, .coordinate = names[k], .size = turned[i]};
     }
   }
   return std::nullopt;
 }
 
 /// Coordinates whose sizes along the guess differ by four orders of magnitude.
-std::optional<std::string> units_apart(const Problem& problem) {
+std::optional<Advice> units_apart(const Problem& problem) {
   constexpr double far = 1e4;
   constexpr int samples = 16;
   Eigen::VectorXd sizes = Eigen::VectorXd::Zero(problem.configuration_size());
@@ -70,23 +71,25 @@ std::optional<std::string> units_apart(const Problem& problem) {
   const double least = (sizes.array() > 0.0).select(sizes, sizes.maxCoeff()).minCoeff(&smallest);
   if (sizes[largest] < far * least) return std::nullopt;
   const std::vector<std::string> names = problem.configuration_names();
-  return fmt::format("Try other units: {} is about {:.1g}, {} about {:.1g}; sizes near 1 suit solvers.",
-                     names[static_cast<std::size_t>(largest)], sizes[largest],
-                     names[static_cast<std::size_t>(smallest)], least);
+  return Advice{.remedy = Remedy::other_units,
+                .coordinate = names[static_cast<std::size_t>(largest)],
+                .size = sizes[largest],
+                .smallest = names[static_cast<std::size_t>(smallest)],
+                .smallest_size = least};
 }
 
 /// Whether a formula of the problem is not a number where the solve went.
 bool has_undefined_formula(const Solution& solution) {
-  return solution.status == Status::evaluation_failed || solution.message.find(" is not a number") != std::string::npos;
+  return solution.status == Status::evaluation_failed || solution.formula_undefined;
 }
 
 }  // namespace
 
-std::string doubt_about_units(const Problem& problem) {
+Advice doubt_about_units(const Problem& problem) {
   const auto is_angle = [&](Eigen::Index i, const std::string& unit) {
     return unit == "rad" || ((unit.empty() || unit == "deg") && has_period_of_angle(problem, i));
   };
-  return angle_in_degrees(problem, is_angle).value_or("");
+  return angle_in_degrees(problem, is_angle).value_or(Advice());
 }
 
 std::string replay_in_words(const Problem& problem, const ReplayError& replay) {
@@ -110,34 +113,64 @@ std::string replay_in_words(const Problem& problem, const ReplayError& replay) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::string next_to_try(const SolvedCase& solved, const std::string& start) {
+Advice next_to_try(const SolvedCase& solved, const std::string& start) {
   const Status status = solved.solution.status;
   const Case& the_case = solved.the_case;
   const Problem& problem = *the_case.problem;
-  if (is_solved(status) || is_no_motion(status) || status == Status::interrupted) return "";
-  if (status == Status::out_of_memory || status == Status::solver_error) return "";  // the message has the advice
+  if (is_solved(status) || is_no_motion(status) || status == Status::interrupted) return {};
+  if (status == Status::out_of_memory || status == Status::solver_error) return {};  // the message has the advice
   // A settled answer solves its program; what is not confirmed lies elsewhere, and the message states it.
-  if (status == Status::not_confirmed && solved.solution.correction.value_or(unbounded) <= settled) return "";
-  if (status == Status::time_limit) return "Try more time (--seconds) or fewer intervals.";
-  if (has_undefined_formula(solved.solution)) {
-    return "Try bounds that keep the coordinates away from the singularity of that formula (Problem::bounds), and a "
-           "guess within them.";
-  }
+  if (status == Status::not_confirmed && solved.solution.correction.value_or(unbounded) <= settled) return {};
+  if (status == Status::time_limit) return {.remedy = Remedy::more_time};
+  if (has_undefined_formula(solved.solution)) return {.remedy = Remedy::finite_formula};
   const auto may_be_angle = [](Eigen::Index /*i*/, const std::string& unit) {
     return unit.empty() || unit == "rad" || unit == "deg";
   };
   if (auto degrees = angle_in_degrees(problem, may_be_angle)) return *degrees;
   if (auto units = units_apart(problem)) return *units;
-  if (status == Status::infeasible && !problem.bounds().horizon.is_free()) {
-    return fmt::format("Try a longer horizon than T = {:g}, or wider bounds: the ends may be out of reach.",
-                       problem.horizon());
-  }
+  if (status == Status::infeasible && !problem.bounds().horizon.is_free())
+    return {.remedy = Remedy::longer_horizon, .size = problem.horizon()};
   if (status == Status::too_large || status == Status::invalid_program || the_case.solver == "nlopt")
-    return "Try --solver auto.";
-  if (the_case.solver != "auto")
-    return "Try --solver auto: interior_point, then ipopt, then a feasible motion as the start.";
-  if (start == "guess") return "Try --start common, a motion that other methods find first.";
-  return "Try another guess (Problem::guess), or --start FILE with a motion near the one you want.";
+    return {.remedy = Remedy::solver_auto};
+  if (the_case.solver != "auto") return {.remedy = Remedy::several_solvers};
+  if (start == "guess") return {.remedy = Remedy::common_start};
+  return {.remedy = Remedy::another_guess};
+}
+
+std::string in_words(const Advice& advice) {
+  switch (advice.remedy) {
+    case Remedy::none:
+      return "";
+    case Remedy::more_time:
+      return "Try more time (--seconds) or fewer intervals.";
+    case Remedy::finite_formula:
+      return "Try bounds that keep the coordinates away from the singularity of that formula (Problem::bounds), and a "
+             "guess within them.";
+    case Remedy::radians:
+      return fmt::format("Try radians: {} changes by {:g}, which looks like an angle in degrees.", advice.coordinate,
+                         advice.size);
+    case Remedy::other_units:
+      return fmt::format("Try other units: {} is about {:.1g}, {} about {:.1g}; sizes near 1 suit solvers.",
+                         advice.coordinate, advice.size, advice.smallest, advice.smallest_size);
+    case Remedy::longer_horizon:
+      return fmt::format("Try a longer horizon than T = {:g}, or wider bounds: the ends may be out of reach.",
+                         advice.size);
+    case Remedy::solver_auto:
+      return "Try --solver auto.";
+    case Remedy::several_solvers:
+      return "Try --solver auto: interior_point, then ipopt, then a feasible motion as the start.";
+    case Remedy::common_start:
+      return "Try --start common, a motion that other methods find first.";
+    case Remedy::another_guess:
+      return "Try another guess (Problem::guess), or --start FILE with a motion near the one you want.";
+  }
+  return "";
+}
+
+std::string_view name_of(Remedy remedy) noexcept {
+  constexpr std::array names{"none",           "more_time",   "finite_formula",  "radians",      "other_units",
+                             "longer_horizon", "solver_auto", "several_solvers", "common_start", "another_guess"};
+  return names[static_cast<std::size_t>(remedy)];
 }
 
 }  // namespace dmocbench

@@ -169,14 +169,11 @@ class Run {
         outcome.no_motions_by_method, table_file().string(),
         kept == 0 ? "" : fmt::format(" (and {} of other problems or settings)", counted(kept, "earlier row"))));
     if (!complete && !wants_motions()) print_line(name + ": the same command resumes it");
-    // The first one; the others stand in their rows.
-    for (const Row& row : own.rows()) {
-      const std::size_t advice = row.text("message").rfind("Try ");
-      if (is_failure(row) && advice != std::string::npos) {
-        return print_line(fmt::format("{}: {} {} N = {}: {}", name, row.text("problem"), row.text("method"),
-                                      row.text("intervals"), row.text("message").substr(advice)));
-      }
-    }
+    // The message of the first one says what happened and what to try; the others stand in their rows.
+    const auto failed = std::ranges::find_if(own.rows(), is_failure);
+    if (failed == own.rows().end()) return;
+    print_line(fmt::format("{}: {} {} N = {}: {}", name, failed->text("problem"), failed->text("method"),
+                           failed->text("intervals"), failed->text("message")));
   }
 
   [[nodiscard]] static bool is_failure(const Row& row) {
@@ -393,7 +390,7 @@ class Run {
     } catch (const std::exception& error) {
       solved.note(fmt::format("Measurements of the answer are missing: {}.", sentence_of(error)));
     }
-    if (const std::string advice = next_to_try(solved, options_.start); !advice.empty()) solved.note(advice);
+    if (const std::string advice = in_words(next_to_try(solved, options_.start)); !advice.empty()) solved.note(advice);
     return row_of(columns_, measured);
   }
 

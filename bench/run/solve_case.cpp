@@ -193,8 +193,9 @@ void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& ti
   if (solved.trajectory && is_solved(solution.status)) judge_in_time(solved, *solved.trajectory, time);
   if (!solved.solution.failed_before.empty()) solved.note(solved.solution.failed_before);
   tell_start(solved, start);
-  const std::string missed = describe_violation(*solved.the_case.problem, program, solution, solved.tolerance);
-  if (!missed.empty()) solved.note(missed);
+  const Failure failure = failure_of(*solved.the_case.problem, program, solution, solved.tolerance);
+  solved.solution.formula_undefined = failure.formula_undefined;
+  if (!failure.words.empty()) solved.note(failure.words);
 }
 
 bool is_wanted_branch(const std::string& branch) { return branch == "same" || branch.empty(); }
@@ -390,6 +391,7 @@ IndependentChecks check_independently(SolvedCase& solved) {
   const Trajectory& trajectory = *solved.trajectory;
   if (const auto undefined = undefined_point(problem, trajectory); undefined && is_judged(solved.solution.status)) {
     solved.solution.status = Status::evaluation_failed;
+    solved.solution.formula_undefined = true;
     solved.solution.message = undefined->words();
   }
   IndependentChecks checks{

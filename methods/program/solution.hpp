@@ -31,10 +31,11 @@ struct EvaluationCounts {
 struct Solution {
   Status status = Status::not_run;  ///< how it ended, as `confirm` judges
   std::string message;              ///< the outcome in one sentence
-  std::string solver;               ///< the solver whose answer it is; of `auto` the one that gave it
-  std::string failed_before;        ///< of `auto`: which attempts failed before this one, in a sentence; may be empty
-  Eigen::VectorXd primal;           ///< ξ, variable_count() entries; empty if the solver never started
-  Eigen::VectorXd multipliers;      ///< λ, constraint_count() entries; empty if there is no point to have them at
+  bool formula_undefined = false;  ///< a formula of the problem, or a derivative, is not a number where the solve ended
+  std::string solver;              ///< the solver whose answer it is; of `auto` the one that gave it
+  std::string failed_before;       ///< of `auto`: which attempts failed before this one, in a sentence; may be empty
+  Eigen::VectorXd primal;          ///< ξ, variable_count() entries; empty if the solver never started
+  Eigen::VectorXd multipliers;     ///< λ, constraint_count() entries; empty if there is no point to have them at
   /// The solver gave none, so they are the least-squares multipliers of its point (`least_squares_multipliers`).
   bool multipliers_are_estimated = false;
   double objective = 0.0;  ///< φ at `primal`, as the solver saw it (scaled)

@@ -455,13 +455,14 @@ std::string undefined_formula(const Problem& problem, Transcription& transcripti
 
 }  // namespace
 
-std::string describe_violation(const Problem& problem, Transcription& transcription, const Solution& solution,
-                               double tolerance) {
+Failure failure_of(const Problem& problem, Transcription& transcription, const Solution& solution, double tolerance) {
   const Eigen::VectorXd& x = solution.primal;
-  if (is_solved(solution.status) || static_cast<std::size_t>(x.size()) != transcription.variable_count()) return "";
+  if (is_solved(solution.status) || static_cast<std::size_t>(x.size()) != transcription.variable_count()) return {};
   const bool has_failed_there = solution.status == Status::evaluation_failed;
-  std::string text = undefined_formula(problem, transcription, solution);
-  if (has_failed_there && !text.empty()) return text;
+  Failure failure{.words = undefined_formula(problem, transcription, solution)};
+  std::string& text = failure.words;
+  failure.formula_undefined = !text.empty();
+  if (has_failed_there && failure.formula_undefined) return failure;
   const bool has_stuck = solution.status == Status::step_failed || solution.status == Status::iteration_limit ||
                          solution.status == Status::infeasible || solution.status == Status::not_confirmed;
   if (has_stuck) {
@@ -477,18 +478,26 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
   const bool has_stopped = !transcription.functions().has_stage_unknowns && std::isnan(row.amount);
   const bool is_unknown = !has_stopped && (std::isnan(unknown.amount) || unknown.amount > row.amount);
   const Worst worst = is_unknown ? unknown : row;
-  if (worst.amount <= tolerance) return text;
+  if (worst.amount <= tolerance) return failure;
   text += (text.empty() ? "" : " ") + missed(is_unknown ? describe_unknown(problem, transcription, x, worst.entry)
                                                         : describe_constraint(problem, transcription, x, worst.entry),
                                              worst.amount);
-  if (std::isnan(worst.amount)) return text;
+  if (std::isnan(worst.amount)) {
+    failure.formula_undefined = true;
+    return failure;
+  }
   text += held_controls(problem, transcription, x) + held_horizon(problem, transcription, x);
   text += idle_controls(problem) + endless_descent(transcription, x);
   if (solution.status == Status::infeasible) {
     text += pressed_bound(problem, transcription, x, rows);
     text += missed_velocity(problem, transcription, x, rows, worst.amount) + contradiction(transcription);
   }
-  return text;
+  return failure;
+}
+
+std::string describe_violation(const Problem& problem, Transcription& transcription, const Solution& solution,
+                               double tolerance) {
+  return failure_of(problem, transcription, solution, tolerance).words;
 }
 
 }  // namespace dmocbench

@@ -30,4 +30,13 @@ namespace dmocbench {
 [[nodiscard]] std::string describe_violation(const Problem& problem, Transcription& transcription,
                                              const Solution& solution, double tolerance = 1e-8);
 
+/// Why a solve failed.
+struct Failure {
+  std::string words;               ///< as `describe_violation` has them; may be empty
+  bool formula_undefined = false;  ///< a formula, a row or an unknown is not a number at its last point
+};
+/// The same with what the words state as a value.
+[[nodiscard]] Failure failure_of(const Problem& problem, Transcription& transcription, const Solution& solution,
+                                 double tolerance = 1e-8);
+
 }  // namespace dmocbench

@@ -44,7 +44,7 @@ std::string advice(std::shared_ptr<const Problem> problem, Status status, const 
   solved.the_case.problem = std::move(problem);
   solved.the_case.solver = solver;
   solved.solution.status = status;
-  return next_to_try(solved, start);
+  return in_words(next_to_try(solved, start));
 }
 
 bool names(const std::string& sentence, const std::string& word) { return sentence.find(word) != std::string::npos; }
@@ -65,15 +65,25 @@ class Turned final : public tests::SmallProblem {
 };
 
 TEST(Advice, DoubtsTheUnitOfASolvedProblemOnlyWhereTheCoordinateIsAnAngle) {
-  EXPECT_TRUE(names(doubt_about_units(Turned(180.0)), "degrees"));
-  EXPECT_EQ(doubt_about_units(Turned(3.14)), "");
-  EXPECT_TRUE(names(doubt_about_units(Moved(180.0, "rad")), "degrees"));
-  EXPECT_EQ(doubt_about_units(Moved(180.0, "")), "");
-  EXPECT_EQ(doubt_about_units(Moved(180.0, "deg")), "");
+  EXPECT_TRUE(names(in_words(doubt_about_units(Turned(180.0))), "degrees"));
+  EXPECT_EQ(in_words(doubt_about_units(Turned(3.14))), "");
+  EXPECT_TRUE(names(in_words(doubt_about_units(Moved(180.0, "rad"))), "degrees"));
+  EXPECT_EQ(in_words(doubt_about_units(Moved(180.0, ""))), "");
+  EXPECT_EQ(in_words(doubt_about_units(Moved(180.0, "deg"))), "");
 }
 
 TEST(Advice, NamesBoundsWhereAFormulaIsNotANumber) {
   EXPECT_TRUE(names(advice(std::make_shared<Moved>(180.0, "rad"), Status::evaluation_failed, "auto"), "bounds"));
+}
+
+TEST(Advice, NamesBoundsWhereASolveWanderedOffToAFormulaThatIsNotANumber) {
+  SolvedCase solved;
+  solved.the_case.problem = std::make_shared<Moved>(1.0, "m");
+  solved.the_case.solver = "auto";
+  solved.solution.status = Status::step_failed;
+  EXPECT_FALSE(names(in_words(next_to_try(solved, "guess")), "bounds"));
+  solved.solution.formula_undefined = true;
+  EXPECT_TRUE(names(in_words(next_to_try(solved, "guess")), "bounds"));
 }
 
 TEST(Advice, NamesUnitsThatAreTenThousandTimesApart) {
@@ -101,9 +111,9 @@ TEST(Advice, NamesNoOtherStartWhereANewtonStepHardlyMovesTheAnswer) {
   solved.the_case.solver = "auto";
   solved.solution.status = Status::not_confirmed;
   solved.solution.correction = 1e-12;
-  EXPECT_EQ(next_to_try(solved, "guess"), "");
+  EXPECT_EQ(in_words(next_to_try(solved, "guess")), "");
   solved.solution.correction = 1e-2;
-  EXPECT_TRUE(names(next_to_try(solved, "guess"), "--start common"));
+  EXPECT_TRUE(names(in_words(next_to_try(solved, "guess")), "--start common"));
 }
 
 TEST(LikelyMeant, IsTheNameWithFewestLettersChangedAndNoneThatIsFar) {

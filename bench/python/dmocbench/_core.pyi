@@ -134,7 +134,7 @@ class Answer:
     relative_jump: float | None
     replay_error: float | None
     replay_in_words: str
-    advice: str
+    advice: dict[str, Any]
     largest_violation: float | None
     coordinates: list[str]
     controls: list[str]

@@ -26,9 +26,7 @@ _words = {"Problem::": "", "initial_state": "start", "final_state": "end", "boun
           "bounds().interior": "waypoints",
           "bounds().horizon": "horizon", "bounds().": "bounds of ", "configuration_names": "q", "control_names": "u", "first_order_names": "y",
           "varying()": "a formula",
-          "parameter()": "its number",
-          "Try --solver auto": "Try solver=\"auto\"", "more time (--seconds)": "more time (most_seconds=)",
-          "--start FILE with a motion": "start= with a solution"}
+          "parameter()": "its number"}
 
 
 def in_words_of_python(sentence: str) -> str:

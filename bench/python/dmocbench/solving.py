@@ -239,9 +239,24 @@ class Solution:
                          f"{text(self.largest_violation, '.2g')}")
         else:
             lines.append(f"  {self.message}")
-        if self._answer.advice:
-            lines.append(f"  {in_words_of_python(self._answer.advice)}")
+        if advice := _remedies[self._answer.advice["remedy"]]:
+            lines.append("  Try " + advice.format(**self._answer.advice))
         return "\n".join(lines)
+
+
+# What may help after a failed solve, by the remedy that its answer names.
+_remedies = {
+    "none": "",
+    "more_time": "more time (most_seconds=) or fewer intervals.",
+    "finite_formula": "bounds that keep the coordinates away from the singularity of that formula, and a guess within them.",
+    "radians": "radians: {coordinate} changes by {size:g}, which looks like an angle in degrees.",
+    "other_units": "other units: {coordinate} is about {size:.1g}, {smallest} about {smallest_size:.1g}; sizes near 1 suit solvers.",
+    "longer_horizon": "a longer horizon than T = {size:g}, or wider bounds: the ends may be out of reach.",
+    "solver_auto": "solver=\"auto\".",
+    "several_solvers": "solver=\"auto\": interior_point, then ipopt, then a feasible motion as the start.",
+    "common_start": "another start: start= with a solution by another method.",
+    "another_guess": "another guess, or start= with a solution near the one you want.",
+}
 
 
 def solve(problem: AnyProblem, method: str = "dmoc", *, intervals: int = 128, tableau: str = "gauss", stages: int = 1,
