@@ -203,7 +203,7 @@ void CaseBatch::solve(std::span<BatchedCase> cases) {
   }
 }
 
-SolvedCase CaseBatch::judged(const BatchedCase& one) {
+SolvedCase CaseBatch::judged_case(const BatchedCase& one) {
   give_values_of(*one.the_case);
   SolvedCase solved{.the_case = *one.the_case, .program = program_, .solution = one.solution.value_or(Solution())};
   solved.start = one.instance.start;
@@ -245,7 +245,7 @@ std::unique_ptr<CaseBatch> batch_of(const Case& the_case, const SolverOptions& o
 }
 
 void judge_and_keep(const BatchWork& work, CaseBatch& batch, const BatchedCase& one) {
-  SolvedCase solved = batch.judged(one);
+  SolvedCase solved = batch.judged_case(one);
   const Status status = solved.solution.status;
   if (interrupt_requested() && status == Status::interrupted) return;                           // its judgement was
   if (solved.the_case.solver == "auto" && !is_solved(status) && !is_no_motion(status)) return;  // ipopt continues alone

@@ -64,7 +64,7 @@ class CaseBatch {
 
   /// The judged case of one that was solved. It refers to the program, which has the values of this case until the next
   /// one is requested.
-  [[nodiscard]] SolvedCase judged(const BatchedCase& one);
+  [[nodiscard]] SolvedCase judged_case(const BatchedCase& one);
 
  private:
   [[nodiscard]] bool fill(BatchedCase& one);

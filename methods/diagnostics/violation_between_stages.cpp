@@ -366,21 +366,22 @@ class Measurement {
 
   [[nodiscard]] ViolationBetweenStages summary() {
     ViolationBetweenStages found;
-    const auto take = [&](MotionViolation& kept, double share, const Worst& worst, const std::string& name) {
-      if (share > kept.share) kept = {share, worst.amount, name, worst.interval, worst.time};
+    const auto take = [&](MotionViolation& kept, double share, const Worst& worst, const std::string& name,
+                          bool is_bound) {
+      if (share > kept.share) kept = {share, worst.amount, name, is_bound, worst.interval, worst.time};
     };
     for (Eigen::Index j = 0; j < scales_.size(); ++j) {
       const Worst& worst = outside_[static_cast<std::size_t>(j)];
       found.largest = std::max(found.largest, worst.amount);
       if (worst.amount <= tolerated(scales_[j])) continue;
-      take(is_control(j) ? found.control : found.state, worst.amount / scales_[j], worst, name_of_bound(j));
+      take(is_control(j) ? found.control : found.state, worst.amount / scales_[j], worst, name_of_bound(j), true);
     }
     found.control.share = clipped_share_;
     found.missed = missed_;
     for (Eigen::Index i = 0; i < std::ssize(violated_); ++i) {
       const Worst& worst = violated_[static_cast<std::size_t>(i)];
       found.largest = std::max(found.largest, worst.amount);
-      if (worst.amount > rounding) take(found.state, path_share(i, worst), worst, name_of_path(i));
+      if (worst.amount > rounding) take(found.state, path_share(i, worst), worst, name_of_path(i), false);
     }
     return found;
   }
@@ -429,7 +430,7 @@ std::string ViolationBetweenStages::words(const Trajectory& trajectory, double t
     add(control, fmt::format("; with clipped controls the motion misses {:.1e} of its range", missed));
   const Eigen::VectorXd& c = trajectory.tableau.c;
   const bool are_stages_inside = c.minCoeff() > 0.0 || c.maxCoeff() < 1.0;
-  const bool helps_one_stage = trajectory.stages() > 1 && (keeps_state() || state.constraint.starts_with("bounds()"));
+  const bool helps_one_stage = trajectory.stages() > 1 && (keeps_state() || state.is_bound);
   return fmt::format("{} Take more intervals{}{}.", text, helps_one_stage ? ", --stages 1" : "",
                      !are_stages_inside         ? ""
                      : trajectory.stages() == 1 ? ", or --tableau lobatto --stages 2"

@@ -13,6 +13,7 @@ struct MotionViolation {
   double share = 0.0;      ///< relative to the constraint's scale; infinite where h is not a number
   double size = 0.0;       ///< the same in the unit of the constraint
   std::string constraint;  ///< "path_constraints[0]", "bounds().v: the velocity of q[1] (y)"; empty without violation
+  bool is_bound = false;   ///< of a coordinate, velocity or control, not a path constraint
   Eigen::Index interval = 0;  ///< k
   double time = 0.0;          ///< in [t_k, t_{k+1}]
 };

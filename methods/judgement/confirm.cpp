@@ -12,7 +12,7 @@
 
 namespace dmocbench {
 
-Status judged(Status claim, double residual) {
+Status confirmed_status(Status claim, double residual) {
   if (residual <= confirmation_factor) return Status::solved;
   const bool is_near = residual <= confirmation_factor * acceptable_factor;
   return claim == Status::acceptable && is_near ? Status::acceptable : Status::not_confirmed;
@@ -127,7 +127,7 @@ void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton)
   judge_residuals(solution);
   const bool claims_success = solution.status == Status::solved || solution.status == Status::acceptable;
   if (!claims_success) return;
-  solution.status = judged(solution.status, scaled_residual(tolerance, solution));
+  solution.status = confirmed_status(solution.status, scaled_residual(tolerance, solution));
   solution.message = sentence_of(solution.status);
   if (is_solved(solution.status) && asks_newton) require_settled(solution);
 }

@@ -25,7 +25,7 @@ void judge_residuals(NonlinearProgram& program, Solution& solution);
 ///
 /// "Solved" if it is at most `confirmation_factor`; an "acceptable" one stays so up to `acceptable_factor` times that;
 /// all else is "not confirmed".
-[[nodiscard]] Status judged(Status claim, double residual);
+[[nodiscard]] Status confirmed_status(Status claim, double residual);
 
 /// Judges answers of one program, with memory of its own: after the first one that is solved nothing is allocated.
 class Confirmation {

@@ -125,7 +125,7 @@ class SlsqpRun {
 
     solution.primal = nearest_point_;
     solution.status = own_stop_.value_or(claim_of(result));
-    const bool is_confirmed = judged(solution.status, nearest_.residual) != Status::not_confirmed;
+    const bool is_confirmed = confirmed_status(solution.status, nearest_.residual) != Status::not_confirmed;
     if (solution.status == Status::acceptable && !is_confirmed) {
       if (is_point_of_least_violation(program_.uncounted(), solution.primal)) {
         solution.status = Status::infeasible;

@@ -35,7 +35,7 @@ OptimalSteps SteppedTransfer::solve(StepPolicy rule, const StepFunction& sigma, 
   if (rule == StepPolicy::variational) {
     StepControlProgram program(*problem_, gauss_tableau(stages), sigma, static_cast<std::size_t>(intervals));
     const Solution solution = solver_->solve(program, program.start(motion_));
-    return judged(solution, program.variable_count(), [&] { return program.read(solution.primal); });
+    return steps_of(solution, program.variable_count(), [&] { return program.read(solution.primal); });
   }
   const Grid grid = rule == StepPolicy::uniform
                         ? Grid::uniform(intervals)
@@ -43,12 +43,12 @@ OptimalSteps SteppedTransfer::solve(StepPolicy rule, const StepFunction& sigma, 
   const auto program =
       Case{.problem = problem_, .method = "dmoc", .tableau = "gauss", .stages = stages, .grid = grid}.transcribe();
   const Solution solution = solver_->solve(*program, sample(*program, motion_));
-  return judged(solution, program->variable_count(),
-                [&] { return read_trajectory(*program, solution.primal, solution.multipliers); });
+  return steps_of(solution, program->variable_count(),
+                  [&] { return read_trajectory(*program, solution.primal, solution.multipliers); });
 }
 
-OptimalSteps SteppedTransfer::judged(const Solution& solution, std::size_t variables,
-                                     const std::function<Trajectory()>& read) const {
+OptimalSteps SteppedTransfer::steps_of(const Solution& solution, std::size_t variables,
+                                       const std::function<Trajectory()>& read) const {
   OptimalSteps result{.status = std::string(name_of(solution.status)), .variables = variables, .errors = std::nullopt};
   if (!is_solved(solution.status)) return result;
   const Trajectory motion = read();

@@ -44,8 +44,8 @@ class SteppedTransfer {
   [[nodiscard]] OptimalSteps solve(StepPolicy rule, const StepFunction& sigma, int stages, long long intervals) const;
 
  private:
-  [[nodiscard]] OptimalSteps judged(const Solution& solution, std::size_t variables,
-                                    const std::function<Trajectory()>& read) const;
+  [[nodiscard]] OptimalSteps steps_of(const Solution& solution, std::size_t variables,
+                                      const std::function<Trajectory()>& read) const;
 
   std::shared_ptr<const EllipseTransfer> problem_;
   std::unique_ptr<Solver> solver_;
