@@ -15,7 +15,7 @@ constexpr double same_objective = 1e-6;
 /// Errors of the objective that are equal up to rounding, as logarithms.
 constexpr double same_error = 1e-4;
 
-struct Quantity {
+struct ComparedQuantity {
   const char* name = "";
   const char* column = "";
   const char* rounds = "";  ///< column with the times of the rounds, and
@@ -31,11 +31,12 @@ struct Quantity {
 };
 
 constexpr std::array quantities{
-    Quantity{"seconds", "seconds", "round_seconds"},
-    Quantity{"seconds_per_iteration", "seconds_per_iteration", "round_seconds", "major_iterations"},
-    Quantity{"linear_algebra_per_iteration", "linear_algebra_per_iteration"},
-    Quantity{"seconds_per_linear_system", "seconds_per_linear_system", "round_linear_seconds", "linear_systems"},
-    Quantity{"iterations", "major_iterations"},
+    ComparedQuantity{"seconds", "seconds", "round_seconds"},
+    ComparedQuantity{"seconds_per_iteration", "seconds_per_iteration", "round_seconds", "major_iterations"},
+    ComparedQuantity{"linear_algebra_per_iteration", "linear_algebra_per_iteration"},
+    ComparedQuantity{"seconds_per_linear_system", "seconds_per_linear_system", "round_linear_seconds",
+                     "linear_systems"},
+    ComparedQuantity{"iterations", "major_iterations"},
 };
 
 const ColumnNames program_columns{"problem", "method", "tableau", "stages", "intervals"};
@@ -59,7 +60,7 @@ Table advantage_ratios(const Selection& advantage) {
     const Selection dmoc = rows.where("method", "dmoc")
                                .matching(line.front(), {"problem", "tableau", "stages", "solver", "factorisation"});
     if (line.front().text("method") == "dmoc" || dmoc.empty()) continue;
-    for (const Quantity& quantity : quantities) {
+    for (const ComparedQuantity& quantity : quantities) {
       const Cost cost = [&](const Row& row) { return row.number(quantity.column); };
       for (const Row& row : line.where([&](const Row& solved) { return cost(solved).has_value(); })) {
         const Row& on_same_grid = dmoc.matching(row, {"intervals"}).front();

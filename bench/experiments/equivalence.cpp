@@ -37,7 +37,7 @@ ForeignViolation violation_in(Case other, const std::string& method, const Traje
   const auto program = other.transcribe();
   // The floor is a momentum's; collocation has constraints of force, differences of momenta divided by the step,
   // and its last stage rate is such a difference divided by its weight.
-  const bool has_constraints_of_force = program->layout().node_state() != NodeState::configuration;
+  const bool has_constraints_of_force = program->node_state() != NodeState::configuration;
   const double last_weight = program->tableau().b[program->tableau().stages() - 1];
   const Eigen::VectorXd embedded = embed(*other.problem, *program, trajectory);
   const double divisor = has_constraints_of_force ? last_weight * program->steps(embedded).minCoeff() : 1.0;

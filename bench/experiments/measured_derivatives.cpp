@@ -80,10 +80,10 @@ DerivativeReference reference_derivatives(const Transcription& program, const Ei
       }
     }
   };
-  const Layout& layout = program.layout();
-  add(program.functions(), layout.unknown_places(), layout.row_places(), layout.intervals());
+  const ProgramBlocks& blocks = program.blocks();
+  add(program.functions(), blocks.unknown_places(), blocks.row_places(), blocks.intervals());
   if (const std::optional<EndFunctions>& ends = program.end_functions()) {
-    add(*ends, layout.end_unknown_places(), layout.end_row_places(), 1);
+    add(*ends, blocks.end_unknown_places(), blocks.end_row_places(), 1);
   }
   return {std::move(jacobian).values(), std::move(hessian).values()};
 }

@@ -56,10 +56,10 @@ class ShiftedKkt {
     if (controls.shares_controls) throw Error("coercivity needs controls that no two stages share");
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(x.size());
     const Eigen::VectorXd steps = program.steps(x);
-    const Layout& layout = program.layout();
+    const ProgramBlocks& blocks = program.blocks();
     for (Eigen::Index i = 0; i < controls.stages(); ++i) {
       for (Eigen::Index j = 0; j < program.traced_problem().control_size(); ++j) {
-        const auto first = static_cast<Eigen::Index>(layout.control_head(i, j));
+        const auto first = blocks.unknown(Quantity::control, i).index(j);
         weights.segment(first, steps.size()) = program.cost_scale() * controls.b[i] * steps;
       }
     }

@@ -81,7 +81,7 @@ SequenceStep SequenceRun::next(bool also_cold) {
 }
 
 Eigen::VectorXd SequenceRun::warm_start() {
-  if (neighbours_->moves_on()) multipliers_ = shifted(program_->layout().structure().rows, multipliers_);
+  if (neighbours_->moves_on()) multipliers_ = shifted(program_->blocks().structure().rows, multipliers_);
   const Motion motion = neighbours_->moves_on() ? one_interval_later(trajectory_) : smooth_motion(trajectory_);
   return sample(*program_, moved_to_ends(motion, program_->bounds()));
 }

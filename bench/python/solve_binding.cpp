@@ -258,15 +258,15 @@ void bind_arrays(py::class_<Answer>& answer) {
   array("stage_y", &Trajectory::stage_y);
   array("stage_psi_q", &Trajectory::stage_psi_q);
   array("stage_psi_p", &Trajectory::stage_psi_p);
-  const auto prices = [&](const char* name, Eigen::MatrixXd BoundPrices::*member) {
+  const auto prices = [&](const char* name, Eigen::MatrixXd BoundMultipliers::*member) {
     array(name, [member](const Trajectory& motion) -> const Eigen::MatrixXd& { return motion.prices.*member; });
   };
-  prices("price_q", &BoundPrices::q);
-  prices("price_v", &BoundPrices::v);
-  prices("price_y", &BoundPrices::y);
-  prices("price_stage_v", &BoundPrices::stage_v);
-  prices("price_stage_u", &BoundPrices::stage_u);
-  prices("price_path", &BoundPrices::path);
+  prices("price_q", &BoundMultipliers::q);
+  prices("price_v", &BoundMultipliers::v);
+  prices("price_y", &BoundMultipliers::y);
+  prices("price_stage_v", &BoundMultipliers::stage_v);
+  prices("price_stage_u", &BoundMultipliers::stage_u);
+  prices("price_path", &BoundMultipliers::path);
 }
 
 }  // namespace

@@ -111,11 +111,11 @@ Perturbation perturbation_of(const Misses& misses, NodeState family, LocalValues
   return result;
 }
 
-/// A column per configuration of the places of all nodes from `head` of one on.
-template <class Head>
-Eigen::MatrixXd node_columns(const Eigen::VectorXd& from, Eigen::Index nodes, Eigen::Index n, const Head& head) {
-  Eigen::MatrixXd columns(nodes, n);
-  for (Eigen::Index i = 0; i < n; ++i) columns.col(i) = from.segment(static_cast<Eigen::Index>(head(i)), nodes);
+/// A column per component of a block of the nodes.
+template <class Kind>
+Eigen::MatrixXd node_columns(const Eigen::VectorXd& from, Eigen::Index nodes, const Block<Kind>& block) {
+  Eigen::MatrixXd columns(nodes, block.width);
+  for (Eigen::Index i = 0; i < block.width; ++i) columns.col(i) = from.segment(block.index(i), nodes);
   return columns;
 }
 
@@ -178,10 +178,10 @@ struct NodeErrors {
 
 NodeErrors errors_at_nodes(const Transcription& program, const IntervalConditions& conditions,
                            const PrimalDualStep& step, const Perturbation& perturbation, const Misses& misses) {
-  const Layout& layout = program.layout();
-  const NodeState family = layout.node_state();
+  const ProgramBlocks& blocks = program.blocks();
+  const NodeState family = program.node_state();
   const Eigen::Index n = misses.in_momenta.q.cols();
-  const auto nodes = static_cast<Eigen::Index>(layout.intervals()) + 1;
+  const auto nodes = static_cast<Eigen::Index>(blocks.intervals()) + 1;
   const Eigen::Index last = nodes - 2;
   LocalValues direction = conditions.picked(step.primal, step.multipliers);
   direction.unknowns -= perturbation.moved.unknowns;
@@ -191,17 +191,14 @@ NodeErrors errors_at_nodes(const Transcription& program, const IntervalCondition
     return with_last(change.unknowns.middleCols(left, n), -change.unknowns.row(last).segment(right, n) -
                                                               perturbation.jumps.unknowns.row(last).segment(right, n));
   };
-  const Eigen::MatrixXd q =
-      node_columns(step.primal, nodes, n, [&](Eigen::Index i) { return layout.configuration_head(i); });
+  const Eigen::MatrixXd q = node_columns(step.primal, nodes, blocks.unknown(Quantity::configuration));
   if (family == NodeState::configuration) {
     return {
         {q, with_last(-change.rows.leftCols(n), change.rows.row(last).segment(n, n) + misses.in_momenta.p.row(last)),
-         costate(0, n),
-         node_columns(step.multipliers, nodes, n, [&](Eigen::Index i) { return layout.node_row_head(i); })},
+         costate(0, n), node_columns(step.multipliers, nodes, blocks.row(Equation::euler_lagrange))},
         {}};
   }
-  const Eigen::MatrixXd second =
-      node_columns(step.primal, nodes, n, [&](Eigen::Index i) { return layout.second_head(i); });
+  const Eigen::MatrixXd second = node_columns(step.primal, nodes, blocks.unknown(Quantity::second));
   const Eigen::MatrixXd first_costate = costate(0, 2 * n);
   const Eigen::MatrixXd second_costate = costate(n, 3 * n);
   if (family == NodeState::momentum) return {{q, second, first_costate, second_costate}, {}};
@@ -223,10 +220,9 @@ double second_order_of_cost(const ExtremalCoordinates::Canonical& misses,
 
 /// The program, unless its horizon is free or its ends are tied.
 const Transcription& with_fixed_ends(const Transcription& program) {
-  const LayoutShape& shape = program.layout().shape();
-  if (shape.free_horizon) throw Error("the error cannot be estimated where the horizon is free; fix it");
+  if (program.has_free_horizon()) throw Error("the error cannot be estimated where the horizon is free; fix it");
   program.traced_problem().require_no_constraints("the estimate of the error");
-  if (shape.conditions > 0) {
+  if (program.traced_problem().boundary_condition_count() > 0) {
     throw Error(
         "the error cannot be estimated where the problem has boundary conditions; state the ends by initial_state, "
         "final_state and bounds");
@@ -273,9 +269,9 @@ ErrorEstimator::ErrorEstimator(const Transcription& program)
 
 ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::VectorXd& primal,
                                        const Eigen::VectorXd& multipliers, const Trajectory& motion) {
-  const LayoutShape& shape = program.layout().shape();
-  if (shape.mayer) throw Error("the error can only be estimated in Bolza form (--form bolza)");
-  if (shape.integrals > 0 || shape.unknown_parameters > 0 || shape.first_order_size > 0) {
+  const TracedProblem& traced = program.traced_problem();
+  if (program.functions().mayer) throw Error("the error can only be estimated in Bolza form (--form bolza)");
+  if (traced.integral_count() > 0 || traced.unknown_count() > 0 || traced.first_order_size() > 0) {
     throw Error("the error cannot be estimated with integral constraints, unknown parameters or first-order states");
   }
   if (!program.bounds().interior.empty()) {
@@ -297,10 +293,10 @@ ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::Vect
   }
 
   const IntervalConditions conditions(program, primal, multipliers);
-  const Perturbation perturbation = perturbation_of(replay.misses, program.layout().node_state(), conditions.zero());
+  const Perturbation perturbation = perturbation_of(replay.misses, program.node_state(), conditions.zero());
   const PrimalDualStep step = step_to_optimum(program, at, conditions, perturbation);
   const NodeErrors errors = errors_at_nodes(program, conditions, step, perturbation, replay.misses);
-  const auto canonical = program.layout().node_state() == NodeState::velocity
+  const auto canonical = program.node_state() == NodeState::velocity
                              ? in_momenta(replay.nodes, errors.in_velocities, motion)
                              : errors.canonical;
   estimate.q = canonical.q;

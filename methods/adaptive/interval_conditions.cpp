@@ -61,15 +61,15 @@ LocalValues IntervalConditions::times(const LocalValues& direction) const {
 }
 
 LocalValues IntervalConditions::picked(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& rows) const {
-  const Layout& layout = program_.layout();
-  return {gathered(layout.unknown_places(), hessians_.rows(), unknowns),
-          gathered(layout.row_places(), hessians_.rows(), rows)};
+  const ProgramBlocks& blocks = program_.blocks();
+  return {gathered(blocks.unknown_places(), hessians_.rows(), unknowns),
+          gathered(blocks.row_places(), hessians_.rows(), rows)};
 }
 
 void IntervalConditions::add(const LocalValues& values, Eigen::VectorXd& unknowns, Eigen::VectorXd& rows) const {
-  const Layout& layout = program_.layout();
-  scatter(layout.unknown_places(), values.unknowns, unknowns);
-  scatter(layout.row_places(), values.rows, rows);
+  const ProgramBlocks& blocks = program_.blocks();
+  scatter(blocks.unknown_places(), values.unknowns, unknowns);
+  scatter(blocks.row_places(), values.rows, rows);
 }
 
 }  // namespace dmocbench

@@ -52,24 +52,24 @@ struct Deviations {
 constexpr double smallest_pivot_ratio = 1e-11;
 
 void require_feedback(const Transcription& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
-  const LayoutShape& shape = program.layout().shape();
   if (static_cast<std::size_t>(primal.size()) != program.variable_count() ||
       static_cast<std::size_t>(multipliers.size()) != program.constraint_count()) {
     throw Error("feedback gains need the variables and multipliers of a solution of the same program");
   }
   const IntervalFunctions& functions = program.functions();
+  const TracedProblem& traced = program.traced_problem();
   const bool has_own_times = !functions.controls.has_times_of(program.tableau());
-  const char* reason = shape.free_horizon             ? "a free horizon"
-                       : shape.conditions > 0         ? "boundary conditions"
-                       : shape.shares_controls        ? "controls that two intervals share"
-                       : has_own_times                ? "controls at times of their own"
-                       : shape.mayer                  ? "the Mayer form"
-                       : shape.integrals > 0          ? "integral constraints"
-                       : shape.first_order_size > 0   ? "first-order states"
-                       : shape.unknown_parameters > 0 ? "unknown parameters"
-                       : shape.multipliers > 0        ? "constraints g(q) = 0"
-                       : shape.has_interior_equations ? "conditions between the ends"
-                                                      : nullptr;
+  const char* reason = functions.free_horizon                                 ? "a free horizon"
+                       : traced.boundary_condition_count() > 0                ? "boundary conditions"
+                       : functions.controls.shares_controls                   ? "controls that two intervals share"
+                       : has_own_times                                        ? "controls at times of their own"
+                       : functions.mayer                                      ? "the Mayer form"
+                       : traced.integral_count() > 0                          ? "integral constraints"
+                       : traced.first_order_size() > 0                        ? "first-order states"
+                       : traced.unknown_count() > 0                           ? "unknown parameters"
+                       : functions.multipliers > 0                            ? "constraints g(q) = 0"
+                       : program.interval_structure()->has_interior_equations ? "conditions between the ends"
+                                                                              : nullptr;
   if (reason != nullptr) {
     throw Error(std::string("there are no feedback gains with ") + reason +
                 ": the optimal control does not follow from the state at a node alone");
@@ -124,9 +124,9 @@ class BackwardRecursion {
  public:
   BackwardRecursion(Transcription& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers)
       : program_(program),
-        layout_(program.layout()),
+        blocks_(program.blocks()),
         n_(program.traced_problem().configuration_size()),
-        is_dmoc_(layout_.node_state() == NodeState::configuration),
+        is_dmoc_(program.node_state() == NodeState::configuration),
         conditions_(program, primal, multipliers),
         hessians_(program.tabulate(program.functions().hessian.schedule, primal, multipliers)),
         jacobians_(program.tabulate(program.functions().jacobian.schedule, primal)),
@@ -156,7 +156,7 @@ class BackwardRecursion {
   }
 
   Transcription& program_;
-  const Layout& layout_;
+  const ProgramBlocks& blocks_;
   Eigen::Index n_;
   bool is_dmoc_;
   LinearisedConditions conditions_;
@@ -174,10 +174,10 @@ Eigen::MatrixXd BackwardRecursion::matrix_of_interval(Eigen::Index k) const {
   const Eigen::Index node = is_dmoc_ ? n_ : 2 * n_;
   for (Eigen::Index j = 0; j < unknowns; ++j) {
     if (j >= node && j < 2 * node) continue;  // of the right node
-    matrix(j, j) += stiffness(place(layout_.unknown_places(), j, k));
+    matrix(j, j) += stiffness(place(blocks_.unknown_places(), j, k));
   }
   for (Eigen::Index r = 0; r < static_cast<Eigen::Index>(functions.inputs.rows); ++r) {
-    matrix(unknowns + r, unknowns + r) -= conditions_.compliance[place(layout_.row_places(), r, k)];
+    matrix(unknowns + r, unknowns + r) -= conditions_.compliance[place(blocks_.row_places(), r, k)];
   }
   return matrix;
 }
@@ -209,11 +209,11 @@ Eigen::MatrixXd BackwardRecursion::step_back(Eigen::Index k, Deviations& deviati
     equations.add(unknowns + n_, weights, -deviations.state.bottomRows(n_));
   }
   for (Eigen::Index j = 0; j < inner; ++j) {
-    if (is_fixed(program_, place(layout_.unknown_places(), 2 * node + j, k))) equations.fix(2 * node + j, inside + j);
+    if (is_fixed(program_, place(blocks_.unknown_places(), 2 * node + j, k))) equations.fix(2 * node + j, inside + j);
   }
   const Eigen::MatrixXd solutions = equations.solutions();
   deviations = {solutions.topRows(states), solutions.middleRows(states, states)};
-  const Eigen::Index controls = layout_.stages() * program_.traced_problem().control_size();
+  const Eigen::Index controls = program_.tableau().stages() * program_.traced_problem().control_size();
   return solutions.middleRows(inside + inner - controls, controls);
 }
 
@@ -224,11 +224,11 @@ Eigen::MatrixXd BackwardRecursion::matrix_of_ends() {
   const auto unknowns = static_cast<Eigen::Index>(ends->inputs.unknowns);
   const auto rows = static_cast<Eigen::Index>(ends->inputs.rows);
   Eigen::VectorXd inputs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(ends->inputs.count()));
-  for (Eigen::Index j = 0; j < unknowns; ++j) inputs[j] = primal_[place(layout_.end_unknown_places(), j, 0)];
+  for (Eigen::Index j = 0; j < unknowns; ++j) inputs[j] = primal_[place(blocks_.end_unknown_places(), j, 0)];
   inputs[static_cast<Eigen::Index>(ends->inputs.objective_factor())] = 1.0;
   for (Eigen::Index r = 0; r < rows; ++r) {
     inputs[static_cast<Eigen::Index>(ends->inputs.multiplier(static_cast<std::size_t>(r)))] =
-        multipliers_[place(layout_.end_row_places(), r, 0)];
+        multipliers_[place(blocks_.end_row_places(), r, 0)];
   }
   const auto values = [&](const Schedule& schedule) {
     const Tape tape(schedule);
@@ -245,10 +245,10 @@ Eigen::MatrixXd BackwardRecursion::matrix_of_ends() {
 }
 
 Deviations BackwardRecursion::at_end() {
-  const LayoutShape& shape = layout_.shape();
   const Eigen::MatrixXd ends = matrix_of_ends();
   const Eigen::Index node = is_dmoc_ ? n_ : 2 * n_;
-  const Eigen::Index velocity = shape.last_has_velocity ? n_ : 0;
+  const Eigen::Index first_velocity = blocks_.unknown_at(Quantity::velocity, 0).width;
+  const Eigen::Index velocity = blocks_.unknown_at(Quantity::velocity, blocks_.intervals()).width;
   const Eigen::Index ties = velocity;            // rows
   const Eigen::Index own = is_dmoc_ ? 0 : ties;  // whose multipliers are not costates
   const Eigen::Index states = 2 * n_;
@@ -257,9 +257,9 @@ Deviations BackwardRecursion::at_end() {
   Equations equations(node + velocity + ties + (has_fixed_momentum ? n_ : 0), 2 * states + velocity + own);
   const Eigen::Index tie = node + velocity;
   if (const auto& functions = program_.end_functions()) {
-    const Eigen::Index first = node + (shape.first_has_velocity ? n_ : 0);  // unknowns of the first end
+    const Eigen::Index first = node + first_velocity;  // unknowns of the first end
     const auto unknowns = static_cast<Eigen::Index>(functions->inputs.unknowns);
-    const Eigen::Index first_tie = unknowns + (shape.first_has_velocity ? n_ : 0);
+    const Eigen::Index first_tie = unknowns + first_velocity;
     const auto block = [&](Eigen::Index row, Eigen::Index rows, Eigen::Index column, Eigen::Index columns) {
       return ends.block(row, column, rows, columns);
     };
@@ -272,8 +272,7 @@ Deviations BackwardRecursion::at_end() {
   if (is_dmoc_) equations.add(tie, n_, unit(n_));  // δp_N
   equations.add(0, states, unit(node, -1.0));
   for (Eigen::Index j = 0; j < node + velocity; ++j) {
-    const auto variable = static_cast<Eigen::Index>(j < node ? layout_.configuration_head(j) + layout_.intervals()
-                                                             : layout_.last_velocity(j - node));
+    const Eigen::Index variable = place(blocks_.end_unknown_places(), node + first_velocity + j, 0);
     const Eigen::Index column = j < node ? j : 2 * states + j - node;
     if (is_fixed(program_, variable)) {
       equations.fix(j, column);
@@ -315,7 +314,7 @@ FeedbackGains feedback_gains(Transcription& program, const Eigen::VectorXd& prim
       Eigen::MatrixXd of_interval =
           solve_square(Eigen::MatrixXd(deviations.state.transpose()), Eigen::MatrixXd(controls.transpose()))
               .transpose();
-      if (program.layout().node_state() == NodeState::velocity) {
+      if (program.node_state() == NodeState::velocity) {
         const MotionPoint node = trajectory.node(k);
         const double t = trajectory.node_times[k];
         of_interval = in_momenta(of_interval, legendre.mass(node.q, node.v, t),

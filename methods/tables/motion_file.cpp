@@ -205,7 +205,7 @@ std::vector<Series> constants(const Problem& problem, const Trajectory& trajecto
   const auto repeated = [&](const Eigen::VectorXd& values) -> Eigen::MatrixXd {
     return values.transpose().replicate(trajectory.node_times.size(), 1);
   };
-  const BoundPrices& prices = trajectory.prices;
+  const BoundMultipliers& prices = trajectory.prices;
   std::vector<std::string> integrals;
   for (Eigen::Index i = 1; i <= trajectory.integrals.size(); ++i) integrals.push_back(fmt::format("integral_{}", i));
   std::vector<Series> all{{"", unknown_names(problem), repeated(trajectory.unknowns), "unknown parameter"},
@@ -237,7 +237,7 @@ Table node_table(const Problem& problem, const Trajectory& trajectory) {
 }
 
 Table stage_table(const Problem& problem, const Trajectory& trajectory) {
-  const BoundPrices& prices = trajectory.prices;
+  const BoundMultipliers& prices = trajectory.prices;
   const std::string rate = " per unit of time";
   return series_table(
       "t", trajectory.stage_times,

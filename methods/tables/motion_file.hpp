@@ -14,8 +14,8 @@ namespace dmocbench {
 
 /// The nodes of a trajectory: `t`, then per configuration NAME, `v_NAME`, `p_NAME`, and `psi_q_NAME`, `psi_p_NAME`
 /// where there are costates (empty fields otherwise), and `price_NAME`, `price_v_NAME` where there are bounds
-/// (`BoundPrices`). Unknown parameters by their names, `integral_1` and so on, and the prices of their bounds and of
-/// T's (`price_horizon`) are the same in all rows. Units of the problem as solved.
+/// (`BoundMultipliers`). Unknown parameters by their names, `integral_1` and so on, and the prices of their bounds and
+/// of T's (`price_horizon`) are the same in all rows. Units of the problem as solved.
 [[nodiscard]] Table node_table(const Problem& problem, const Trajectory& trajectory);
 
 /// The stages: `t` and the controls by their names; with constraints g(q) = 0 `lambda_1` to `lambda_c`, the multipliers

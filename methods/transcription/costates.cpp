@@ -9,10 +9,10 @@ namespace dmocbench {
 
 namespace {
 
-/// The multipliers of the local rows of interval k, in the order of `Layout::row_places`, for the true cost.
+/// The multipliers of the local rows of interval k, in the order of `ProgramBlocks::row_places`, for the true cost.
 Eigen::VectorXd local_multipliers(const Transcription& transcription, const Eigen::VectorXd& multipliers,
                                   Eigen::Index k) {
-  const std::vector<SeriesPlace>& places = transcription.layout().row_places();
+  const std::vector<SeriesPlace>& places = transcription.blocks().row_places();
   Eigen::VectorXd local(static_cast<Eigen::Index>(places.size()));
   for (std::size_t r = 0; r < places.size(); ++r) {
     local[static_cast<Eigen::Index>(r)] =
@@ -57,11 +57,11 @@ StageMultipliers as_pairs(const Eigen::VectorXd& local, const Tableau& tableau, 
 
 Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
                   const Eigen::MatrixXd& v) {
-  const Layout& layout = transcription.layout();
-  const auto intervals = static_cast<Eigen::Index>(layout.intervals());
+  const ProgramBlocks& blocks = transcription.blocks();
+  const auto intervals = static_cast<Eigen::Index>(blocks.intervals());
   const Eigen::Index n = transcription.traced_problem().configuration_size();
-  const bool has_second = layout.node_state() != NodeState::configuration;
-  const Eigen::Index l = layout.shape().first_order_size;
+  const bool has_second = transcription.node_state() != NodeState::configuration;
+  const Eigen::Index l = transcription.traced_problem().first_order_size();
   const Eigen::Index node_size = (has_second ? 2 * n : n) + l;
 
   const Eigen::MatrixXd adjoint =
@@ -74,21 +74,23 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   Costates result{at_nodes.leftCols(n), Eigen::MatrixXd(intervals + 1, n), at_nodes.rightCols(l)};
   if (!has_second) {
     for (Eigen::Index i = 0; i < n; ++i) {
-      const auto head = static_cast<Eigen::Index>(layout.node_row_head(i));
+      const Eigen::Index head = blocks.row(Equation::euler_lagrange).index(i);
       result.psi_p.col(i) = multipliers.segment(head, intervals + 1) / transcription.cost_scale();
     }
     return result;
   }
   result.psi_p = at_nodes.middleCols(n, n);
-  if (layout.node_state() == NodeState::momentum) return result;
+  if (transcription.node_state() == NodeState::momentum) return result;
   LegendreTransform legendre(transcription.traced_problem());
   const Eigen::VectorXd times = transcription.node_times(primal);
-  // Entry k of `count` series of the nodes.
-  const auto series = [&](std::size_t first, Eigen::Index count, Eigen::Index k) {
-    return Eigen::VectorXd(primal(Eigen::seqN(static_cast<Eigen::Index>(first) + k, count, intervals + 1)));
+  // Entry k of the series of a block of the nodes.
+  const auto series = [&](Quantity kind, Eigen::Index k) {
+    const UnknownBlock& block = blocks.unknown(kind);
+    return Eigen::VectorXd(primal(Eigen::seqN(block.index() + k, block.width, intervals + 1)));
   };
   for (Eigen::Index k = 0; k <= intervals; ++k) {
-    const MotionPoint node{series(0, n, k), v.row(k).transpose(), {}, series(layout.first_order_head(0), l, k)};
+    const MotionPoint node{
+        series(Quantity::configuration, k), v.row(k).transpose(), {}, series(Quantity::first_order, k)};
     const double t = times[k];
     const Eigen::VectorXd psi_p =
         solve_square(legendre.mass(node.q, node.v, t, node.y), Eigen::VectorXd(result.psi_p.row(k).transpose()));
@@ -142,23 +144,25 @@ StageCostates stage_costates(const Transcription& transcription, const Eigen::Ve
   const Tableau& tableau = transcription.tableau();
   const Eigen::Index n = trajectory.stage_q.cols();
   const Eigen::Index s = tableau.stages();
-  const NodeState family = transcription.layout().node_state();
+  const NodeState family = transcription.node_state();
   const double horizon = trajectory.node_times[trajectory.intervals()];
   const Eigen::Index l = trajectory.stage_y.cols();
   PointDerivatives at_stage(transcription.traced_problem(), trajectory.integral_prices);
   StageCostates result{Eigen::MatrixXd(trajectory.stage_q.rows(), n), Eigen::MatrixXd(trajectory.stage_q.rows(), n),
                        Eigen::MatrixXd(trajectory.stage_q.rows(), l)};
-  const Eigen::Index first_order_rows = transcription.layout().shape().stage_equations - s * l;
+  const ProgramBlocks& blocks = transcription.blocks();
   for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
     const double h = horizon * transcription.grid().relative_widths()[k];
     const Eigen::VectorXd local = local_multipliers(transcription, multipliers, k);
     const StageMultipliers stages =
         family == NodeState::configuration ? as_variation(local, tableau, n, h) : as_pairs(local, tableau, n, h);
-    const Eigen::VectorXd of_first_order =
-        local.segment(2 * transcription.functions().node_rows + first_order_rows, s * l) / -h;
     for (Eigen::Index i = 0; i < s; ++i) {
       const Eigen::Index row = k * s + i;
-      const Eigen::VectorXd psi_y = of_first_order.segment(i * l, l) / tableau.b[i];
+      const RowBlock& first_order = blocks.row(Equation::first_order, i);
+      Eigen::VectorXd psi_y(l);
+      for (Eigen::Index j = 0; j < l; ++j) {
+        psi_y[j] = multipliers[first_order.index(j) + k] / transcription.cost_scale() / -h / tableau.b[i];
+      }
       at_stage.evaluate(trajectory.stage(row), trajectory.stage_times[row]);
       const Eigen::VectorXd psi_p = stages.psi_p.col(i);
       const Eigen::VectorXd other = stages.other.col(i);

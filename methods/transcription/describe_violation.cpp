@@ -31,73 +31,63 @@ class ConstraintWords {
  public:
   ConstraintWords(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x)
       : problem_(&problem),
-        transcription_(&transcription),
-        layout_(&transcription.layout()),
-        times_(transcription.node_times(x)),
-        n_(problem.configuration_size()) {}
+        blocks_(&transcription.blocks()),
+        bounds_(&transcription.bounds()),
+        times_(transcription.node_times(x)) {}
 
   [[nodiscard]] std::string row(std::size_t row) const {
-    const Places& rows = layout_->structure().rows;
-    const Place place = rows[row];
-    const LayoutShape& shape = layout_->shape();
-    const auto column = static_cast<Eigen::Index>(rows.run_of(row));  // one run per equation of a node or an interval
-    if (column < shape.node_rows) return node_row(column, place.index);
-    const Eigen::Index own = column - shape.node_rows;
-    if (own < shape.interval_rows()) return interval_row(own, place.index);
-    if (place.kind == Place::Kind::border) {
-      return entry_of("boundary_conditions", row - rows.runs().back().first, problem_->card().boundary_condition_names);
+    const RowBlock& block = blocks_->block_of_row(row);
+    const std::string component = component_of(block, row);
+    const Place place = blocks_->structure().rows[row];
+    if (block.kind == Equation::euler_lagrange && place.kind == Place::Kind::node) {
+      // The momenta of both sides agree; at an end one of them is given.
+      if (place.index == 0)
+        return end_momentum("initial_state", "bounds().first", bounds_->first, block, row) + where(place);
+      if (place.index == blocks_->intervals())
+        return end_momentum("final_state", "bounds().last", bounds_->last, block, row) + where(place);
     }
-    const Eigen::Index single = own - shape.interval_rows();
-    const int tied_ends = (shape.first_has_velocity ? 1 : 0) + (shape.last_has_velocity ? 1 : 0);
-    const Eigen::Index ties = shape.node_state == NodeState::momentum ? tied_ends * n_ : 0;
-    if (single >= ties) return holonomic(single - ties) + where(place);
-    return "lagrangian: the momentum p = L_v of " + coordinate(single % n_) + where(place);
+    return fmt::format(fmt::runtime(block.words.sentence), component) + where(place);
   }
 
   [[nodiscard]] std::string unknown(std::size_t unknown) const {
-    const LayoutShape& shape = layout_->shape();
-    const Place place = layout_->structure().unknowns[unknown];
-    if (unknown < layout_->configuration_head(n_)) {
-      const auto i = static_cast<Eigen::Index>(unknown / (layout_->intervals() + 1));
-      return "bounds().q: " + coordinate(i) + where(place);
+    const UnknownBlock& block = blocks_->block_of_unknown(unknown);
+    const std::string component = component_of(block, unknown);
+    const Place place = blocks_->structure().unknowns[unknown];
+    if (block.kind == Quantity::integral && place.index == blocks_->intervals()) {
+      return fmt::format("bounds().integrals[{}]", component);
     }
-    for (Eigen::Index i = 0; i < shape.first_order_size; ++i) {
-      const std::size_t head = layout_->first_order_head(i);
-      if (unknown >= head && unknown - head <= layout_->intervals()) {
-        return "bounds().y: " + named('y', i, problem_->first_order_names()) + where(place);
-      }
-    }
-    for (Eigen::Index stage = 0; stage < shape.control_stages; ++stage) {
-      for (Eigen::Index i = 0; i < shape.control_size; ++i) {
-        const std::size_t column = layout_->control_head(stage, i);
-        if (unknown >= column && unknown - column < layout_->intervals()) {
-          return "bounds().u: " + named('u', i, problem_->control_names()) + in_interval(unknown - column);
-        }
-      }
-    }
-    if (place.kind == Place::Kind::border) return "the bounds of " + border_unknown(unknown);
-    for (Eigen::Index i = 0; i < shape.integrals; ++i) {
-      if (unknown == layout_->integral_head(i) + layout_->intervals()) return fmt::format("bounds().integrals[{}]", i);
-    }
-    const std::size_t velocities = shape.interior_velocities.size();
-    if (unknown - layout_->interior_velocity(0, 0) < velocities * static_cast<std::size_t>(n_)) {
-      const auto i = static_cast<Eigen::Index>(unknown - layout_->interior_velocity(0, 0)) % n_;
-      return "bounds().interior: the velocity of " + coordinate(i) + where(place);
-    }
-    return "the bounds of a velocity, momentum or cost" + where(place);
+    const std::string sentence = fmt::format(fmt::runtime(block.words.sentence), component);
+    // A control that neighbours share is the first one of an interval.
+    if (block.kind == Quantity::control) return sentence + in_interval(std::min(place.index, blocks_->intervals() - 1));
+    return sentence + where(place);
   }
 
  private:
-  [[nodiscard]] std::string coordinate(Eigen::Index i) const { return named('q', i, problem_->configuration_names()); }
-
-  /// The horizon, or an unknown parameter.
-  [[nodiscard]] std::string border_unknown(std::size_t unknown) const {
-    const std::vector<std::size_t> parameters = problem_->unknowns();
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      if (unknown != layout_->unknown_parameter(static_cast<Eigen::Index>(i))) continue;
-      return "the unknown " + problem_->parameters()[parameters[i]].name;
+  template <class Kind>
+  [[nodiscard]] static Eigen::Index number_in(const Block<Kind>& block, std::size_t member) {
+    return block.component + static_cast<Eigen::Index>((member - block.head) / block.length);
+  }
+  template <class Kind>
+  [[nodiscard]] std::string component_of(const Block<Kind>& block, std::size_t member) const {
+    const Eigen::Index i = number_in(block, member);
+    const auto number = static_cast<std::size_t>(i);
+    switch (block.words.names) {
+      case ComponentNames::configuration:
+        return named('q', i, problem_->configuration_names());
+      case ComponentNames::first_order:
+        return named('y', i, problem_->first_order_names());
+      case ComponentNames::control:
+        return named('u', i, problem_->control_names());
+      case ComponentNames::parameter:
+        return problem_->parameters()[problem_->unknowns()[number]].name;
+      case ComponentNames::path_constraint:
+        return entry_of("", number, problem_->card().path_constraint_names);
+      case ComponentNames::boundary_condition:
+        return entry_of("", number, problem_->card().boundary_condition_names);
+      case ComponentNames::number:
+        break;
     }
-    return "the horizon";
+    return std::to_string(i);
   }
   [[nodiscard]] std::string in_interval(std::size_t k) const {
     const auto left = static_cast<Eigen::Index>(k);
@@ -107,89 +97,20 @@ class ConstraintWords {
     if (place.kind == Place::Kind::border) return "";
     if (place.kind == Place::Kind::interval) return in_interval(place.index);
     if (place.index == 0) return in_interval(0);
-    if (place.index == layout_->intervals()) return in_interval(place.index - 1);
+    if (place.index == blocks_->intervals()) return in_interval(place.index - 1);
     return fmt::format(" between intervals {} and {} (t = {:.4g})", place.index - 1, place.index,
                        times_[static_cast<Eigen::Index>(place.index)]);
   }
-
-  /// The equation of a node (DMOC): the momenta of both sides agree.
-  [[nodiscard]] std::string node_row(Eigen::Index i, std::size_t node) const {
-    if (node == 0)
-      return end_momentum("initial_state", "bounds().first", transcription_->bounds().first, i) + in_interval(0);
-    if (node == layout_->intervals()) {
-      return end_momentum("final_state", "bounds().last", transcription_->bounds().last, i) + in_interval(node - 1);
-    }
-    return equation_of(i) + where({Place::Kind::node, node});
-  }
-  [[nodiscard]] std::string end_momentum(const std::string& state, const std::string& bounds, const EndBounds& end,
-                                         Eigen::Index i) const {
-    return (end.v.is_fixed(i) ? state : bounds) + ": the momentum (p = L_v of its velocity) of " + coordinate(i);
-  }
-  [[nodiscard]] std::string equation_of(Eigen::Index i) const {
-    return "lagrangian and force: the Euler-Lagrange equation of " + coordinate(i);
-  }
-
-  /// A condition of a holonomic constraint, one of several blocks of c.
-  [[nodiscard]] std::string holonomic(Eigen::Index condition) const {
-    return fmt::format("constraints[{}]: g(q) = 0 or its rate",
-                       condition % transcription_->traced_problem().holonomic_count());
-  }
-
-  [[nodiscard]] std::string interval_row(Eigen::Index column, std::size_t k) const {
-    const LayoutShape& shape = layout_->shape();
-    if (column < shape.stage_equations) return stage_equation(column) + in_interval(k);
-    const Eigen::Index path = column - shape.stage_equations;
-    if (path >= shape.path_rows) {
-      const Eigen::Index integral = path - shape.path_rows - (shape.mayer ? 1 : 0);
-      return (integral < 0 ? "running_cost: the cost so far"
-                           : fmt::format("integrands[{}]: the integral so far", integral)) +
-             in_interval(k);
-    }
-    const Eigen::Index per_stage = shape.path_rows / shape.stages;
-    const std::vector<Eigen::Index> velocities = transcription_->bounds().bounded_velocities();
-    const auto bounded = static_cast<Eigen::Index>(velocities.size());
-    const Eigen::Index i = path % per_stage;
-    if (i >= bounded) {
-      const auto number = static_cast<std::size_t>(i - bounded);
-      return entry_of("path_constraints", number, problem_->card().path_constraint_names) + in_interval(k);
-    }
-    return "bounds().v: the velocity of " + coordinate(velocities[static_cast<std::size_t>(i)]) + in_interval(k);
-  }
-  /// A stage equation. Of elements outside the three families only the number of the equation is known.
-  [[nodiscard]] std::string stage_equation(Eigen::Index column) const {
-    const LayoutShape& shape = layout_->shape();
-    const Eigen::Index l = shape.first_order_size;
-    const Eigen::Index conditions = shape.stage_equations - l * shape.stages;  // of holonomic constraints last
-    const Eigen::Index elements = conditions - shape.multipliers;
-    if (column >= conditions) {
-      return "first_order_rates: the rate of " + named('y', (column - conditions) % l, problem_->first_order_names());
-    }
-    if (column >= elements) return holonomic(column - elements);
-    const bool is_second = (column / n_) % 2 == 1;
-    if (!shape.has_stage_unknowns) {
-      const bool has_momenta = shape.node_state == NodeState::momentum;
-      const std::string second = has_momenta ? "the momentum of " : "the velocity of ";
-      return "the motion from node to node: " + (is_second ? second : "") + coordinate(column % n_);
-    }
-    switch (shape.node_state) {
-      case NodeState::configuration:
-        if (elements != (shape.rate_stages - 1) * n_) break;
-        return equation_of(column % n_);
-      case NodeState::momentum:
-        if (elements != 2 * shape.stages * n_) break;
-        return is_second ? equation_of(column % n_) : "lagrangian: the momentum p = L_v of " + coordinate(column % n_);
-      case NodeState::velocity:
-        if (elements != 2 * shape.stages * n_) break;
-        return is_second ? equation_of(column % n_) : "the velocity as stage rate of " + coordinate(column % n_);
-    }
-    return fmt::format("equation {} of the method", column);
+  [[nodiscard]] std::string end_momentum(const char* state, const char* bounds, const EndBounds& end,
+                                         const RowBlock& block, std::size_t row) const {
+    return fmt::format("{}: the momentum (p = L_v of its velocity) of {}",
+                       end.v.is_fixed(number_in(block, row)) ? state : bounds, component_of(block, row));
   }
 
   const Problem* problem_;
-  const Transcription* transcription_;
-  const Layout* layout_;
+  const ProgramBlocks* blocks_;
+  const ProblemBounds* bounds_;
   Eigen::VectorXd times_;
-  Eigen::Index n_;
 };
 
 struct Worst {
@@ -215,22 +136,22 @@ std::string missed(const std::string& quantity, double amount) {
 
 /// The controls that are at a bound in most stages.
 std::string held_controls(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x) {
-  const Layout& layout = transcription.layout();
-  const auto intervals = static_cast<Eigen::Index>(layout.intervals());
-  const Eigen::Index stages = intervals * layout.shape().control_stages;
+  const ProgramBlocks& blocks = transcription.blocks();
+  const auto intervals = static_cast<Eigen::Index>(blocks.intervals());
+  const Eigen::Index stages = transcription.functions().controls.stages();
   std::string text;
-  for (Eigen::Index i = 0; i < layout.shape().control_size; ++i) {
+  for (Eigen::Index i = 0; i < problem.control_size(); ++i) {
     Eigen::Index held = 0;
-    for (Eigen::Index stage = 0; stage < layout.shape().control_stages; ++stage) {
-      const auto head = static_cast<Eigen::Index>(layout.control_head(stage, i));
+    for (Eigen::Index stage = 0; stage < stages; ++stage) {
+      const Eigen::Index head = blocks.unknown(Quantity::control, stage).index(i);
       for (Eigen::Index k = head; k < head + intervals; ++k) {
         if (is_held(x[k], transcription.variable_lower()[k]) || is_held(x[k], transcription.variable_upper()[k]))
           ++held;
       }
     }
-    if (2 * held <= stages) continue;
-    text +=
-        fmt::format(" bounds().u holds {} at {} of {} stages.", named('u', i, problem.control_names()), held, stages);
+    if (2 * held <= stages * intervals) continue;
+    text += fmt::format(" bounds().u holds {} at {} of {} stages.", named('u', i, problem.control_names()), held,
+                        stages * intervals);
   }
   return text;
 }
@@ -255,8 +176,7 @@ std::string pressed_bound(const Problem& problem, Transcription& transcription, 
   constexpr double near = 1e-2;   // a descent within the bounds stops before them
   constexpr double share = 1e-2;  // of the hardest pressure
   const Eigen::VectorXd gradient = gradient_of_violation(transcription, x, rows);
-  const auto configurations =
-      static_cast<Eigen::Index>(transcription.layout().configuration_head(problem.configuration_size()));
+  const ProgramBlocks& blocks = transcription.blocks();
   double hardest = 0.0;
   Worst pressed;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -267,7 +187,9 @@ std::string pressed_bound(const Problem& problem, Transcription& transcription, 
     if (lower == upper || !std::isfinite(bound) || !(std::abs(x[i] - bound) <= near * std::max(1.0, std::abs(bound))))
       continue;
     hardest = std::max(hardest, pressure);
-    if (i < configurations && pressure > pressed.amount) pressed = {static_cast<std::size_t>(i), pressure};
+    const auto number = static_cast<std::size_t>(i);
+    const bool is_configuration = blocks.block_of_unknown(number).kind == Quantity::configuration;
+    if (is_configuration && pressure > pressed.amount) pressed = {number, pressure};
   }
   if (pressed.amount == 0.0 || pressed.amount < share * hardest) return "";
   const auto i = static_cast<Eigen::Index>(pressed.entry);
@@ -281,26 +203,26 @@ std::string pressed_bound(const Problem& problem, Transcription& transcription, 
 std::string missed_velocity(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
                             const Eigen::VectorXd& rows, double most) {
   constexpr double share = 1e-3;
-  const ConstraintWords words(problem, transcription, x);
   Worst worst;
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
     const double lower = transcription.constraint_lower()[i];
     const double upper = transcription.constraint_upper()[i];
     const double amount = lower < upper ? std::max(lower - rows[i], rows[i] - upper) : 0.0;
-    if (amount > worst.amount && amount < most && words.row(static_cast<std::size_t>(i)).starts_with("bounds().v")) {
-      worst = {static_cast<std::size_t>(i), amount};
-    }
+    const auto row = static_cast<std::size_t>(i);
+    if (!(amount > worst.amount && amount < most)) continue;
+    if (transcription.blocks().block_of_row(row).kind == Equation::bounded_velocity) worst = {row, amount};
   }
-  return worst.amount < share * most ? "" : fmt::format(" Violated as well is {}.", words.row(worst.entry));
+  if (worst.amount < share * most) return "";
+  return fmt::format(" Violated as well is {}.", ConstraintWords(problem, transcription, x).row(worst.entry));
 }
 
 /// The largest derivatives of each boundary condition, and by which unknown it is.
 std::vector<Worst> slopes_of_conditions(Transcription& transcription, const Eigen::VectorXd& x) {
-  const Eigen::Index conditions = transcription.layout().shape().conditions;
-  const auto first = static_cast<Eigen::Index>(transcription.constraint_count()) - conditions;
+  const RowBlock& conditions = transcription.blocks().row(Equation::boundary_condition);
+  const Eigen::Index first = conditions.index();
   Eigen::VectorXd jacobian(static_cast<Eigen::Index>(transcription.jacobian_structure().size()));
   transcription.jacobian(x, jacobian);
-  std::vector<Worst> slopes(static_cast<std::size_t>(conditions));
+  std::vector<Worst> slopes(static_cast<std::size_t>(conditions.width));
   transcription.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
     if (row < first || is_fixed(transcription, column)) return;
     Worst& slope = slopes[static_cast<std::size_t>(row - first)];
@@ -312,16 +234,16 @@ std::vector<Worst> slopes_of_conditions(Transcription& transcription, const Eige
 /// Boundary conditions whose derivatives vanish where the solve ended, next to those at the guess.
 std::string vanishing_conditions(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x) {
   constexpr double small = 1e-3;
-  if (transcription.layout().shape().conditions == 0 || !x.allFinite()) return "";
+  if (transcription.traced_problem().boundary_condition_count() == 0 || !x.allFinite()) return "";
   const std::vector<Worst> here = slopes_of_conditions(transcription, x);
   const std::vector<Worst> guessed =
       slopes_of_conditions(transcription, sample(transcription, guessed_motion(transcription)));
   std::string text;
   for (std::size_t i = 0; i < here.size(); ++i) {
     if (!(here[i].amount <= small * guessed[i].amount)) continue;
-    const Place place = transcription.layout().structure().unknowns[guessed[i].entry];
+    const Place place = transcription.blocks().structure().unknowns[guessed[i].entry];
     const auto node = place.kind == Place::Kind::node ? static_cast<Eigen::Index>(place.index)
-                                                      : static_cast<Eigen::Index>(transcription.layout().intervals());
+                                                      : static_cast<Eigen::Index>(transcription.blocks().intervals());
     text += fmt::format(
         " {} is rank deficient: its derivatives vanish at node {} (t = {:.4g}); state it by a formula whose "
         "derivatives do not vanish where it holds.",
@@ -393,7 +315,7 @@ std::string contradiction(const Transcription& transcription) {
   const EndBounds& last = transcription.bounds().last;
   if (states_more_than(last, transcription.bounds().q)) parts.emplace_back("final_state");
   if (!transcription.bounds().interior.empty()) parts.emplace_back("bounds().interior");
-  if (transcription.layout().shape().conditions > 0) parts.emplace_back("boundary_conditions");
+  if (transcription.traced_problem().boundary_condition_count() > 0) parts.emplace_back("boundary_conditions");
   if (transcription.traced_problem().path_constraint_count() > 0) parts.emplace_back("path_constraints");
   if (parts.empty()) return "";
   std::string text = " The solver found no motion near this one that meets " + parts.front();
@@ -427,7 +349,7 @@ std::string undefined_stage(const Problem& problem, Transcription& transcription
   const Eigen::MatrixXd stages = transcription.tabulate(transcription.functions().stages, x);
   FormulaCheck check(problem, up_to);
   for (Eigen::Index k = 0; k < stages.rows(); ++k) {
-    for (Eigen::Index i = 0; i < transcription.layout().stages(); ++i) {
+    for (Eigen::Index i = 0; i < transcription.tableau().stages(); ++i) {
       const auto stage = stages.row(k).segment(i * width, width);
       const MotionPoint point{.q = stage.head(n),
                               .v = stage.segment(n, n),

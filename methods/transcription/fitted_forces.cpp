@@ -35,22 +35,15 @@ class Numbered {
 };
 
 Numbered fitted_unknowns(const Transcription& program, FittedForces with) {
-  const Layout& layout = program.layout();
-  const LayoutShape& shape = layout.shape();
   Numbered unknowns(program.variable_count());
-  const bool has_second = shape.node_state != NodeState::configuration;
-  if (with == FittedForces::controls) {
-    for (Eigen::Index stage = 0; stage < shape.control_stages; ++stage) {
-      for (Eigen::Index i = 0; i < shape.control_size; ++i)
-        unknowns.add(layout.control_head(stage, i), shape.intervals);
-    }
-  } else if (has_second) {
-    for (Eigen::Index i = 0; i < layout.interior_stages() * shape.configuration_size; ++i) {
-      unknowns.add(layout.second_rate_head(0, i), shape.intervals);
-    }
+  const Quantity fitted = with == FittedForces::controls ? Quantity::control : Quantity::second_rate;
+  const ProgramBlocks& blocks = program.blocks();
+  for (const UnknownBlock& block : blocks.interval_unknowns()) {
+    if (block.kind != fitted && block.kind != Quantity::multiplier) continue;
+    for (Eigen::Index i = 0; i < block.width; ++i) unknowns.add(block.at(i), blocks.intervals());
   }
-  for (Eigen::Index i = 0; i < shape.multipliers; ++i) unknowns.add(layout.multiplier_head(i), shape.intervals);
-  for (Eigen::Index i = 0; i < shape.last_multipliers; ++i) unknowns.add(layout.last_multiplier(i), 1);
+  const UnknownBlock& last = blocks.unknown_at(Quantity::multiplier, blocks.intervals());
+  unknowns.add(last.head, static_cast<std::size_t>(last.width));
   return unknowns;
 }
 

@@ -44,7 +44,7 @@ std::vector<SeriesPlace> places_in(const BlockPattern& pattern, const LocalEntri
 PartPlaces interleaved_places(const Transcription& program, const LocalFunctions& functions,
                               const std::vector<SeriesPlace>& unknowns, const std::vector<SeriesPlace>& rows,
                               bool has_ends_only) {
-  const std::size_t intervals = has_ends_only ? 1 : program.layout().intervals();
+  const std::size_t intervals = has_ends_only ? 1 : program.blocks().intervals();
   const BlockPattern& jacobian = program.jacobian_structure();
   const BlockPattern& hessian = program.hessian_structure();
   return part_places(functions, interleaved(unknowns), interleaved(rows),
@@ -79,21 +79,21 @@ LaneTranscription::LaneTranscription(const Transcription& program)
       steps_(each_for_all_lanes(program.step_inputs())),
       times_(each_for_all_lanes(program.time_inputs())) {
   program.traced_problem().require_no_constraints("a batch");
-  if (program.layout().shape().first_order_size > 0 || program.layout().shape().integrals > 0) {
+  if (program.traced_problem().first_order_size() > 0 || program.traced_problem().integral_count() > 0) {
     throw Error("a batch supports neither first-order states nor integral constraints");
   }
-  if (program.layout().shape().unknown_parameters > 0) throw Error("a batch needs given parameters; some are unknown");
+  if (program.traced_problem().unknown_count() > 0) throw Error("a batch needs given parameters; some are unknown");
   if (!program.bounds().interior.empty()) throw Error("a batch supports no bounds between the ends");
   if (program.has_free_horizon()) throw Error("a batch needs a given horizon, but this problem's is free");
-  const Layout& layout = program.layout();
+  const ProgramBlocks& blocks = program.blocks();
   const auto add = [&](const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
                        const std::vector<SeriesPlace>& rows, bool has_ends_only) {
     parts_.push_back(std::make_unique<Part>(*this, functions,
                                             interleaved_places(program, functions, unknowns, rows, has_ends_only)));
   };
-  add(program.functions(), layout.unknown_places(), layout.row_places(), false);
+  add(program.functions(), blocks.unknown_places(), blocks.row_places(), false);
   if (const auto& ends = program.end_functions()) {
-    add(*ends, layout.end_unknown_places(), layout.end_row_places(), true);
+    add(*ends, blocks.end_unknown_places(), blocks.end_row_places(), true);
   }
   if (parameter_count() == 0) return;
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) set_parameters(lane, {});
@@ -203,27 +203,29 @@ void ClampedEnds::write(const BoundaryState& first, const BoundaryState& last, E
                         Eigen::VectorXd& equality_values) {
   const Eigen::VectorXd& times = program_.grid().relative_times();
   for (Eigen::Index i = 0; i < first.q.size(); ++i) {
-    auto nodes = x.segment(static_cast<Eigen::Index>(program_.layout().configuration_head(i)), times.size());
+    auto nodes = x.segment(program_.blocks().unknown(Quantity::configuration).index(i), times.size());
     const double at_first = first.q[i] - nodes[0];
     const double at_last = last.q[i] - nodes[times.size() - 1];
     nodes.array() += at_first + (at_last - at_first) * times.array();
   }
   write_end(first, 0, 0.0, -1.0, x, equality_values);
-  write_end(last, program_.layout().intervals(), program_.guessed_horizon(), 1.0, x, equality_values);
+  write_end(last, program_.blocks().intervals(), program_.guessed_horizon(), 1.0, x, equality_values);
 }
 
 void ClampedEnds::write_end(const BoundaryState& end, std::size_t node, double time, double sign, Eigen::VectorXd& x,
                             Eigen::VectorXd& equality_values) {
-  const Layout& layout = program_.layout();
-  const auto entry = [&](std::size_t head) { return static_cast<Eigen::Index>(head + node); };
-  const bool is_velocity = layout.node_state() == NodeState::velocity;
-  const Eigen::VectorXd second = is_velocity ? end.v : legendre_.momentum(end.q, end.v, time);
+  const ProgramBlocks& blocks = program_.blocks();
+  const UnknownBlock q = blocks.unknown(Quantity::configuration).later(node);
+  const UnknownBlock second = blocks.unknown(Quantity::second).later(node);
+  const RowBlock momenta = blocks.row(Equation::euler_lagrange).later(node);
+  const bool is_velocity = program_.node_state() == NodeState::velocity;
+  const Eigen::VectorXd values = is_velocity ? end.v : legendre_.momentum(end.q, end.v, time);
   for (Eigen::Index i = 0; i < end.q.size(); ++i) {
-    x[entry(layout.configuration_head(i))] = end.q[i];
-    if (layout.node_state() == NodeState::configuration) {
-      equality_values[entry(layout.node_row_head(i))] = sign * second[i];
+    x[q.index(i)] = end.q[i];
+    if (program_.node_state() == NodeState::configuration) {
+      equality_values[momenta.index(i)] = sign * values[i];
     } else {
-      x[entry(layout.second_head(i))] = second[i];
+      x[second.index(i)] = values[i];
     }
   }
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "methods/error.hpp"
 #include "methods/program/nonlinear_program.hpp"
@@ -11,62 +13,65 @@ namespace dmocbench {
 
 namespace {
 
-/// Bounds `count` entries from `first` on.
-void set(Bounds& bounds, std::size_t first, std::size_t count, double lower, double upper) {
-  const auto entries = Eigen::seqN(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
-  bounds.lower(entries).setConstant(lower);
-  bounds.upper(entries).setConstant(upper);
-}
-
-void bound_controls(Bounds& variables, const Bounds& u, const Layout& layout) {
-  for (Eigen::Index stage = 0; stage < layout.shape().control_stages; ++stage) {
-    for (Eigen::Index i = 0; i < u.lower.size(); ++i) {
-      set(variables, layout.control_head(stage, i), layout.intervals(), u.lower[i], u.upper[i]);
-    }
+/// Bounds of all members of a block by the bounds of its components.
+template <class Kind>
+void bound(Bounds& all, const Block<Kind>& block, const Bounds& of) {
+  for (Eigen::Index i = 0; i < block.width; ++i) {
+    const auto members = Eigen::seqN(block.index(i), static_cast<Eigen::Index>(block.length));
+    all.lower(members).setConstant(of.lower[block.component + i]);
+    all.upper(members).setConstant(of.upper[block.component + i]);
   }
 }
 
-/// Per stage the bounded velocities, then h.
-void bound_path_rows(Bounds& rows, const ProblemBounds& bounds, const Bounds& path, const Layout& layout) {
-  Eigen::Index row = layout.shape().stage_equations;
-  const auto bound_next = [&](double lower, double upper) {
-    set(rows, layout.interval_row_head(row++), layout.intervals(), lower, upper);
-  };
-  for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
-    for (const Eigen::Index i : bounds.bounded_velocities()) bound_next(bounds.v.lower[i], bounds.v.upper[i]);
-    for (Eigen::Index i = 0; i < path.lower.size(); ++i) bound_next(path.lower[i], path.upper[i]);
+/// Bounds of a block at one node.
+template <class Kind>
+void bound_at(Bounds& all, const Block<Kind>& block, std::size_t node, const Bounds& of) {
+  Block<Kind> at_node = block.later(node);
+  for (Eigen::Index i = 0; i < block.width; ++i) {
+    all.lower[at_node.index(i)] = of.lower[block.component + i];
+    all.upper[at_node.index(i)] = of.upper[block.component + i];
   }
 }
 
-/// What holonomic constraints determine at an end.
-void release(Bounds& variables, const ReleasedComponents& released, std::size_t node, bool has_velocity,
-             const Layout& layout) {
+/// Nothing is asked of some components of a block at a node.
+void release(Bounds& variables, const UnknownBlock& block, std::size_t node,
+             const std::vector<Eigen::Index>& components) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  for (const Eigen::Index i : released.q) set(variables, layout.configuration_head(i) + node, 1, -infinite, infinite);
-  if (!has_velocity && layout.node_state() == NodeState::configuration) return;  // no unknown
-  for (const Eigen::Index i : released.second) {
-    const std::size_t velocity = node == 0 ? layout.first_velocity(i) : layout.last_velocity(i);
-    set(variables, has_velocity ? velocity : layout.second_head(i) + node, 1, -infinite, infinite);
+  if (block.width == 0) return;
+  const UnknownBlock at_node = block.later(node);
+  for (const Eigen::Index i : components) {
+    variables.lower[at_node.index(i)] = -infinite;
+    variables.upper[at_node.index(i)] = infinite;
   }
+}
+
+/// The unknown velocity of a node: its own, or the one in its state.
+UnknownBlock velocity_at(const ProgramBlocks& blocks, std::size_t node, NodeState node_state) {
+  return node_state == NodeState::velocity ? blocks.unknown(Quantity::second).later(node)
+                                           : blocks.unknown_at(Quantity::velocity, node);
 }
 
 /// At the nodes between the ends that have bounds of their own.
-void bound_interior(Bounds& variables, const ProblemBounds& bounds, const Layout& layout, const Grid& grid) {
-  Eigen::Index own = 0;  // among those whose velocity is an unknown of its own
+void bound_interior(Bounds& variables, const ProblemBounds& bounds, const ProgramBlocks& blocks, NodeState node_state,
+                    const Grid& grid) {
   for (const InteriorBounds& at : bounds.interior) {
     const auto node = static_cast<std::size_t>(grid.node_at(at.relative_time));
-    const auto set_entry = [&](std::size_t entry, const Bounds& of, Eigen::Index i) {
-      set(variables, entry, 1, of.lower[i], of.upper[i]);
-    };
-    for (Eigen::Index i = 0; i < at.q.lower.size(); ++i) set_entry(layout.configuration_head(i) + node, at.q, i);
-    for (Eigen::Index i = 0; i < at.y.lower.size(); ++i) set_entry(layout.first_order_head(i) + node, at.y, i);
-    if (!at.v.any()) continue;
-    const bool is_of_node = layout.node_state() == NodeState::velocity;
-    for (Eigen::Index i = 0; i < at.v.lower.size(); ++i) {
-      set_entry(is_of_node ? layout.second_head(i) + node : layout.interior_velocity(own, i), at.v, i);
-    }
-    ++own;
+    bound_at(variables, blocks.unknown(Quantity::configuration), node, at.q);
+    bound_at(variables, blocks.unknown(Quantity::first_order), node, at.y);
+    if (at.v.any()) bound_at(variables, velocity_at(blocks, node, node_state), 0, at.v);
   }
+}
+
+/// The ranges of the unknown parameters.
+Bounds ranges_of(const Problem& problem) {
+  const std::vector<std::size_t> unknowns = problem.unknowns();
+  Bounds ranges = Bounds::none(std::ssize(unknowns));
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const Parameter& parameter = problem.parameters()[unknowns[i]];
+    ranges.lower[static_cast<Eigen::Index>(i)] = parameter.lower;
+    ranges.upper[static_cast<Eigen::Index>(i)] = parameter.upper;
+  }
+  return ranges;
 }
 
 /// The momentum of an end: fixed where the end is clamped, free otherwise.
@@ -101,66 +106,76 @@ void require_same_structure(const Problem& problem, const ProgramBounds& before,
 }
 
 ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
-                             double horizon, const EndRules& ends, const Layout& layout, const Grid& grid) {
-  ProgramBounds result{Bounds::none(static_cast<Eigen::Index>(layout.variable_count())),
-                       Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.constraint_count())))};
+                             double horizon, const EndRules& ends, const ProgramBlocks& blocks, const Grid& grid) {
+  ProgramBounds result{Bounds::none(static_cast<Eigen::Index>(blocks.variable_count())),
+                       Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(blocks.constraint_count())))};
   auto& [variables, rows] = result;
   require_bounds_of_formulas(problem, bounds, traced.path_constraint_count(), traced.integral_count());
   const Bounds path = bounds.of_path(traced.path_constraint_count());
   require_path_constraints_at_ends(problem, traced, bounds, horizon);
   require_holonomic_constraints_at_ends(problem, traced, bounds);
-  const std::size_t last_node = layout.intervals();
+  const std::size_t last_node = blocks.intervals();
   const Bounds first_momentum = end_momentum(ends.first_clamped, bounds.first, 0.0, traced, problem, "start");
   const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last, horizon, traced, problem, "end");
-  const auto set_entry = [](Bounds& all, std::size_t entry, const Bounds& of, Eigen::Index i) {
-    set(all, entry, 1, of.lower[i], of.upper[i]);
-  };
-  for (Eigen::Index i = 0; i < traced.configuration_size(); ++i) {
-    const auto set_ends = [&](std::size_t head, const Bounds& first, const Bounds& last) {
-      set_entry(variables, head, first, i);
-      set_entry(variables, head + last_node, last, i);
+  const bool has_velocities = ends.node_state == NodeState::velocity;
+  for (const UnknownBlock& block : blocks.unknowns()) {
+    const auto bound_ends = [&](const Bounds& first, const Bounds& last) {
+      bound_at(variables, block, 0, first);
+      bound_at(variables, block, last_node, last);
     };
-    set(variables, layout.configuration_head(i), last_node + 1, bounds.q.lower[i], bounds.q.upper[i]);
-    set_ends(layout.configuration_head(i), bounds.first.q, bounds.last.q);
-    switch (layout.node_state()) {
-      case NodeState::configuration: {
-        const std::size_t row = layout.node_row_head(i);
-        // (eq:gDLOCP3) and (rem:inifinalvel)
-        if (ends.first_clamped) set(rows, row, 1, -first_momentum.lower[i], -first_momentum.lower[i]);
-        if (ends.last_clamped) set_entry(rows, row + last_node, last_momentum, i);
+    switch (block.kind) {
+      case Quantity::configuration:
+        bound(variables, block, bounds.q);
+        bound_ends(bounds.first.q, bounds.last.q);
         break;
-      }
-      case NodeState::momentum:
-        set_ends(layout.second_head(i), first_momentum, last_momentum);
+      case Quantity::second:
+        bound_ends(has_velocities ? bounds.first.v : first_momentum, has_velocities ? bounds.last.v : last_momentum);
         break;
-      case NodeState::velocity:
-        set_ends(layout.second_head(i), bounds.first.v, bounds.last.v);
+      case Quantity::first_order:
+        bound(variables, block, bounds.y);
+        bound_ends(bounds.first.y, bounds.last.y);
+        break;
+      case Quantity::control:
+        bound(variables, block, bounds.u);
+        break;
+      case Quantity::integral:
+        bound_ends(Bounds::fixed(Eigen::VectorXd::Zero(block.width)), bounds.integrals);
+        break;
+      case Quantity::cost:
+        bound_at(variables, block, 0, Bounds::fixed(Eigen::VectorXd::Zero(1)));
+        break;
+      case Quantity::velocity:  // between the ends: below
+        if (block.node == 0) bound(variables, block, bounds.first.v);
+        if (block.node == last_node) bound(variables, block, bounds.last.v);
+        break;
+      case Quantity::parameter:
+        bound(variables, block, ranges_of(problem));
+        break;
+      case Quantity::horizon:
+        bound(variables, block, Bounds::all(1, bounds.horizon.lower, bounds.horizon.upper));
+        break;
+      case Quantity::rate:
+      case Quantity::second_rate:
+      case Quantity::first_order_rate:
+      case Quantity::multiplier:
         break;
     }
-    if (ends.first_has_velocity()) set_entry(variables, layout.first_velocity(i), bounds.first.v, i);
-    if (ends.last_has_velocity()) set_entry(variables, layout.last_velocity(i), bounds.last.v, i);
   }
-  release(variables, ends.released_at_first, 0, ends.first_has_velocity(), layout);
-  release(variables, ends.released_at_last, last_node, ends.last_has_velocity(), layout);
-  for (Eigen::Index i = 0; i < traced.first_order_size(); ++i) {
-    const std::size_t head = layout.first_order_head(i);
-    set(variables, head, last_node + 1, bounds.y.lower[i], bounds.y.upper[i]);
-    set_entry(variables, head, bounds.first.y, i);
-    set_entry(variables, head + last_node, bounds.last.y, i);
+  for (const auto& [node, released] :
+       {std::pair(std::size_t{0}, &ends.released_at_first), std::pair(last_node, &ends.released_at_last)}) {
+    release(variables, blocks.unknown(Quantity::configuration), node, released->q);
+    const UnknownBlock& velocity = blocks.unknown_at(Quantity::velocity, node);
+    const bool is_own = velocity.width > 0;
+    release(variables, is_own ? velocity : blocks.unknown(Quantity::second), is_own ? 0 : node, released->second);
   }
-  bound_interior(variables, bounds, layout, grid);
-  bound_controls(variables, bounds.u, layout);
-  for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) set(variables, layout.sum_head(i), 1, 0.0, 0.0);
-  for (Eigen::Index i = 0; i < layout.shape().integrals; ++i) {
-    set_entry(variables, layout.integral_head(i) + last_node, bounds.integrals, i);
+  bound_interior(variables, bounds, blocks, ends.node_state, grid);
+  for (const RowBlock& block : blocks.rows()) {
+    if (block.kind == Equation::bounded_velocity) bound(rows, block, bounds.v);
+    if (block.kind == Equation::path) bound(rows, block, path);
   }
-  const std::vector<std::size_t> unknowns = problem.unknowns();
-  for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    const Parameter& parameter = problem.parameters()[unknowns[i]];
-    set(variables, layout.unknown_parameter(static_cast<Eigen::Index>(i)), 1, parameter.lower, parameter.upper);
-  }
-  if (bounds.horizon.is_free()) set(variables, layout.horizon(), 1, bounds.horizon.lower, bounds.horizon.upper);
-  bound_path_rows(rows, bounds, path, layout);
+  const RowBlock& momenta = blocks.row(Equation::euler_lagrange);  // of the nodes: (eq:gDLOCP3) and (rem:inifinalvel)
+  if (ends.first_clamped) bound_at(rows, momenta, 0, Bounds::fixed(-first_momentum.lower));
+  if (ends.last_clamped) bound_at(rows, momenta, last_node, last_momentum);
   return result;
 }
 

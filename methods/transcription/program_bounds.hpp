@@ -7,8 +7,8 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/blocks.hpp"
 #include "methods/transcription/end_functions.hpp"
-#include "methods/transcription/layout.hpp"
 #include "methods/transcription/motions/grid.hpp"
 
 namespace dmocbench {
@@ -27,7 +27,7 @@ struct ProgramBounds {
 /// `require_path_constraints_at_ends`. Bounds between the ends bound the unknowns of their nodes, which `grid` has.
 [[nodiscard]] ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced,
                                            const ProblemBounds& bounds, double horizon, const EndRules& ends,
-                                           const Layout& layout, const Grid& grid);
+                                           const ProgramBlocks& blocks, const Grid& grid);
 
 /// Throws `Error` unless the same entries have bounds, and equal ones, as before: solvers are set up for that.
 void require_same_structure(const Problem& problem, const ProgramBounds& before, const ProgramBounds& now);

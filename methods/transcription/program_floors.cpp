@@ -26,7 +26,8 @@ Eigen::VectorXd floors_at(const Places& places, const Eigen::VectorXd& of_interv
 
 }  // namespace
 
-RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::VectorXd& steps, const Layout& layout) {
+RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::VectorXd& steps,
+                                  const IntervalStructure& structure) {
   constexpr double safety = 20.0;
   const double of_entries = safety * std::numeric_limits<double>::epsilon() * survey.largest_mass;
   const double terms = of_entries * survey.largest_configuration;
@@ -35,8 +36,8 @@ RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::Ve
   RoundingFloors floors{
       .smallest = terms / steps.maxCoeff(), .largest = products / steps.minCoeff(), .constraints = {}, .variables = {}};
   if (floors.smallest == floors.largest) return floors;
-  floors.constraints = floors_at(layout.structure().rows, terms * steps.cwiseInverse(), floors.smallest);
-  floors.variables = floors_at(layout.structure().unknowns, products * steps.cwiseInverse(), floors.largest);
+  floors.constraints = floors_at(structure.rows, terms * steps.cwiseInverse(), floors.smallest);
+  floors.variables = floors_at(structure.unknowns, products * steps.cwiseInverse(), floors.largest);
   return floors;
 }
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "methods/program/interval_structure.hpp"
 #include "methods/program/rounding_floors.hpp"
-#include "methods/transcription/layout.hpp"
 #include "methods/transcription/motions/guess_check.hpp"
 
 namespace dmocbench {
@@ -11,6 +11,6 @@ namespace dmocbench {
 /// The floors of a program (`Transcription::rounding_floors`) from max|q| and max|L_vv| over the ends and the guess,
 /// and the steps of the intervals.
 [[nodiscard]] RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::VectorXd& steps,
-                                                const Layout& layout);
+                                                const IntervalStructure& structure);
 
 }  // namespace dmocbench

@@ -100,57 +100,36 @@ class SampledCostates {
 /// Writes the multipliers of the rows that costates determine, for the true cost.
 class MultiplierWriter {
  public:
-  MultiplierWriter(const Layout& layout, Eigen::Index n, Eigen::VectorXd& multipliers)
-      : layout_(layout), n_(n), multipliers_(multipliers) {}
+  MultiplierWriter(const ProgramBlocks& blocks, Eigen::VectorXd& multipliers)
+      : blocks_(blocks), multipliers_(multipliers) {}
 
-  void write_node(Eigen::Index k, const Eigen::VectorXd& psi_p) {
-    for (Eigen::Index i = 0; i < n_; ++i) at(layout_.node_row_head(i), k) = psi_p[i];
+  /// The rows of a stage, or of none, for interval or node k; nothing where the program has no such rows.
+  void write(Equation kind, Eigen::Index stage, Eigen::Index k, const Eigen::VectorXd& values) {
+    write(blocks_.row(kind, stage), k, values);
   }
-  /// The `block`-th n rows of interval k.
-  void write_interval(Eigen::Index block, Eigen::Index k, const Eigen::VectorXd& values) {
-    for (Eigen::Index i = 0; i < n_; ++i) at(layout_.interval_row_head(block * n_ + i), k) = values[i];
+  /// The rows that tie the velocity of an end to its momentum.
+  void write_tie(std::size_t node, const Eigen::VectorXd& values) {
+    write(blocks_.row_at(Equation::momentum, node), 0, values);
   }
-  /// The rows Ẏ_i - g of stage i in interval k.
-  void write_first_order(Eigen::Index i, Eigen::Index k, const Eigen::VectorXd& values) {
-    const Eigen::Index l = values.size();
-    const Eigen::Index first = layout_.shape().stage_equations - (layout_.stages() - i) * l;
-    for (Eigen::Index j = 0; j < l; ++j) at(layout_.interval_row_head(first + j), k) = values[j];
-  }
-  /// z_{k+1} - z_k - cost = 0 carries the cost from node to node.
-  void write_costs(double value) {
-    const auto head = static_cast<Eigen::Index>(layout_.sum_row_head(0));
-    multipliers_.segment(head, static_cast<Eigen::Index>(layout_.intervals())).setConstant(value);
-  }
-  /// Every integral is carried alike; its multipliers are the price of its bound.
-  void write_integrals(const Eigen::VectorXd& prices) {
-    const LayoutShape& shape = layout_.shape();
-    for (Eigen::Index i = 0; i < prices.size(); ++i) {
-      const auto head = static_cast<Eigen::Index>(layout_.sum_row_head(shape.sums() - shape.integrals + i));
-      multipliers_.segment(head, static_cast<Eigen::Index>(layout_.intervals())).setConstant(prices[i]);
+  /// The same values for all intervals.
+  void write_all(Equation kind, const Eigen::VectorXd& values) {
+    for (std::size_t k = 0; k < blocks_.intervals(); ++k) {
+      write(blocks_.row(kind), static_cast<Eigen::Index>(k), values);
     }
-  }
-  /// The rows p - L_v(q, v) of the ends that have them: stationarity in p.
-  void write_ties(const Eigen::VectorXd& first, const Eigen::VectorXd& last) {
-    std::size_t row = 0;
-    const auto write = [&](bool is_there, const Eigen::VectorXd& values) {
-      if (!is_there) return;
-      for (Eigen::Index i = 0; i < n_; ++i) at(layout_.end_row_places()[row++].first, 0) = values[i];
-    };
-    write(layout_.shape().first_has_velocity, -first);
-    write(layout_.shape().last_has_velocity, last);
   }
 
  private:
-  double& at(std::size_t head, Eigen::Index k) { return multipliers_[static_cast<Eigen::Index>(head) + k]; }
+  void write(const RowBlock& block, Eigen::Index k, const Eigen::VectorXd& values) {
+    for (Eigen::Index i = 0; i < block.width; ++i) multipliers_[block.index(i) + k] = values[i];
+  }
 
-  const Layout& layout_;
-  Eigen::Index n_;
+  const ProgramBlocks& blocks_;
   Eigen::VectorXd& multipliers_;
 };
 
 double horizon_of(const Transcription& program, double of_motion) {
   if (!program.has_free_horizon()) return program.guessed_horizon();
-  const auto place = static_cast<Eigen::Index>(program.layout().horizon());
+  const Eigen::Index place = program.blocks().unknown(Quantity::horizon).index();
   return std::clamp(of_motion, program.variable_lower()[place], program.variable_upper()[place]);
 }
 
@@ -159,21 +138,21 @@ void write_stage(const SampledCostates& sampled, PointDerivatives& at_point, Nod
   const Eigen::Index k = row / stages;
   const Eigen::Index i = row % stages;
   const AdjointPoint point = sampled.stage(row, t);
-  writer.write_first_order(i, k, -weight * point.psi_y);
+  writer.write(Equation::first_order, i, k, -weight * point.psi_y);
   if (family == NodeState::configuration && i + 1 == stages) return;  // the last stage rate is eliminated
   at_point.evaluate(point.motion, t);
   if (family == NodeState::velocity) {
-    writer.write_interval(2 * i, k,
-                          -weight * (point.psi_q + at_point.momentum_by_configuration().transpose() * point.psi_p));
-    writer.write_interval(2 * i + 1, k, -weight * point.psi_p);
+    writer.write(Equation::velocity, i, k,
+                 -weight * (point.psi_q + at_point.momentum_by_configuration().transpose() * point.psi_p));
+    writer.write(Equation::euler_lagrange, i, k, -weight * point.psi_p);
     return;
   }
   const Eigen::VectorXd rate = CostateRates(at_point, point).psi_p;
   if (family == NodeState::configuration) {
-    writer.write_interval(i, k, weight * rate);
+    writer.write(Equation::euler_lagrange, i, k, weight * rate);
   } else {
-    writer.write_interval(2 * i, k, -weight * rate);
-    writer.write_interval(2 * i + 1, k, -weight * point.psi_p);
+    writer.write(Equation::momentum, i, k, -weight * rate);
+    writer.write(Equation::euler_lagrange, i, k, -weight * point.psi_p);
   }
 }
 
@@ -184,8 +163,9 @@ void write_shooting(const SampledCostates& sampled, PointDerivatives& at_point, 
     const double h = times[k + 1] - times[k];
     const AdjointPoint point = sampled.at(times[k + 1]);
     at_point.evaluate(point.motion, times[k + 1]);
-    writer.write_interval(0, k, -h * (point.psi_q + at_point.momentum_by_configuration().transpose() * point.psi_p));
-    writer.write_interval(1, k, -h * (at_point.mass() * point.psi_p));
+    writer.write(Equation::motion, no_stage, k,
+                 -h * (point.psi_q + at_point.momentum_by_configuration().transpose() * point.psi_p));
+    writer.write(Equation::second_motion, no_stage, k, -h * (at_point.mass() * point.psi_p));
   }
 }
 
@@ -196,8 +176,7 @@ Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& tra
     throw Error("multipliers can only be sampled from a trajectory with costates");
   }
   program.traced_problem().require_no_constraints("the start from costates");
-  const Layout& layout = program.layout();
-  const NodeState family = layout.node_state();
+  const NodeState family = program.node_state();
   const Motion motion = smooth_motion(trajectory);
   const double horizon = horizon_of(program, motion.horizon);
   const Eigen::VectorXd times = horizon * program.grid().relative_times();
@@ -208,9 +187,11 @@ Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& tra
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   Eigen::VectorXd multipliers =
       Eigen::VectorXd::Constant(static_cast<Eigen::Index>(program.constraint_count()), unknown);
-  MultiplierWriter writer(layout, trajectory.q.cols(), multipliers);
+  MultiplierWriter writer(program.blocks(), multipliers);
   if (family == NodeState::configuration) {
-    for (Eigen::Index k = 0; k < times.size(); ++k) writer.write_node(k, sampled.at(times[k]).psi_p);
+    for (Eigen::Index k = 0; k < times.size(); ++k) {
+      writer.write(Equation::euler_lagrange, no_stage, k, sampled.at(times[k]).psi_p);
+    }
   }
   const Tableau& rates = program.functions().rates;
   const Eigen::Index s = rates.stages();
@@ -221,11 +202,13 @@ Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& tra
     const Eigen::Index i = row % s;
     write_stage(sampled, at_point, family, row, times[k] + rates.c[i] * widths[k], s, widths[k] * rates.b[i], writer);
   }
-  if (layout.shape().mayer) writer.write_costs(-1.0 / program.cost_scale());  // z is the scaled cost
-  if (trajectory.integral_prices.size() == layout.shape().integrals) writer.write_integrals(trajectory.integral_prices);
-  if (family == NodeState::momentum) {
-    writer.write_ties(sampled.at(0.0).psi_p, sampled.at(horizon).psi_p);
+  // z_{k+1} - z_k - cost = 0 carries the scaled cost from node to node, and integrals likewise.
+  writer.write_all(Equation::cost, Eigen::VectorXd::Constant(1, -1.0 / program.cost_scale()));
+  if (trajectory.integral_prices.size() == program.traced_problem().integral_count()) {
+    writer.write_all(Equation::integral, trajectory.integral_prices);
   }
+  writer.write_tie(0, -sampled.at(0.0).psi_p);
+  writer.write_tie(program.blocks().intervals(), sampled.at(horizon).psi_p);
   multipliers *= program.cost_scale();
   return complete_multipliers(program, sample(program, motion), multipliers);
 }

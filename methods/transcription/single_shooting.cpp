@@ -55,9 +55,10 @@ class SubMatrix {
 
 SingleShooting::SingleShooting(Transcription& program)
     : program_(program), interval_(program.functions().rows.schedule), workspace_(interval_) {
-  const LayoutShape& shape = program.layout().shape();
-  if (shape.integrals > 0) throw Error("single shooting has no integral constraints; take multiple_shooting");
-  if (program.functions().has_stage_unknowns || shape.mayer) {
+  const ProgramBlocks& blocks = program.blocks();
+  if (blocks.unknown(Quantity::integral).width > 0)
+    throw Error("single shooting has no integral constraints; take multiple_shooting");
+  if (program.functions().has_stage_unknowns || blocks.unknown(Quantity::cost).width > 0) {
     throw Error("single shooting condenses programs of multiple shooting in Bolza form only");
   }
   sort_unknowns();
@@ -74,18 +75,17 @@ SingleShooting::SingleShooting(Transcription& program)
 }
 
 void SingleShooting::sort_unknowns() {
-  const Layout& layout = program_.layout();
-  const Eigen::Index n = program_.traced_problem().configuration_size();
-  const auto intervals = static_cast<Eigen::Index>(layout.intervals());
-  for (Eigen::Index k = 1; k <= intervals; ++k) {
-    for (Eigen::Index c = 0; c < 2 * n; ++c) {
-      simulated_.push_back(static_cast<Eigen::Index>(layout.configuration_head(c)) + k);
+  const ProgramBlocks& blocks = program_.blocks();
+  const auto intervals = static_cast<Eigen::Index>(blocks.intervals());
+  // Entry k of every series of two blocks.
+  const auto add = [](const auto& first, const auto& second, Eigen::Index k, std::vector<Eigen::Index>& numbers) {
+    for (const auto* block : {&first, &second}) {
+      for (Eigen::Index i = 0; i < block->width; ++i) numbers.push_back(block->index(i) + k);
     }
-  }
+  };
   for (Eigen::Index k = 0; k < intervals; ++k) {
-    for (Eigen::Index c = 0; c < 2 * n; ++c) {
-      equations_.push_back(static_cast<Eigen::Index>(layout.interval_row_head(c)) + k);
-    }
+    add(blocks.unknown(Quantity::configuration), blocks.unknown(Quantity::second), k + 1, simulated_);
+    add(blocks.row(Equation::motion), blocks.row(Equation::second_motion), k, equations_);
   }
   const auto is_simulated = positions(simulated_, program_.variable_count());
   for (std::size_t i = 0; i < program_.variable_count(); ++i) {

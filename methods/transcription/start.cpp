@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <ranges>
+#include <utility>
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
@@ -15,52 +17,37 @@ namespace dmocbench {
 namespace {
 
 /// The tables of a motion in the unknowns of a program. `stage_v` has a row per stage of `Element::rates`, `stage_u` of
-/// `Element::controls`; `second_rates` has Ṗ_i or V̇_i, a row per stage. Costs so far are 0.
+/// `Element::controls`; `second_rates` has Ṗ_i or V̇_i, a row per stage. Costs so far and multipliers are 0.
 Eigen::VectorXd unknowns_of(const Transcription& transcription, const Trajectory& motion,
                             const Eigen::MatrixXd& second_rates) {
-  const Layout& layout = transcription.layout();
-  const Eigen::Index nodes = motion.q.rows();
+  const Eigen::Index intervals = motion.q.rows() - 1;
+  const Eigen::MatrixXd& second = transcription.node_state() == NodeState::momentum ? motion.p : motion.v;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(transcription.variable_count()));
-  const auto set = [&](std::size_t column, const auto& values) {
-    x.segment(static_cast<Eigen::Index>(column), values.size()) = values;
+  const auto set_nodes = [&](const UnknownBlock& block, const Eigen::MatrixXd& table) {
+    for (Eigen::Index i = 0; i < block.width; ++i) x.segment(block.index(i), intervals + 1) = table.col(i);
   };
-  /// The rows of stage i in a table with the stages of a tableau.
-  const auto rows_of = [&](const Tableau& tableau, Eigen::Index i) {
-    return Eigen::seqN(i, nodes - 1, tableau.stages());
+  /// From a table with the stages of a tableau.
+  const auto set_stage = [&](const UnknownBlock& block, const Tableau& tableau, const Eigen::MatrixXd& table) {
+    const auto rows = Eigen::seqN(block.stage, intervals, tableau.stages());
+    for (Eigen::Index i = 0; i < block.width; ++i) x.segment(block.index(i), intervals) = table(rows, i);
   };
-  const Tableau& rates = transcription.functions().rates;
-  const Tableau& controls = transcription.functions().controls;
-  const bool has_second = layout.node_state() != NodeState::configuration;
-  const Eigen::MatrixXd& second = layout.node_state() == NodeState::momentum ? motion.p : motion.v;
-  for (Eigen::Index c = 0; c < motion.q.cols(); ++c) {
-    set(layout.configuration_head(c), motion.q.col(c));
-    if (has_second) set(layout.second_head(c), second.col(c));
-    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
-      set(layout.rate_head(i, c), motion.stage_v(rows_of(rates, i), c));
-      if (has_second) set(layout.second_rate_head(i, c), second_rates(rows_of(rates, i), c));
+  // Where neighbours share a control, the first stage's is taken, which therefore comes last.
+  for (const UnknownBlock& block : std::views::reverse(transcription.blocks().interval_unknowns())) {
+    if (block.kind == Quantity::rate) set_stage(block, transcription.functions().rates, motion.stage_v);
+    if (block.kind == Quantity::second_rate) set_stage(block, transcription.functions().rates, second_rates);
+    if (block.kind == Quantity::first_order_rate) set_stage(block, motion.tableau, motion.stage_y_rates);
+    if (block.kind == Quantity::control) set_stage(block, transcription.functions().controls, motion.stage_u);
+  }
+  for (const UnknownBlock& block : transcription.blocks().unknowns()) {
+    if (block.kind == Quantity::configuration) set_nodes(block, motion.q);
+    if (block.kind == Quantity::second) set_nodes(block, second);
+    if (block.kind == Quantity::first_order) set_nodes(block, motion.y);
+    if (block.kind == Quantity::velocity) {
+      x.segment(block.index(), block.width) = motion.v.row(static_cast<Eigen::Index>(block.node)).transpose();
     }
+    if (block.kind == Quantity::parameter) x.segment(block.index(), block.width) = motion.unknowns;
+    if (block.kind == Quantity::horizon) x[block.index()] = motion.node_times[intervals];
   }
-  for (Eigen::Index c = 0; c < motion.y.cols(); ++c) {
-    set(layout.first_order_head(c), motion.y.col(c));
-    for (Eigen::Index i = 0; i < layout.interior_first_order_stages(); ++i) {
-      set(layout.first_order_rate_head(i, c), motion.stage_y_rates(rows_of(motion.tableau, i), c));
-    }
-  }
-  for (Eigen::Index c = 0; c < motion.stage_u.cols(); ++c) {
-    // Where neighbours share a control, the first stage's is taken.
-    for (Eigen::Index i = controls.stages() - 1; i >= 0; --i) {
-      set(layout.control_head(i, c), motion.stage_u(rows_of(controls, i), c));
-    }
-  }
-  if (layout.shape().first_has_velocity) set(layout.first_velocity(0), motion.v.row(0).transpose());
-  if (layout.shape().last_has_velocity) set(layout.last_velocity(0), motion.v.row(nodes - 1).transpose());
-  const std::vector<std::size_t>& velocities = layout.shape().interior_velocities;
-  for (std::size_t j = 0; j < velocities.size(); ++j) {
-    set(layout.interior_velocity(static_cast<Eigen::Index>(j), 0),
-        motion.v.row(static_cast<Eigen::Index>(velocities[j])).transpose());
-  }
-  if (transcription.has_free_horizon()) set(layout.horizon(), motion.node_times.tail<1>());
-  if (motion.unknowns.size() > 0) set(layout.unknown_parameter(0), motion.unknowns);
   return x;
 }
 
@@ -73,7 +60,7 @@ Eigen::VectorXd guessed_unknowns(const Transcription& transcription) {
 /// free in the program.
 void move_to_end(const Transcription& transcription, Eigen::Index k, MotionPoint& point) {
   const bool is_first = k == 0;
-  if (!is_first && k < static_cast<Eigen::Index>(transcription.layout().intervals())) return;
+  if (!is_first && k < static_cast<Eigen::Index>(transcription.blocks().intervals())) return;
   const EndBounds& end = is_first ? transcription.bounds().first : transcription.bounds().last;
   for (Eigen::Index i = 0; i < point.q.size(); ++i) {
     if (end.q.is_fixed(i)) point.q[i] = end.q.lower[i];
@@ -100,7 +87,7 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
   for (Eigen::MatrixXd* table : {&tables.q, &tables.p, &tables.v}) table->setZero(tables.node_times.size(), n);
   tables.y.resize(tables.node_times.size(), problem.first_order_size());
   std::optional<LegendreTransform> legendre;  // where nodes carry momenta
-  if (transcription.layout().node_state() == NodeState::momentum) legendre.emplace(problem);
+  if (transcription.node_state() == NodeState::momentum) legendre.emplace(problem);
   for (Eigen::Index k = 0; k < tables.node_times.size(); ++k) {
     MotionPoint node = point_at(tables.node_times[k]);
     if (problem.holonomic_count() > 0) move_to_end(transcription, k, node);
@@ -133,38 +120,38 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
 
 /// Sets interior rates of p or v and of y to the mean rates of their intervals, of which there is one per entry of
 /// `widths`.
-void set_mean_rates(const Layout& layout, const Eigen::VectorXd& widths, Eigen::VectorXd& x) {
-  const auto set = [&](std::size_t nodes_head, Eigen::Index stages, const auto& rate_head) {
-    const auto nodes = x.segment(static_cast<Eigen::Index>(nodes_head), widths.size() + 1);
-    const Eigen::VectorXd rates = (nodes.tail(widths.size()) - nodes.head(widths.size())).cwiseQuotient(widths);
-    for (Eigen::Index i = 0; i < stages; ++i) {
-      x.segment(static_cast<Eigen::Index>(rate_head(i)), widths.size()) = rates;
+void set_mean_rates(const ProgramBlocks& blocks, const Eigen::VectorXd& widths, Eigen::VectorXd& x) {
+  for (const UnknownBlock& rates : blocks.unknowns()) {
+    if (rates.kind != Quantity::second_rate && rates.kind != Quantity::first_order_rate) continue;
+    const UnknownBlock& states =
+        blocks.unknown(rates.kind == Quantity::second_rate ? Quantity::second : Quantity::first_order);
+    for (Eigen::Index i = 0; i < rates.width; ++i) {
+      const auto nodes = x.segment(states.index(i), widths.size() + 1);
+      x.segment(rates.index(i), widths.size()) =
+          (nodes.tail(widths.size()) - nodes.head(widths.size())).cwiseQuotient(widths);
     }
-  };
-  const LayoutShape& shape = layout.shape();
-  for (Eigen::Index c = 0; layout.node_state() != NodeState::configuration && c < shape.configuration_size; ++c) {
-    set(layout.second_head(c), layout.interior_stages(), [&](Eigen::Index i) { return layout.second_rate_head(i, c); });
-  }
-  for (Eigen::Index c = 0; c < shape.first_order_size; ++c) {
-    set(layout.first_order_head(c), layout.interior_first_order_stages(),
-        [&](Eigen::Index i) { return layout.first_order_rate_head(i, c); });
   }
 }
 
 /// Sets the cost and the integrals so far such that their equations hold.
 void add_up(Transcription& transcription, Eigen::VectorXd& x) {
-  const Layout& layout = transcription.layout();
-  const auto intervals = static_cast<Eigen::Index>(layout.intervals());
-  const auto sum_of = [&](Eigen::Index i) {
-    return x.segment(static_cast<Eigen::Index>(layout.sum_head(i)), intervals + 1);
+  const ProgramBlocks& blocks = transcription.blocks();
+  const auto intervals = static_cast<Eigen::Index>(blocks.intervals());
+  const auto for_each_sum = [&](const auto& visit) {
+    for (const auto& [kind, equation] :
+         {std::pair(Quantity::cost, Equation::cost), std::pair(Quantity::integral, Equation::integral)}) {
+      const UnknownBlock& sums = blocks.unknown(kind);
+      for (Eigen::Index i = 0; i < sums.width; ++i) {
+        visit(x.segment(sums.index(i), intervals + 1), blocks.row(equation).index(i));
+      }
+    }
   };
-  for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) sum_of(i).setZero();
+  for_each_sum([](auto sum, Eigen::Index /*row*/) { sum.setZero(); });
   Eigen::VectorXd constraints(static_cast<Eigen::Index>(transcription.constraint_count()));
   transcription.constraints(x, constraints);  // z_{k+1} - z_k less the interval's part, with every z = 0
-  for (Eigen::Index i = 0; i < layout.shape().sums(); ++i) {
-    const auto row = static_cast<Eigen::Index>(layout.sum_row_head(i));
-    for (Eigen::Index k = 0; k < intervals; ++k) sum_of(i)[k + 1] = sum_of(i)[k] - constraints[row + k];
-  }
+  for_each_sum([&](auto sum, Eigen::Index row) {
+    for (Eigen::Index k = 0; k < intervals; ++k) sum[k + 1] = sum[k] - constraints[row + k];
+  });
 }
 
 /// The values at the stages of a tableau of the polynomials through a stage table of a trajectory.
@@ -218,20 +205,20 @@ Eigen::MatrixXd second_rates(const Problem& problem, NodeState node_state, const
 }  // namespace
 
 Eigen::VectorXd sample(Transcription& transcription, const Motion& motion) {
-  const Layout& layout = transcription.layout();
+  const ProgramBlocks& blocks = transcription.blocks();
   const Eigen::VectorXd& lower = transcription.variable_lower();
   const Eigen::VectorXd& upper = transcription.variable_upper();
   double horizon = transcription.guessed_horizon();
   if (transcription.has_free_horizon()) {
-    const auto place = static_cast<Eigen::Index>(layout.horizon());
+    const Eigen::Index place = blocks.unknown(Quantity::horizon).index();
     horizon = std::clamp(motion.horizon, lower[place], upper[place]);
   }
   const Trajectory tables = tables_of(transcription, motion, horizon);
   Eigen::VectorXd x = unknowns_of(transcription, tables, Eigen::MatrixXd::Zero(tables.stage_v.rows(), tables.q.cols()));
   x = x.cwiseMax(lower).cwiseMin(upper);
-  set_mean_rates(layout, horizon * transcription.grid().relative_widths(), x);
-  if (layout.shape().multipliers > 0) fit_forces(transcription, FittedForces::controls, x);
-  if (layout.shape().sums() > 0) add_up(transcription, x);
+  set_mean_rates(blocks, horizon * transcription.grid().relative_widths(), x);
+  if (transcription.functions().multipliers > 0) fit_forces(transcription, FittedForces::controls, x);
+  if (blocks.unknown(Quantity::cost).width + blocks.unknown(Quantity::integral).width > 0) add_up(transcription, x);
   return x.cwiseMax(lower).cwiseMin(upper);
 }
 
@@ -249,13 +236,13 @@ Motion guessed_motion(const Transcription& program) {
 
 Eigen::VectorXd embed(const Problem& problem, Transcription& transcription, const Trajectory& trajectory) {
   require_same_grid(transcription, trajectory);
-  const NodeState node_state = transcription.layout().node_state();
+  const NodeState node_state = transcription.node_state();
   Trajectory tables = trajectory;
   tables.stage_v = at_stages_of(transcription.functions().rates, trajectory, trajectory.stage_v);
   tables.stage_u = at_stages_of(transcription.functions().controls, trajectory, trajectory.stage_u);
   Eigen::VectorXd x = unknowns_of(transcription, tables, second_rates(problem, node_state, trajectory));
   // The forces of constraint, and stage rates, which contain them.
-  if (transcription.layout().shape().multipliers > 0) fit_forces(transcription, FittedForces::second_rates, x);
+  if (transcription.functions().multipliers > 0) fit_forces(transcription, FittedForces::second_rates, x);
   return x;
 }
 

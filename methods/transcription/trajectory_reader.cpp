@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/transcription/bound_prices.hpp"
+#include "methods/transcription/bound_multipliers.hpp"
 #include "methods/transcription/costates.hpp"
 #include "methods/transcription/motions/velocities_of_momenta.hpp"
 
@@ -46,22 +46,21 @@ void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Tr
   }
 }
 
-void read_integrals(const Layout& layout, const Eigen::VectorXd& primal, Trajectory& trajectory) {
-  trajectory.integrals.resize(layout.shape().integrals);
-  for (Eigen::Index i = 0; i < trajectory.integrals.size(); ++i) {
-    trajectory.integrals[i] = primal[static_cast<Eigen::Index>(layout.integral_head(i) + layout.intervals())];
-  }
+/// The series of a block, a column per component.
+Eigen::MatrixXd table_of(const UnknownBlock& block, const Eigen::VectorXd& primal, Eigen::Index length) {
+  Eigen::MatrixXd table(length, block.width);
+  for (Eigen::Index i = 0; i < block.width; ++i) table.col(i) = primal.segment(block.index(i), length);
+  return table;
 }
 
 /// z_N = Σ h Σ b_i c is worth the multiplier of every row z_{k+1} - z_k - h Σ b_i c.
-void read_prices(const Transcription& transcription, const Eigen::VectorXd& multipliers, Trajectory& trajectory) {
-  const Layout& layout = transcription.layout();
-  const Eigen::Index sums = layout.shape().sums();
-  trajectory.integral_prices.resize(layout.shape().integrals);
-  for (Eigen::Index i = 0; i < trajectory.integral_prices.size(); ++i) {
-    const std::size_t head = layout.sum_row_head(sums - layout.shape().integrals + i);
-    trajectory.integral_prices[i] = multipliers[static_cast<Eigen::Index>(head)] / transcription.cost_scale();
+Eigen::VectorXd read_prices(const Transcription& transcription, const Eigen::VectorXd& multipliers) {
+  const RowBlock& rows = transcription.blocks().row(Equation::integral);
+  Eigen::VectorXd prices(rows.width);
+  for (Eigen::Index i = 0; i < prices.size(); ++i) {
+    prices[i] = multipliers[rows.index(i)] / transcription.cost_scale();
   }
+  return prices;
 }
 
 }  // namespace
@@ -71,24 +70,17 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   if (static_cast<std::size_t>(primal.size()) != transcription.variable_count()) {
     throw Error(fmt::format("a trajectory needs {} variables, got {}", transcription.variable_count(), primal.size()));
   }
-  const Layout& layout = transcription.layout();
+  const ProgramBlocks& blocks = transcription.blocks();
   const Eigen::Index n = transcription.traced_problem().configuration_size();
   Trajectory trajectory;
   trajectory.tableau = transcription.tableau();
   trajectory.node_times = transcription.node_times(primal);
-  trajectory.q.resize(trajectory.node_times.size(), n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    trajectory.q.col(i) =
-        primal.segment(static_cast<Eigen::Index>(layout.configuration_head(i)), trajectory.node_times.size());
-  }
-  trajectory.y.resize(trajectory.node_times.size(), layout.shape().first_order_size);
-  for (Eigen::Index i = 0; i < trajectory.y.cols(); ++i) {
-    trajectory.y.col(i) =
-        primal.segment(static_cast<Eigen::Index>(layout.first_order_head(i)), trajectory.node_times.size());
-  }
+  const Eigen::Index nodes = trajectory.node_times.size();
+  trajectory.q = table_of(blocks.unknown(Quantity::configuration), primal, nodes);
+  trajectory.y = table_of(blocks.unknown(Quantity::first_order), primal, nodes);
+  trajectory.integrals = table_of(blocks.unknown(Quantity::integral), primal, nodes).bottomRows(1).transpose();
   trajectory.unknowns = transcription.unknown_parameters(primal);
   transcription.set_unknown_parameters(trajectory.unknowns);
-  read_integrals(layout, primal, trajectory);
   trajectory.p = read_momenta(transcription, primal, n);
   read_stages(transcription, primal, trajectory);
   const Eigen::MatrixXd raw_momenta = trajectory.p;
@@ -102,8 +94,8 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
     trajectory.psi_q = std::move(psi.psi_q);
     trajectory.psi_p = std::move(psi.psi_p);
     trajectory.psi_y = std::move(psi.psi_y);
-    read_prices(transcription, multipliers, trajectory);
-    trajectory.prices = bound_prices(transcription, primal, multipliers);
+    trajectory.integral_prices = read_prices(transcription, multipliers);
+    trajectory.prices = bound_multipliers(transcription, primal, multipliers);
     const IntervalFunctions& functions = transcription.functions();
     const bool has_stages = functions.has_stage_unknowns && functions.rates.has_times_of(trajectory.tableau) &&
                             functions.controls.has_times_of(trajectory.tableau);

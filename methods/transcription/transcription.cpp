@@ -26,45 +26,6 @@ std::vector<double> interior_times(const ProblemBounds& bounds) {
   return times;
 }
 
-bool fixes_any(const Bounds& bounds) { return (bounds.lower.array() == bounds.upper.array()).any(); }
-
-LayoutShape layout_shape(const Grid& grid, const TracedProblem& traced, const Tableau& tableau, const EndRules& ends,
-                         const IntervalFunctions& functions, const ProblemBounds& bounds) {
-  std::vector<std::size_t> velocities;
-  bool has_equations = false;
-  for (const InteriorBounds& at : bounds.interior) {
-    const bool has_velocity = at.v.any() && ends.node_state != NodeState::velocity;
-    if (has_velocity) velocities.push_back(static_cast<std::size_t>(grid.node_at(at.relative_time)));
-    has_equations = has_equations || has_velocity || fixes_any(at.q) || fixes_any(at.v) || fixes_any(at.y);
-  }
-  return {.intervals = grid.intervals(),
-          .configuration_size = traced.configuration_size(),
-          .control_size = traced.control_size(),
-          .node_state = ends.node_state,
-          .stages = tableau.stages(),
-          .rate_stages = functions.rates.stages(),
-          .control_stages = functions.controls.stages(),
-          .shares_controls = functions.controls.shares_controls,
-          .has_stage_unknowns = functions.has_stage_unknowns,
-          .node_rows = functions.node_rows,
-          .stage_equations = functions.stage_equations,
-          .path_rows = functions.path_rows,
-          .mayer = ends.mayer,
-          .first_has_velocity = ends.first_has_velocity(),
-          .last_has_velocity = ends.last_has_velocity(),
-          .free_horizon = ends.free_horizon,
-          .conditions = traced.boundary_condition_count(),
-          .interior_velocities = std::move(velocities),
-          .has_interior_equations = has_equations,
-          .first_order_size = traced.first_order_size(),
-          .integrals = traced.integral_count(),
-          .multipliers = functions.multipliers,
-          .last_multipliers = ends.last_multipliers(),
-          .first_holonomic = ends.first_holonomic(),
-          .last_holonomic = ends.last_holonomic(),
-          .unknown_parameters = traced.unknown_count()};
-}
-
 /// Equalities along the motion take a control each, at every stage. Intervals with stages at their nodes have one of a
 /// node both, which only controls of their own distinguish.
 void require_equalities_fit(const Problem& problem, const TracedProblem& traced, const Tableau& tableau,
@@ -146,16 +107,18 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       end_rules_(end_rules(problem, traced_, element.node_state(), form == CostForm::mayer)),
       functions_(trace_interval(traced_, element, tableau_, interval_rules())),
       end_functions_(trace_ends(problem, traced_, end_rules_)),
-      layout_(layout_shape(grid_, traced_, tableau_, end_rules_, functions_, problem_bounds_)),
-      bounds_(program_bounds(problem, traced_, problem_bounds_, guessed_horizon_, end_rules_, layout_, grid_)),
+      blocks_(grid_, traced_, tableau_, end_rules_, functions_, problem_bounds_),
+      horizon_place_(blocks_.unknown(Quantity::horizon).index()),
+      bounds_(program_bounds(problem, traced_, problem_bounds_, guessed_horizon_, end_rules_, blocks_, grid_)),
       magnitudes_(check_guess(problem, traced_, grid_,
                               element.node_state() != NodeState::configuration || tableau_.stages() > 1)),
-      rounding_floors_(rounding_floors_of(magnitudes_, guessed_horizon_ * grid_.relative_widths(), layout_)),
+      rounding_floors_(
+          rounding_floors_of(magnitudes_, guessed_horizon_ * grid_.relative_widths(), blocks_.structure())),
       step_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid_.relative_widths()),
       time_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid_.relative_times()),
       jacobian_pattern_(assemble_pattern(
-          jacobian_entries(functions_, layout_.row_places(), layout_.unknown_places(), grid.intervals()))),
-      hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
+          jacobian_entries(functions_, blocks_.row_places(), blocks_.unknown_places(), grid.intervals()))),
+      hessian_pattern_(assemble_pattern(hessian_entries(functions_, blocks_.unknown_places(), grid.intervals()))) {
   require_equalities_fit(problem, traced_, tableau_, functions_.controls, problem_bounds_);
   require_enough_intervals(problem, element);
   if (!problem_bounds_.interior.empty()) traced_.require_no_constraints("a program with bounds between the ends");
@@ -163,21 +126,28 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
   std::vector<AddedPart> added;
   if (end_functions_) {
     added.push_back(
-        {&*end_functions_, layout_.end_unknown_places(), layout_.end_row_places(), &step_inputs_, &time_inputs_});
+        {&*end_functions_, blocks_.end_unknown_places(), blocks_.end_row_places(), &step_inputs_, &time_inputs_});
   }
-  const std::size_t velocities = layout_.shape().interior_velocities.size();
+  std::vector<const UnknownBlock*> velocities;
+  for (const UnknownBlock& block : blocks_.unknowns()) {
+    const bool is_between = block.node > 0 && block.node < blocks_.intervals();
+    if (block.kind == Quantity::velocity && is_between) velocities.push_back(&block);
+  }
   LocalFunctions tie;
-  if (velocities > 0) tie = trace_velocity_tie(traced_, element, tableau_, interval_rules());
-  tie_inputs_.assign(2 * velocities, Eigen::VectorXd(1));
+  if (!velocities.empty()) tie = trace_velocity_tie(traced_, element, tableau_, interval_rules());
+  tie_inputs_.reserve(velocities.size());
+  for (const UnknownBlock* velocity : velocities) {
+    TieInputs& inputs = tie_inputs_.emplace_back(TieInputs{.interval = static_cast<Eigen::Index>(velocity->node) - 1});
+    added.push_back(tie_of(tie, *velocity, inputs));
+  }
   set_tie_inputs();
-  for (std::size_t j = 0; j < velocities; ++j) added.push_back(tie_of(tie, j));
   // Added parts extend the patterns, which must be complete before the arrays of the intervals are allocated.
   for (AddedPart& part : added) {
     part.jacobian =
         extend_pattern(jacobian_pattern_.pattern, jacobian_entries(*part.functions, part.rows, part.unknowns, 1));
     part.hessian = extend_pattern(hessian_pattern_.pattern, hessian_entries(*part.functions, part.unknowns, 1));
   }
-  add_part({&functions_, layout_.unknown_places(), layout_.row_places(), &step_inputs_, &time_inputs_,
+  add_part({&functions_, blocks_.unknown_places(), blocks_.row_places(), &step_inputs_, &time_inputs_,
             jacobian_pattern_.places, hessian_pattern_.places},
            derivatives);
   for (const AddedPart& part : added) add_part(part, derivatives);
@@ -190,35 +160,34 @@ IntervalRules Transcription::interval_rules() const {
           .bounded_velocities = problem_bounds_.bounded_velocities()};
 }
 
-Transcription::AddedPart Transcription::tie_of(const LocalFunctions& functions, std::size_t j) {
-  const std::size_t before = layout_.shape().interior_velocities[j] - 1;
-  AddedPart part{&functions, {}, {}, &tie_inputs_[2 * j], &tie_inputs_[2 * j + 1]};
-  for (const SeriesPlace& place : layout_.unknown_places()) part.unknowns.emplace_back(place.at(before));
-  for (Eigen::Index i = 0; i < traced_.configuration_size(); ++i) {
-    part.unknowns.emplace_back(layout_.interior_velocity(static_cast<Eigen::Index>(j), i));
-    part.rows.emplace_back(layout_.interior_tie(static_cast<Eigen::Index>(j), i));
+Transcription::AddedPart Transcription::tie_of(const LocalFunctions& functions, const UnknownBlock& velocity,
+                                               const TieInputs& inputs) const {
+  const RowBlock& rows = blocks_.row_at(Equation::momentum, velocity.node);
+  AddedPart part{&functions, {}, {}, &inputs.step, &inputs.time};
+  for (const SeriesPlace& place : blocks_.unknown_places()) part.unknowns.emplace_back(place.at(velocity.node - 1));
+  for (Eigen::Index i = 0; i < velocity.width; ++i) {
+    part.unknowns.emplace_back(velocity.at(i));
+    part.rows.emplace_back(rows.at(i));
   }
   return part;
 }
 
 void Transcription::set_tie_inputs() {
-  const std::vector<std::size_t>& nodes = layout_.shape().interior_velocities;
-  for (std::size_t j = 0; j < nodes.size(); ++j) {
-    const auto before = static_cast<Eigen::Index>(nodes[j]) - 1;
-    tie_inputs_[2 * j][0] = step_inputs_[before];
-    tie_inputs_[2 * j + 1][0] = time_inputs_[before];
+  for (TieInputs& tie : tie_inputs_) {
+    tie.step[0] = step_inputs_[tie.interval];
+    tie.time[0] = time_inputs_[tie.interval];
   }
 }
 
 void Transcription::add_part(const AddedPart& part, std::string_view derivatives) {
   const bool is_added = !parts_.empty();
-  const ProgramArrays arrays{.variables = layout_.variable_count(),
-                             .constraints = layout_.constraint_count(),
+  const ProgramArrays arrays{.variables = blocks_.variable_count(),
+                             .constraints = blocks_.constraint_count(),
                              .jacobian = jacobian_pattern_.pattern.size(),
                              .hessian = hessian_pattern_.pattern.size()};
   PartPlaces places =
       part_places(*part.functions, part.unknowns, part.rows, part.jacobian, part.hessian, arrays,
-                  is_added ? 1 : layout_.intervals(), is_added ? AssemblyMode::part : AssemblyMode::whole);
+                  is_added ? 1 : blocks_.intervals(), is_added ? AssemblyMode::part : AssemblyMode::whole);
   parts_.push_back(std::make_unique<ProgramPart>(*part.functions, std::move(places), *part.steps, *part.times,
                                                  traced_.open_values(), derivatives));
 }
@@ -227,50 +196,45 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
   // The number of free variables minus the number of equations on a given number of intervals.
   const auto fixed = static_cast<long long>(variable_count()) - static_cast<long long>(free_variable_count(*this));
   const long long fixed_in_interval = fixed_variables_of_an_interval();
-  const auto surplus = [&](std::size_t intervals) {
-    LayoutShape shape = layout_.shape();
-    shape.intervals = intervals;
-    const Layout layout(shape);
-    const auto inequalities = static_cast<long long>(intervals) * inequalities_of_an_interval();
-    const auto more = static_cast<long long>(intervals) - static_cast<long long>(layout_.intervals());
-    return static_cast<long long>(layout.variable_count()) - fixed - more * fixed_in_interval -
-           (static_cast<long long>(layout.constraint_count()) - inequalities);
-  };
-  const std::size_t intervals = layout_.intervals();
-  if (surplus(intervals) >= 0) return;
-  const long long gain = surplus(intervals + 1) - surplus(intervals);
+  const std::size_t intervals = blocks_.intervals();
+  const long long inequalities = inequalities_of_an_interval();
+  const long long gain =
+      blocks_.unknowns_per_interval() - fixed_in_interval - (blocks_.rows_per_interval() - inequalities);
+  const long long surplus =
+      static_cast<long long>(variable_count()) - fixed -
+      (static_cast<long long>(constraint_count()) - static_cast<long long>(intervals) * inequalities);
+  if (surplus >= 0) return;
   if (gain <= 0) {
     throw Error(
         fmt::format("{} has no control that is free: no number of intervals lets it meet both ends", problem.name()));
   }
-  std::size_t smallest = intervals;
-  while (surplus(smallest) < 0) ++smallest;
+  const auto smallest = static_cast<long long>(intervals) + (-surplus + gain - 1) / gain;
   throw Error(fmt::format("{} with {} has fewer free variables than equations on {} intervals; it needs at least {}",
                           problem.name(), element.name(), intervals, smallest));
 }
 
 long long Transcription::inequalities_of_an_interval() const {
   long long count = 0;
-  for (Eigen::Index i = 0; i < layout_.shape().path_rows; ++i) {
-    const auto row = static_cast<Eigen::Index>(layout_.interval_row_head(layout_.shape().stage_equations + i));
-    if (!bounds_.constraints.is_fixed(row)) ++count;
+  for (const RowBlock& block : blocks_.rows()) {
+    if (block.support != Support::intervals) continue;
+    for (Eigen::Index i = 0; i < block.width; ++i) count += bounds_.constraints.is_fixed(block.index(i)) ? 0 : 1;
   }
   return count;
 }
 
 long long Transcription::fixed_variables_of_an_interval() const {
-  return std::ranges::count_if(layout_.structure().unknowns.runs(), [&](const PlaceRun& run) {
+  return std::ranges::count_if(blocks_.structure().unknowns.runs(), [&](const PlaceRun& run) {
     return run.kind == Place::Kind::interval && is_fixed(*this, static_cast<Eigen::Index>(run.first));
   });
 }
 
 Eigen::VectorXd Transcription::unknown_parameters(const VectorIn& x) const {
-  const Eigen::Index count = layout_.shape().unknown_parameters;
-  return count == 0 ? Eigen::VectorXd() : x.segment(static_cast<Eigen::Index>(layout_.unknown_parameter(0)), count);
+  const UnknownBlock& block = blocks_.unknown(Quantity::parameter);
+  return x.segment(block.index(), block.width);
 }
 
 double Transcription::horizon(const VectorIn& x) const {
-  return has_free_horizon() ? x[static_cast<Eigen::Index>(layout_.horizon())] : guessed_horizon_;
+  return has_free_horizon() ? x[horizon_place_] : guessed_horizon_;
 }
 
 std::span<const Tape::Input> Transcription::bind(const VectorIn& x, const VectorIn& multipliers,
@@ -284,7 +248,7 @@ Eigen::MatrixXd Transcription::tabulate(const Schedule& schedule, const VectorIn
   Eigen::MatrixXd table(grid_.relative_widths().size(), static_cast<Eigen::Index>(tape.output_count()));
   std::vector<double*> outputs;
   for (auto column : table.colwise()) outputs.push_back(column.data());
-  tape.evaluate(layout_.intervals(), bind(x, multipliers, 1.0), outputs, workspace);
+  tape.evaluate(blocks_.intervals(), bind(x, multipliers, 1.0), outputs, workspace);
   return table;
 }
 
@@ -403,14 +367,14 @@ void Transcription::use(Values values) {
   require_same_velocities(*problem_, problem_bounds_, values.bounds);
   require_same_times(*problem_, problem_bounds_, values.bounds);
   require_readable_ends(values);
-  ProgramBounds bounds = program_bounds(*problem_, traced_, values.bounds, values.horizon, end_rules_, layout_, grid_);
+  ProgramBounds bounds = program_bounds(*problem_, traced_, values.bounds, values.horizon, end_rules_, blocks_, grid_);
   require_same_structure(*problem_, bounds_, bounds);
   // Nothing below throws, except std::bad_alloc.
   problem_bounds_ = std::move(values.bounds);
   bounds_ = std::move(bounds);
   if (values.horizon == guessed_horizon_) return;
   guessed_horizon_ = values.horizon;
-  rounding_floors_ = rounding_floors_of(magnitudes_, guessed_horizon_ * grid_.relative_widths(), layout_);
+  rounding_floors_ = rounding_floors_of(magnitudes_, guessed_horizon_ * grid_.relative_widths(), blocks_.structure());
   if (end_rules_.free_horizon) return;
   step_inputs_ = guessed_horizon_ * grid_.relative_widths();
   time_inputs_ = guessed_horizon_ * grid_.relative_times();

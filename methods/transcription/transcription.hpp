@@ -13,13 +13,13 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/transcription/blocks.hpp"
 #include "methods/transcription/derivatives/assembled_pattern.hpp"
 #include "methods/transcription/derivatives/program_part.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/tableau.hpp"
 #include "methods/transcription/end_functions.hpp"
 #include "methods/transcription/interval_functions.hpp"
-#include "methods/transcription/layout.hpp"
 #include "methods/transcription/motions/grid.hpp"
 #include "methods/transcription/motions/guess_check.hpp"
 #include "methods/transcription/program_bounds.hpp"
@@ -95,8 +95,8 @@ class Transcription final : public NonlinearProgram {
   /// The transcribed problem.
   [[nodiscard]] const Problem& problem() const noexcept { return *problem_; }
 
-  [[nodiscard]] std::size_t variable_count() const override { return layout_.variable_count(); }
-  [[nodiscard]] std::size_t constraint_count() const override { return layout_.constraint_count(); }
+  [[nodiscard]] std::size_t variable_count() const override { return blocks_.variable_count(); }
+  [[nodiscard]] std::size_t constraint_count() const override { return blocks_.constraint_count(); }
   [[nodiscard]] const Eigen::VectorXd& variable_lower() const override { return bounds_.variables.lower; }
   [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return bounds_.variables.upper; }
   [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return bounds_.constraints.lower; }
@@ -114,10 +114,12 @@ class Transcription final : public NonlinearProgram {
   /// variable's interval, at a node the smaller one of both sides. Rows of the border have the smallest floor, its
   /// variables the largest. No floor is above 1e-6 of max|q| max|L_vv| / T, because no interval is as narrow (`Grid`).
   [[nodiscard]] const RoundingFloors& rounding_floors() const override { return rounding_floors_; }
-  [[nodiscard]] const IntervalStructure* interval_structure() const override { return &layout_.structure(); }
+  [[nodiscard]] const IntervalStructure* interval_structure() const override { return &blocks_.structure(); }
 
-  /// How unknowns and rows are numbered.
-  [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
+  /// How unknowns and rows are numbered and called.
+  [[nodiscard]] const ProgramBlocks& blocks() const noexcept { return blocks_; }
+  /// The second part of the nodes' states.
+  [[nodiscard]] NodeState node_state() const noexcept { return end_rules_.node_state; }
   /// (A, b, c).
   [[nodiscard]] const Tableau& tableau() const noexcept { return tableau_; }
   /// Relative node times: the constructor's, moved to the times of `ProblemBounds::interior`.
@@ -191,8 +193,15 @@ class Transcription final : public NonlinearProgram {
   };
   /// The intervals at the first call, added parts at others; the patterns must be complete.
   void add_part(const AddedPart& part, std::string_view derivatives);
-  /// The places of the tie of the velocity of a node between the ends, the j-th that has one.
-  [[nodiscard]] AddedPart tie_of(const LocalFunctions& functions, std::size_t j);
+  /// Step and time of the interval before a node whose velocity is an unknown of its own.
+  struct TieInputs {
+    Eigen::Index interval = 0;
+    Eigen::VectorXd step = Eigen::VectorXd(1);
+    Eigen::VectorXd time = Eigen::VectorXd(1);
+  };
+  /// The part that ties the velocity of a node between the ends.
+  [[nodiscard]] AddedPart tie_of(const LocalFunctions& functions, const UnknownBlock& velocity,
+                                 const TieInputs& inputs) const;
   void set_tie_inputs();
 
   const Problem* problem_;
@@ -206,7 +215,8 @@ class Transcription final : public NonlinearProgram {
   EndRules end_rules_;
   IntervalFunctions functions_;
   std::optional<EndFunctions> end_functions_;
-  Layout layout_;
+  ProgramBlocks blocks_;
+  Eigen::Index horizon_place_;  // of T, where that is an unknown
   ProgramBounds bounds_;
   GuessMagnitudes magnitudes_;
   RoundingFloors rounding_floors_;
@@ -214,7 +224,7 @@ class Transcription final : public NonlinearProgram {
   Eigen::VectorXd time_inputs_;
   AssembledPattern jacobian_pattern_;
   AssembledPattern hessian_pattern_;
-  std::vector<Eigen::VectorXd> tie_inputs_;          // step and time of the intervals before interior velocities
+  std::vector<TieInputs> tie_inputs_;
   std::vector<std::unique_ptr<ProgramPart>> parts_;  // the intervals; the ends, unless they add nothing; ties
 };
 

@@ -91,7 +91,7 @@ TEST(Settle, ConfirmsCostAndStateWhereAControlAloneIsNotDetermined) {
   for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     tests::Solved solved = solved_tightly(problem, method, 16);
-    const auto idle = static_cast<Eigen::Index>(solved.transcription->layout().control_head(0, 1));
+    const auto idle = solved.transcription->blocks().unknown(Quantity::control, 0).index(1);
     Solution wrong = solved.solution;
     wrong.primal[idle + 3] = 0.5;
     confirm(*solved.transcription, 1e-10, wrong);

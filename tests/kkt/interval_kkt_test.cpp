@@ -60,7 +60,7 @@ bool expect_agreement(const Problem& problem, const tests::Scheme& scheme, int i
   Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(intervals), "tape",
                         form);
   auto made = IntervalKkt::make(program);
-  if (program.layout().shape().has_interior_equations) {
+  if (program.interval_structure()->has_interior_equations) {
     EXPECT_FALSE(made.has_value());  // the systems of such nodes differ from all others
     return false;
   }

@@ -118,8 +118,8 @@ void mutable_construct_transcription(Transcription* self, const Problem& problem
   for (const Eigen::VectorXd* bounds : {&self->constraint_lower(), &self->constraint_upper()}) {
     auto& rows = const_cast<Eigen::VectorXd&>(*bounds);  // NOLINT: nobody asked the class for a hook
     for (Eigen::Index i = 0; i < problem.configuration_size(); ++i) {
-      const auto head = static_cast<Eigen::Index>(self->layout().node_row_head(i));
-      double& last = rows[head + static_cast<Eigen::Index>(self->layout().intervals())];
+      const auto head = self->blocks().row(Equation::euler_lagrange).index(i);
+      double& last = rows[head + static_cast<Eigen::Index>(self->blocks().intervals())];
       rows[head] = -std::exchange(last, -rows[head]);
     }
   }

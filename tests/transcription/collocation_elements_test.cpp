@@ -78,23 +78,26 @@ class CollocationRows : public testing::TestWithParam<std::string> {
   /// Calls visitor(k, i, Q_i, Q̇_i, Y_i, Ẏ_i, U_i) with Y = P or V.
   template <class Visitor>
   void visit(const Eigen::MatrixXd& a_second, const Visitor& visitor) const {
-    const Layout& layout = program_->layout();
+    const ProgramBlocks& blocks = program_->blocks();
     for (Eigen::Index k = 0; k < intervals; ++k) {
       const double h = program_->step_inputs()[k];
       const auto q = [&](Eigen::Index node) {
-        return at(layout.configuration_head(0), layout.configuration_head(1), node);
+        return at(blocks.unknown(Quantity::configuration).at(0), blocks.unknown(Quantity::configuration).at(1), node);
       };
-      const auto y = [&](Eigen::Index node) { return at(layout.second_head(0), layout.second_head(1), node); };
-      const auto q_slopes = slopes(
-          q(k), q(k + 1), h, [&](Eigen::Index j) { return at(layout.rate_head(j, 0), layout.rate_head(j, 1), k); });
+      const auto y = [&](Eigen::Index node) {
+        return at(blocks.unknown(Quantity::second).at(0), blocks.unknown(Quantity::second).at(1), node);
+      };
+      const auto q_slopes = slopes(q(k), q(k + 1), h, [&](Eigen::Index j) {
+        return at(blocks.unknown(Quantity::rate, j).at(0), blocks.unknown(Quantity::rate, j).at(1), k);
+      });
       const auto y_slopes = slopes(y(k), y(k + 1), h, [&](Eigen::Index j) {
-        return at(layout.second_rate_head(j, 0), layout.second_rate_head(j, 1), k);
+        return at(blocks.unknown(Quantity::second_rate, j).at(0), blocks.unknown(Quantity::second_rate, j).at(1), k);
       });
       for (Eigen::Index i = 0; i < tableau_.stages(); ++i) {
         const auto stage_number = static_cast<std::size_t>(i);
         visitor(k, i, stage(q(k), h, i, tableau_.a, q_slopes), q_slopes[stage_number],
                 stage(y(k), h, i, a_second, y_slopes), y_slopes[stage_number],
-                at(layout.control_head(i, 0), layout.control_head(i, 1), k));
+                at(blocks.unknown(Quantity::control, i).at(0), blocks.unknown(Quantity::control, i).at(1), k));
       }
     }
   }

@@ -20,16 +20,13 @@ Eigen::VectorXd entries_at(const Eigen::VectorXd& vector, Eigen::Index count, Ei
 }
 
 /// The unknowns of DMOC among those of Hamiltonian collocation: q, interior Q̇ and U.
-Eigen::VectorXd without_momenta(const Layout& from, const Layout& to, const Eigen::VectorXd& x) {
-  const Eigen::Index n = to.shape().configuration_size;
-  const auto at = [](std::size_t head) { return static_cast<Eigen::Index>(head); };
-  Eigen::VectorXd result(at(to.variable_count()));
-  const auto copy = [&](std::size_t source, std::size_t target, std::size_t end) {
-    result.segment(at(target), at(end) - at(target)) = x.segment(at(source), at(end) - at(target));
-  };
-  copy(from.configuration_head(0), to.configuration_head(0), to.configuration_head(n));
-  copy(from.rate_head(0, 0), to.rate_head(0, 0), to.rate_head(to.interior_stages(), 0));
-  copy(from.control_head(0, 0), to.control_head(0, 0), to.variable_count());
+Eigen::VectorXd without_momenta(const ProgramBlocks& from, const ProgramBlocks& to, const Eigen::VectorXd& x) {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(to.variable_count()));
+  for (const UnknownBlock& target : to.unknowns()) {
+    const UnknownBlock& source = from.unknown(target.kind, target.stage);
+    const Eigen::Index size = target.width * static_cast<Eigen::Index>(target.length);
+    result.segment(target.index(), size) = x.segment(source.index(), size);
+  }
   return result;
 }
 
@@ -40,7 +37,7 @@ Eigen::VectorXd without_momenta(const Layout& from, const Layout& to, const Eige
 class CombinedRows {
  public:
   CombinedRows(Transcription& hamiltonian, const Eigen::VectorXd& x)
-      : tableau_(hamiltonian.tableau()), layout_(hamiltonian.layout()), steps_(hamiltonian.steps(x)) {
+      : tableau_(hamiltonian.tableau()), blocks_(hamiltonian.blocks()), steps_(hamiltonian.steps(x)) {
     rows_.resize(static_cast<Eigen::Index>(hamiltonian.constraint_count()));
     hamiltonian.constraints(x, rows_);
   }
@@ -58,19 +55,21 @@ class CombinedRows {
 
  private:
   [[nodiscard]] Eigen::Index last() const { return tableau_.stages() - 1; }
-  [[nodiscard]] Eigen::VectorXd row(Eigen::Index k, Eigen::Index number) const {
-    const Eigen::Index n = layout_.shape().configuration_size;
-    return entries_at(rows_, n, k, [&](Eigen::Index i) { return layout_.interval_row_head(number * n + i); });
+  [[nodiscard]] Eigen::VectorXd row(Equation kind, Eigen::Index k, Eigen::Index stage) const {
+    const RowBlock& block = blocks_.row(kind, stage);
+    return entries_at(rows_, block.width, k, [&](Eigen::Index i) { return block.at(i); });
   }
-  [[nodiscard]] Eigen::VectorXd momentum_row(Eigen::Index k, Eigen::Index stage) const { return row(k, 2 * stage); }
+  [[nodiscard]] Eigen::VectorXd momentum_row(Eigen::Index k, Eigen::Index stage) const {
+    return row(Equation::momentum, k, stage);
+  }
   [[nodiscard]] Eigen::VectorXd force_rows(Eigen::Index k, const Eigen::RowVectorXd& weights) const {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(layout_.shape().configuration_size);
-    for (Eigen::Index i = 0; i < weights.size(); ++i) sum += weights[i] * row(k, 2 * i + 1);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(blocks_.unknown(Quantity::configuration).width);
+    for (Eigen::Index i = 0; i < weights.size(); ++i) sum += weights[i] * row(Equation::euler_lagrange, k, i);
     return steps_[k] * sum;
   }
 
   const Tableau& tableau_;
-  const Layout& layout_;
+  const ProgramBlocks& blocks_;
   Eigen::VectorXd steps_;
   Eigen::VectorXd rows_;
 };
@@ -81,29 +80,30 @@ void expect_dmocs_rows(const Problem& problem, const std::string& family, int st
   const Grid grid = tests::graded_grid(intervals);
   const auto dmoc = tests::transcribe(problem, {"dmoc", stages, family}, grid);
   const auto hamiltonian = tests::transcribe(problem, {"hamiltonian", stages, family}, grid);
-  const Layout& layout = dmoc->layout();
+  const ProgramBlocks& blocks = dmoc->blocks();
   const Eigen::Index n = problem.configuration_size();
   tests::RandomPoints random;
   for (int point = 0; point < 20; ++point) {
     const Eigen::VectorXd x = random.vector(static_cast<Eigen::Index>(hamiltonian->variable_count()), 0.5, 1.5);
     Eigen::VectorXd rows(static_cast<Eigen::Index>(dmoc->constraint_count()));
-    dmoc->constraints(without_momenta(hamiltonian->layout(), layout, x), rows);
+    dmoc->constraints(without_momenta(hamiltonian->blocks(), blocks, x), rows);
     const CombinedRows combined(*hamiltonian, x);
     const auto momentum = [&](Eigen::Index k) {
-      return entries_at(x, n, k, [&](Eigen::Index i) { return hamiltonian->layout().second_head(i); });
+      return entries_at(x, n, k, [&](Eigen::Index i) { return hamiltonian->blocks().unknown(Quantity::second).at(i); });
     };
     const double rounding = 1e-12 * rows.lpNorm<Eigen::Infinity>();
     for (Eigen::Index k = 0; k <= intervals; ++k) {
       Eigen::VectorXd expected = Eigen::VectorXd::Zero(n);
       if (k < intervals) expected += combined.left(k) - momentum(k);
       if (k > 0) expected += combined.right(k - 1) + momentum(k);
-      const Eigen::VectorXd found = entries_at(rows, n, k, [&](Eigen::Index i) { return layout.node_row_head(i); });
+      const Eigen::VectorXd found =
+          entries_at(rows, n, k, [&](Eigen::Index i) { return blocks.row(Equation::euler_lagrange).at(i); });
       EXPECT_LT((found - expected).lpNorm<Eigen::Infinity>(), rounding);
     }
     for (Eigen::Index k = 0; k < intervals; ++k) {
       for (Eigen::Index j = 0; j + 1 < stages; ++j) {
         const Eigen::VectorXd found =
-            entries_at(rows, n, k, [&](Eigen::Index i) { return layout.interval_row_head(j * n + i); });
+            entries_at(rows, n, k, [&](Eigen::Index i) { return blocks.row(Equation::euler_lagrange, j).at(i); });
         EXPECT_LT((found - combined.stage_equation(k, j)).lpNorm<Eigen::Infinity>(), rounding);
       }
     }

@@ -111,7 +111,7 @@ TEST_P(CostatesOf, InnerNodesAreTheSameSeenFromTheLeftAndFromTheRight) {
   // own gradient and Jacobian split by interval, by solving the same problem cut at node k.
   Transcription& program = *solved_.transcription;
   const Eigen::Index n = program.traced_problem().configuration_size();
-  const bool second = program.layout().node_state() != NodeState::configuration;
+  const bool second = program.node_state() != NodeState::configuration;
   const Eigen::Index size = second ? 2 * n : n;
   const Eigen::MatrixXd sides = [&] {
     const Tape tape(program.functions().adjoint);

@@ -32,7 +32,7 @@ struct Ended {
   }
   std::string words() { return describe_violation(problem, *transcription, solution, 1e-8); }
   double& control(Eigen::Index i, Eigen::Index interval) {
-    return solution.primal[static_cast<Eigen::Index>(transcription->layout().control_head(0, i)) + interval];
+    return solution.primal[transcription->blocks().unknown(Quantity::control, 0).index(i) + interval];
   }
 
   const Problem& problem;
@@ -178,7 +178,7 @@ TEST_P(ViolationInWords, NamesALagrangianThatIsNotANumberWhereverASolveEnds) {
   for (const Status status : {Status::iteration_limit, Status::step_failed, Status::infeasible, Status::diverged}) {
     Ended ended(problem, GetParam(), status);
     EXPECT_FALSE(says(ended.words(), "not a number")) << ended.words();
-    const auto q = static_cast<Eigen::Index>(ended.transcription->layout().configuration_head(0));
+    const auto q = ended.transcription->blocks().unknown(Quantity::configuration).index(0);
     ended.solution.primal.segment(q + 4, 3).setConstant(-2.0);
     EXPECT_PRED2(says, ended.words(), "At its last point lagrangian is not a number in interval ");
     EXPECT_PRED2(says, ended.words(), "The largest violation is ");
@@ -248,8 +248,7 @@ TEST_P(ViolationInWords, NamesAConditionWhoseDerivativesVanishWhereTheSolveEnded
   });
   Ended ended(conditioned, GetParam(), Status::step_failed);
   EXPECT_FALSE(says(ended.words(), "rank deficient")) << ended.words();  // the guess ends at pi
-  ended.solution
-      .primal[static_cast<Eigen::Index>(ended.transcription->layout().configuration_head(0)) + violation_intervals] =
+  ended.solution.primal[ended.transcription->blocks().unknown(Quantity::configuration).index(0) + violation_intervals] =
       1.0;
   EXPECT_PRED2(says, ended.words(), "boundary_conditions[0] is rank deficient: its derivatives vanish at node 12");
 }

@@ -85,11 +85,11 @@ class DiscretePrinciple {
  private:
   template <class Visitor>
   void visit(const LongVector& x, const Visitor& visitor) const {
-    const Layout& layout = program_.layout();
+    const ProgramBlocks& blocks = program_.blocks();
     const Tableau& tableau = program_.tableau();
     const Eigen::Index s = tableau.stages();
     const Eigen::Index m = program_.traced_problem().control_size();
-    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(layout.intervals()); ++k) {
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(blocks.intervals()); ++k) {
       const Long h = program_.step_inputs()[k];
       const auto read = [&](const auto& column, Eigen::Index size, Eigen::Index node) {
         LongVector entries(size);
@@ -98,13 +98,13 @@ class DiscretePrinciple {
         }
         return entries;
       };
-      const auto q_column = [&](Eigen::Index i) { return layout.configuration_head(i); };
+      const auto q_column = [&](Eigen::Index i) { return blocks.unknown(Quantity::configuration).at(i); };
       const LongVector left = read(q_column, n_, k);
       const LongVector right = read(q_column, n_, k + 1);
       std::vector<LongVector> slopes;
       LongVector last = (right - left) / h;
       for (Eigen::Index j = 0; j + 1 < s; ++j) {
-        slopes.push_back(read([&](Eigen::Index i) { return layout.rate_head(j, i); }, n_, k));
+        slopes.push_back(read([&](Eigen::Index i) { return blocks.unknown(Quantity::rate, j).at(i); }, n_, k));
         last -= Long(tableau.b[j]) * slopes.back();
       }
       slopes.emplace_back(last / Long(tableau.b[s - 1]));
@@ -113,7 +113,7 @@ class DiscretePrinciple {
         for (Eigen::Index j = 0; j < s; ++j) {
           q += h * Long(tableau.a(i, j)) * slopes[static_cast<std::size_t>(j)];
         }
-        const LongVector u = read([&](Eigen::Index c) { return layout.control_head(i, c); }, m, k);
+        const LongVector u = read([&](Eigen::Index c) { return blocks.unknown(Quantity::control, i).at(c); }, m, k);
         visitor(h * Long(tableau.b[i]), q, slopes[static_cast<std::size_t>(i)], u,
                 Long(program_.time_inputs()[k]) + Long(tableau.c[i]) * h);
       }
@@ -137,7 +137,7 @@ TEST(DmocElement, RowsAreTheVariationOfTheDiscreteActionPlusVirtualWork) {
     for (const int s : {1, 2, 3}) {
       SCOPED_TRACE(problem->name() + ", s = " + std::to_string(s));
       const auto program = tests::transcribe(*problem, {"dmoc", s}, tests::graded_grid(4));
-      const Layout& layout = program->layout();
+      const ProgramBlocks& blocks = program->blocks();
       const Eigen::VectorXd x = arbitrary_point(*problem, *program);
       Eigen::VectorXd rows(static_cast<Eigen::Index>(program->constraint_count()));
       program->constraints(x, rows);
@@ -153,20 +153,20 @@ TEST(DmocElement, RowsAreTheVariationOfTheDiscreteActionPlusVirtualWork) {
         const Long by_action = (4.0L * central(e / 2.0L) - central(e)) / 3.0L;
         return static_cast<double>(by_action + principle.work(at, direction));
       };
-      const auto intervals = layout.intervals();
+      const auto intervals = blocks.intervals();
       const auto n = static_cast<std::size_t>(problem->configuration_size());
       for (std::size_t i = 0; i < n; ++i) {
         const auto component = static_cast<Eigen::Index>(i);
         for (std::size_t k = 0; k <= intervals; ++k) {  // (DEL), boundary nodes included
-          const auto row = static_cast<Eigen::Index>(layout.node_row_head(component) + k);
-          EXPECT_NEAR(rows[row], variation(layout.configuration_head(component) + k), tolerance);
+          const auto row = static_cast<Eigen::Index>(blocks.row(Equation::euler_lagrange).at(component) + k);
+          EXPECT_NEAR(rows[row], variation(blocks.unknown(Quantity::configuration).at(component) + k), tolerance);
         }
         for (Eigen::Index j = 0; j + 1 < s; ++j) {
           for (std::size_t k = 0; k < intervals; ++k) {
             const double unit = program->steps(x)[static_cast<Eigen::Index>(k)] * program->tableau().b[j];
             const auto row =
-                static_cast<Eigen::Index>(layout.row_places()[2 * n + static_cast<std::size_t>(j) * n + i].at(k));
-            EXPECT_NEAR(rows[row], variation(layout.rate_head(j, component) + k) / unit, tolerance);
+                static_cast<Eigen::Index>(blocks.row_places()[2 * n + static_cast<std::size_t>(j) * n + i].at(k));
+            EXPECT_NEAR(rows[row], variation(blocks.unknown(Quantity::rate, j).at(component) + k) / unit, tolerance);
           }
         }
       }
@@ -192,11 +192,11 @@ class MidpointByHand : public testing::Test {
   }
   [[nodiscard]] Eigen::Vector2d node(Eigen::Index k) const { return {x_[entry(0, k)], x_[entry(1, k)]}; }
   [[nodiscard]] Ends interval(Eigen::Index k) const {
-    const auto column = static_cast<Eigen::Index>(program_->layout().control_head(0, 0));
+    const auto column = program_->blocks().unknown(Quantity::control, 0).index(0);
     return ends(node(k), node(k + 1), x_[column + k], program_->steps(x_)[k]);
   }
   [[nodiscard]] Eigen::Index entry(Eigen::Index i, Eigen::Index k) const {
-    return static_cast<Eigen::Index>(program_->layout().configuration_head(i)) + k;
+    return program_->blocks().unknown(Quantity::configuration).index(i) + k;
   }
 
   static constexpr Eigen::Index intervals = 6;

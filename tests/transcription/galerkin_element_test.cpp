@@ -103,7 +103,7 @@ TEST(GalerkinElement, ControlsAreTheirPolynomialAtTheQuadraturePoints) {
       for (Eigen::Index i = 0; i < controls.stages(); ++i) {
         const double t = times[k] + controls.c[i] * (times[k + 1] - times[k]);
         for (const Eigen::Index c : {0, 1}) {
-          x[static_cast<Eigen::Index>(program->layout().control_head(i, c)) + k] = power(t);
+          x[program->blocks().unknown(Quantity::control, i).index(c) + k] = power(t);
         }
       }
     }

@@ -42,17 +42,17 @@ Derivatives by_hyper_duals(const Transcription& program, const Eigen::VectorXd& 
                            const Eigen::VectorXd& multipliers) {
   const IntervalFunctions& functions = program.functions();
   const LocalInputs& numbers = functions.inputs;
-  const Layout& layout = program.layout();
+  const ProgramBlocks& blocks = program.blocks();
   Derivatives dense;
   dense.gradient.setZero(x.size());
   dense.rows.setZero(multipliers.size());
   dense.jacobian.setZero(multipliers.size(), x.size());
   dense.hessian.setZero(x.size(), x.size());
-  for (std::size_t k = 0; k < layout.intervals(); ++k) {
+  for (std::size_t k = 0; k < blocks.intervals(); ++k) {
     const auto interval = static_cast<Eigen::Index>(k);
-    const auto unknown = [&](std::size_t a) { return static_cast<Eigen::Index>(layout.unknown_places()[a].at(k)); };
+    const auto unknown = [&](std::size_t a) { return static_cast<Eigen::Index>(blocks.unknown_places()[a].at(k)); };
     const auto row = [&](std::size_t e) {
-      return static_cast<Eigen::Index>(layout.row_places()[functions.rows.places[e]].at(k));
+      return static_cast<Eigen::Index>(blocks.row_places()[functions.rows.places[e]].at(k));
     };
     std::vector<HyperDual> inputs(numbers.count());
     for (std::size_t a = 0; a < numbers.unknowns; ++a) inputs[a] = x[unknown(a)];

@@ -64,13 +64,13 @@ TEST_P(ShootingRows, AreTheRatesThatAnIntegrationByHandMisses) {
   const Eigen::VectorXd x = tests::RandomPoints(5).vector(size, 0.5, 1.5);
   Eigen::VectorXd rows(static_cast<Eigen::Index>(program.constraint_count()));
   program.constraints(x, rows);
-  const Layout& layout = program.layout();
+  const ProgramBlocks& blocks = program.blocks();
   const Eigen::Index n = problem->configuration_size();
   const auto node = [&](Eigen::Index k) {
     Eigen::VectorXd state(2 * n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      state[i] = x[static_cast<Eigen::Index>(layout.configuration_head(i)) + k];
-      state[n + i] = x[static_cast<Eigen::Index>(layout.second_head(i)) + k];
+      state[i] = x[blocks.unknown(Quantity::configuration).index(i) + k];
+      state[n + i] = x[blocks.unknown(Quantity::second).index(i) + k];
     }
     return state;
   };
@@ -80,13 +80,13 @@ TEST_P(ShootingRows, AreTheRatesThatAnIntegrationByHandMisses) {
     Eigen::MatrixXd controls(stages, problem->control_size());
     for (Eigen::Index s = 0; s < stages; ++s) {
       for (Eigen::Index i = 0; i < controls.cols(); ++i) {
-        controls(s, i) = x[static_cast<Eigen::Index>(layout.control_head(s, i)) + k];
+        controls(s, i) = x[blocks.unknown(Quantity::control, s).index(i) + k];
       }
     }
     const double h = times[k + 1] - times[k];
     const Eigen::VectorXd missed = (node(k + 1) - by_hand.across(node(k), controls, times[k], h, substeps)) / h;
     for (Eigen::Index i = 0; i < 2 * n; ++i) {
-      const double row = rows[static_cast<Eigen::Index>(layout.interval_row_head(i)) + k];
+      const double row = rows[blocks.row(i < n ? Equation::motion : Equation::second_motion).index(i % n) + k];
       EXPECT_NEAR(row, missed[i], 1e-12 * (1.0 + missed.lpNorm<Eigen::Infinity>() + 1.0 / h));
     }
   }

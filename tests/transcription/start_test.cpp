@@ -90,7 +90,7 @@ TEST(Sample, PutsVelocitiesMomentaAndControlsWhereTheLayoutSays) {
   LegendreTransform legendre{TracedProblem(problem)};
   for (const Scheme& scheme : tests::all_schemes()) {
     const auto program = tests::transcribe(problem, scheme, tests::graded_grid(4));
-    const Layout& layout = program->layout();
+    const ProgramBlocks& blocks = program->blocks();
     const Eigen::VectorXd x = sample(*program, motion);
     const auto entry = [&](std::size_t column, Eigen::Index k) { return x[static_cast<Eigen::Index>(column) + k]; };
     for (Eigen::Index k = 1; k < 4; ++k) {
@@ -98,20 +98,20 @@ TEST(Sample, PutsVelocitiesMomentaAndControlsWhereTheLayoutSays) {
       const MotionPoint node = at(t);
       const Eigen::VectorXd p = legendre.momentum(node.q, node.v, t);
       for (Eigen::Index i = 0; i < 2; ++i) {
-        EXPECT_EQ(entry(layout.configuration_head(i), k), node.q[i]);
+        EXPECT_EQ(entry(blocks.unknown(Quantity::configuration).at(i), k), node.q[i]);
         if (scheme.method == "hamiltonian") {
-          EXPECT_EQ(entry(layout.second_head(i), k), p[i]);
+          EXPECT_EQ(entry(blocks.unknown(Quantity::second).at(i), k), p[i]);
         }
         if (scheme.method == "tangent") {
-          EXPECT_EQ(entry(layout.second_head(i), k), node.v[i]);
+          EXPECT_EQ(entry(blocks.unknown(Quantity::second).at(i), k), node.v[i]);
         }
       }
       for (Eigen::Index j = 0; j < scheme.stages; ++j) {
         const MotionPoint stage = at(t + program->tableau().c[j] * program->steps(x)[k]);
         for (Eigen::Index i = 0; i < 2; ++i) {
-          EXPECT_EQ(entry(layout.control_head(j, i), k), stage.u[i]);
+          EXPECT_EQ(entry(blocks.unknown(Quantity::control, j).at(i), k), stage.u[i]);
           if (j + 1 < scheme.stages) {
-            EXPECT_EQ(entry(layout.rate_head(j, i), k), stage.v[i]);
+            EXPECT_EQ(entry(blocks.unknown(Quantity::rate, j).at(i), k), stage.v[i]);
           }
         }
       }

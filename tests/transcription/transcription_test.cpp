@@ -28,7 +28,7 @@ class IntervalByInterval {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(whole_.constraint_count()));
     const LocalVector& local = whole_.functions().rows;
     visit(local.schedule, [&](std::size_t k, std::size_t e, double value) {
-      sum[static_cast<Eigen::Index>(whole_.layout().row_places()[local.places[e]].at(k))] += value;
+      sum[static_cast<Eigen::Index>(whole_.blocks().row_places()[local.places[e]].at(k))] += value;
     });
     return sum;
   }
@@ -44,10 +44,10 @@ class IntervalByInterval {
     const LocalInputs& numbers = whole_.functions().inputs;
     const Tape tape(schedule);
     Tape::Workspace workspace(tape);
-    for (std::size_t k = 0; k < whole_.layout().intervals(); ++k) {
+    for (std::size_t k = 0; k < whole_.blocks().intervals(); ++k) {
       std::vector<double> point(numbers.count());
       for (std::size_t a = 0; a < numbers.unknowns; ++a) {
-        point[a] = x_[static_cast<Eigen::Index>(whole_.layout().unknown_places()[a].at(k))];
+        point[a] = x_[static_cast<Eigen::Index>(whole_.blocks().unknown_places()[a].at(k))];
       }
       point[numbers.step()] = whole_.step_inputs()[static_cast<Eigen::Index>(k)];
       point[numbers.time()] = whole_.time_inputs()[static_cast<Eigen::Index>(k)];
@@ -135,7 +135,7 @@ TEST(Transcription, FixesTheEndsByBoundsAndLeavesEverythingElseFree) {
       }
       if (scheme.method != "tangent") continue;
       for (Eigen::Index i = 0; i < problem->configuration_size(); ++i) {
-        const auto head = static_cast<Eigen::Index>(program->layout().second_head(i));
+        const auto head = program->blocks().unknown(Quantity::second).index(i);
         EXPECT_EQ(program->variable_lower()[head], first.v[i]);
         EXPECT_EQ(program->variable_lower()[head + 5], last.v[i]);
       }
@@ -211,8 +211,8 @@ TEST(Transcription, RoundingFloorsBelongToTheStepsOfTheirOwnRows) {
           EXPECT_NEAR(values[i++] / expected, 1.0, 1e-5) << method << " " << stages << ", place " << place.index;
         });
       };
-      expect(program->layout().structure().rows, floors.constraints, floors.smallest);
-      expect(program->layout().structure().unknowns, floors.variables, floors.largest);
+      expect(program->blocks().structure().rows, floors.constraints, floors.smallest);
+      expect(program->blocks().structure().unknowns, floors.variables, floors.largest);
     }
   }
 }

@@ -53,12 +53,12 @@ PlacedFormulas placed(const LocalFunctions& functions, const std::vector<SeriesP
 /// Calls visit(formulas) for every interval, then for the ends.
 template <class Visit>
 void for_each_part(const Transcription& program, const Visit& visit) {
-  const Layout& layout = program.layout();
-  for (std::size_t k = 0; k < layout.intervals(); ++k) {
-    visit(placed(program.functions(), layout.unknown_places(), layout.row_places(), program, k));
+  const ProgramBlocks& blocks = program.blocks();
+  for (std::size_t k = 0; k < blocks.intervals(); ++k) {
+    visit(placed(program.functions(), blocks.unknown_places(), blocks.row_places(), program, k));
   }
   const std::optional<EndFunctions>& ends = program.end_functions();
-  if (ends) visit(placed(*ends, layout.end_unknown_places(), layout.end_row_places(), program, 0));
+  if (ends) visit(placed(*ends, blocks.end_unknown_places(), blocks.end_row_places(), program, 0));
 }
 
 /// A line per entry.
@@ -123,10 +123,10 @@ class AmplWriter {
         for (std::size_t k = 0; k < intervals; ++k) is_read[unknowns[a].at(k)] = 1;
       }
     };
-    const Layout& layout = program_.layout();
-    note(program_.functions(), layout.unknown_places(), layout.intervals());
+    const ProgramBlocks& blocks = program_.blocks();
+    note(program_.functions(), blocks.unknown_places(), blocks.intervals());
     const std::optional<EndFunctions>& ends = program_.end_functions();
-    if (ends) note(*ends, layout.end_unknown_places(), 1);
+    if (ends) note(*ends, blocks.end_unknown_places(), 1);
     for (std::size_t i = 0; i < variables_; ++i) {
       if (is_read[i] != 0) objective_variables_.push_back(i);
     }

@@ -119,10 +119,10 @@ void require_possible(const PrimitiveRequest& request, const PrimitiveLibrary& l
 
 void require_primitives(const Transcription& program) {
   const ProblemBounds bounds = program.problem().bounds();
-  const LayoutShape& shape = program.layout().shape();
+  const TracedProblem& traced = program.traced_problem();
   if (bounds.first.all_fixed() && bounds.last.all_fixed() && !bounds.horizon.is_free() && !program.end_functions() &&
-      shape.integrals == 0 && shape.unknown_parameters == 0 && shape.first_order_size == 0 && shape.multipliers == 0 &&
-      bounds.interior.empty()) {
+      traced.integral_count() == 0 && traced.unknown_count() == 0 && traced.first_order_size() == 0 &&
+      program.functions().multipliers == 0 && bounds.interior.empty()) {
     return;
   }
   throw Error(

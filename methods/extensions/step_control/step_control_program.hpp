@@ -54,7 +54,7 @@ class StepControlProgram final : public NonlinearProgram {
   [[nodiscard]] double pace(const Eigen::VectorXd& x) const { return x[static_cast<Eigen::Index>(columns_.pace)]; }
 
  private:
-  /// Heads of series, as in `Layout`.
+  /// Heads of series.
   struct Columns {
     std::size_t q = 0, t = 0, rates = 0, controls = 0, multiplier = 0, pace = 0;
     std::size_t momentum_rows = 0, energy_rows = 0, rate_rows = 0, step_rows = 0;

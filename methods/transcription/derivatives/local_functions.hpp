@@ -9,8 +9,9 @@
 namespace dmocbench {
 
 /// The inputs of a part's formulas: the problem's parameters that are kept open first, then local unknowns (in the
-/// order of `Layout`), the step and the time of the left node, the factor of the objective, and one multiplier per
-/// local row. Where the horizon is free, its length is a local unknown, and step and time are relative to it.
+/// order of `IntervalFunctions`), the step and the time of the left node, the factor of the objective, and one
+/// multiplier per local row. Where the horizon is free, its length is a local unknown, and step and time are relative
+/// to it.
 struct LocalInputs {
   std::size_t unknowns = 0;    ///< how many local unknowns there are
   std::size_t rows = 0;        ///< how many local rows there are

@@ -13,7 +13,7 @@ namespace dmocbench {
 /// A bound at the stages acts all along: its price is per unit of time, so that moving the bound by e(t) changes the
 /// least cost by Σ h b_i price_i e(t_i). A bound at a node acts at that time alone. Values that are given at the ends
 /// have no price here; the costates are theirs.
-struct BoundPrices {
+struct BoundMultipliers {
   Eigen::MatrixXd q;         ///< of bounds of q at the nodes, between the ends too, (N + 1) × n
   Eigen::MatrixXd v;         ///< of bounds of q̇ at ends and at times between them, (N + 1) × n
   Eigen::MatrixXd y;         ///< of bounds of first-order states at the nodes, (N + 1) × l
@@ -66,7 +66,7 @@ struct Trajectory {
   /// multipliers.
   Eigen::VectorXd integral_prices;
 
-  BoundPrices prices;  ///< of all other bounds; without columns where there are no multipliers
+  BoundMultipliers prices;  ///< of all other bounds; without columns where there are no multipliers
 
   /// h_k = t_{k+1} - t_k.
   [[nodiscard]] double step(Eigen::Index k) const { return node_times[k + 1] - node_times[k]; }

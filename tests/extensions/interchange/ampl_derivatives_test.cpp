@@ -112,12 +112,12 @@ Magnitudes magnitudes(const Transcription& program, const ProgramPoint& point) {
   Magnitudes sums;
   sums.gradient.setZero(point.x.size());
   sums.constraints.setZero(point.multipliers.size());
-  const Layout& layout = program.layout();
-  for (std::size_t k = 0; k < layout.intervals(); ++k) {
-    add_part(program, program.functions(), layout.unknown_places(), layout.row_places(), k, point, sums);
+  const ProgramBlocks& blocks = program.blocks();
+  for (std::size_t k = 0; k < blocks.intervals(); ++k) {
+    add_part(program, program.functions(), blocks.unknown_places(), blocks.row_places(), k, point, sums);
   }
   if (const std::optional<EndFunctions>& ends = program.end_functions()) {
-    add_part(program, *ends, layout.end_unknown_places(), layout.end_row_places(), 0, point, sums);
+    add_part(program, *ends, blocks.end_unknown_places(), blocks.end_row_places(), 0, point, sums);
   }
   return sums;
 }

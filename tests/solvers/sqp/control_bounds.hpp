@@ -9,11 +9,11 @@ namespace dmocbench::sqp::tests {
 inline dmocbench::tests::BoundedProgram with_control_bound(Transcription& transcription, double bound) {
   Eigen::VectorXd lower = transcription.variable_lower();
   Eigen::VectorXd upper = transcription.variable_upper();
-  const Layout& layout = transcription.layout();
-  const auto intervals = static_cast<Eigen::Index>(layout.intervals());
-  for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
+  const ProgramBlocks& blocks = transcription.blocks();
+  const auto intervals = static_cast<Eigen::Index>(blocks.intervals());
+  for (Eigen::Index stage = 0; stage < transcription.tableau().stages(); ++stage) {
     for (Eigen::Index i = 0; i < transcription.traced_problem().control_size(); ++i) {
-      const auto head = static_cast<Eigen::Index>(layout.control_head(stage, i));
+      const auto head = blocks.unknown(Quantity::control, stage).index(i);
       lower.segment(head, intervals).setConstant(-bound);
       upper.segment(head, intervals).setConstant(bound);
     }

@@ -1,5 +1,5 @@
 // What bounds cost: the prices of a motion against differences of re-solved optima.
-#include "methods/transcription/bound_prices.hpp"
+#include "methods/transcription/bound_multipliers.hpp"
 
 #include <cmath>
 #include <functional>
@@ -29,7 +29,7 @@ std::vector<Scheme> every_scheme() {
   return schemes;
 }
 
-class BoundPricesOf : public testing::TestWithParam<Scheme> {
+class BoundMultipliersOf : public testing::TestWithParam<Scheme> {
  protected:
   static constexpr Eigen::Index intervals = 12;
   static constexpr double step = 1e-3;
@@ -72,7 +72,7 @@ class BoundPricesOf : public testing::TestWithParam<Scheme> {
   }
 };
 
-TEST_P(BoundPricesOf, ControlsAreNegativeAtUpperAndPositiveAtLowerBounds) {
+TEST_P(BoundMultipliersOf, ControlsAreNegativeAtUpperAndPositiveAtLowerBounds) {
   const auto upper = [](Statement& s, double most) { s.u = Bounds::all(1, -tests::infinity, most); };
   const Trajectory pushed = solved([&](Statement& s) { upper(s, 5.0); });
   expect_price(total(pushed, pushed.prices.stage_u), slope(upper, 5.0), -1.0);
@@ -81,7 +81,7 @@ TEST_P(BoundPricesOf, ControlsAreNegativeAtUpperAndPositiveAtLowerBounds) {
   expect_price(total(motion, motion.prices.stage_u), slope(lower, -5.0), 1.0);
 }
 
-TEST_P(BoundPricesOf, VelocitiesAndPathConstraints) {
+TEST_P(BoundMultipliersOf, VelocitiesAndPathConstraints) {
   const auto velocity = [](Statement& s, double most) { s.v = Bounds::all(1, -tests::infinity, most); };
   const Trajectory slow = solved([&](Statement& s) { velocity(s, 1.3); });
   expect_price(total(slow, slow.prices.stage_v), slope(velocity, 1.3), -1.0);
@@ -93,7 +93,7 @@ TEST_P(BoundPricesOf, VelocitiesAndPathConstraints) {
   expect_price(total(motion, motion.prices.path), slope(path, -4.0), 1.0);
 }
 
-TEST_P(BoundPricesOf, ConfigurationsAtTheNodesAndAtFreeEnds) {
+TEST_P(BoundMultipliersOf, ConfigurationsAtTheNodesAndAtFreeEnds) {
   // On its way through a point beyond the end it would go on farther than it may.
   const auto wall = [](Statement& s, double most) {
     s.interior = {{.relative_time = 0.4, .q = Bounds::all(1, 1.2, 1.2)}};
@@ -109,7 +109,7 @@ TEST_P(BoundPricesOf, ConfigurationsAtTheNodesAndAtFreeEnds) {
   expect_price(solved([&](Statement& s) { rest(s, 0.5); }).prices.v(intervals, 0), slope(rest, 0.5), -1.0);
 }
 
-TEST_P(BoundPricesOf, RangesOfUnknownParameters) {
+TEST_P(BoundMultipliersOf, RangesOfUnknownParameters) {
   const auto at_most = [](double mass) { return solved(tests::UnknownMass(0.1, mass)); };
   expect_price(at_most(0.3).prices.unknowns[0], slope(at_most, 0.3), -1.0);
   const auto at_least = [](double mass) { return solved(tests::UnknownMass(mass, 10.0)); };
@@ -117,7 +117,7 @@ TEST_P(BoundPricesOf, RangesOfUnknownParameters) {
   EXPECT_NEAR(solved(tests::UnknownMass()).prices.unknowns[0], 0.0, 1e-7);
 }
 
-TEST_P(BoundPricesOf, TheHorizon) {
+TEST_P(BoundMultipliersOf, TheHorizon) {
   const auto longest = [](Statement& s, double most) { s.horizon = {0.5, most}; };
   expect_price(solved([&](Statement& s) { longest(s, 1.1); }).prices.horizon, slope(longest, 1.1), -1.0);
   const auto shortest = [](Statement& s, double least) {
@@ -127,10 +127,10 @@ TEST_P(BoundPricesOf, TheHorizon) {
   expect_price(solved([&](Statement& s) { shortest(s, 0.95); }).prices.horizon, slope(shortest, 0.95), 1.0);
 }
 
-TEST_P(BoundPricesOf, NothingNeedNoEvaluation) {
+TEST_P(BoundMultipliersOf, NothingNeedNoEvaluation) {
   const tests::DoubleIntegrator problem;
   const auto program = tests::transcribe(problem, GetParam(), Grid::uniform(intervals));
-  const BoundPrices prices = bound_prices(*program, Eigen::VectorXd(), Eigen::VectorXd());  // at no point
+  const BoundMultipliers prices = bound_multipliers(*program, Eigen::VectorXd(), Eigen::VectorXd());  // at no point
   for (const Eigen::MatrixXd* table :
        {&prices.q, &prices.v, &prices.y, &prices.stage_v, &prices.stage_u, &prices.path}) {
     EXPECT_EQ(table->size(), 0);
@@ -139,7 +139,7 @@ TEST_P(BoundPricesOf, NothingNeedNoEvaluation) {
   EXPECT_EQ(prices.horizon, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BoundPricesOf, testing::ValuesIn(every_scheme()), [](const auto& instance) {
+INSTANTIATE_TEST_SUITE_P(All, BoundMultipliersOf, testing::ValuesIn(every_scheme()), [](const auto& instance) {
   return instance.param.method + "_" + instance.param.family + std::to_string(instance.param.stages);
 });
 
