@@ -78,13 +78,15 @@ double digest(const Eigen::VectorXd& answer) {
   return static_cast<std::uint32_t>(std::hash<std::string_view>()(text));
 }
 
-/// Times solves with all that they do, judging the answer among it.
-void time_solves(benchmark::State& state, const std::function<const Solution&()>& solve) {
+/// The time of a solve: the solver's own, without judging the answer, or of all that the call does.
+enum class SolveTime : std::uint8_t { of_solver, of_call };
+
+void time_solves(benchmark::State& state, const std::function<const Solution&()>& solve, SolveTime time) {
   const Solution* solution = nullptr;
   for ([[maybe_unused]] auto turn : state) {
     const Clock::time_point begin = Clock::now();
     solution = &solve();
-    state.SetIterationTime(seconds_since(begin));
+    state.SetIterationTime(time == SolveTime::of_solver ? solution->seconds : seconds_since(begin));
   }
   state.counters["iterations"] = solution->major_iterations.value_or(0);
   state.counters["solved"] = is_solved(solution->status) ? 1.0 : 0.0;
@@ -97,7 +99,7 @@ void add_grid(const std::string& problem, const std::string& method, int interva
                 [=](benchmark::State& state) {
                   set_thread_count(threads);
                   const StartedProgram given(problem, method, intervals, false);
-                  time_solves(state, repeatable(given, "plain"));
+                  time_solves(state, repeatable(given, "plain"), SolveTime::of_solver);
                   state.SetLabel(
                       fmt::format("problem={} method={} intervals={} threads={}", problem, method, intervals, threads));
                 });
@@ -110,7 +112,7 @@ void add_repeated(const std::string& problem, const std::string& method, int int
                 [=](benchmark::State& state) {
                   set_thread_count(1);
                   const StartedProgram given(problem, method, intervals, start == "warm");
-                  time_solves(state, repeatable(given, way));
+                  time_solves(state, repeatable(given, way), SolveTime::of_call);
                   state.SetLabel(fmt::format("problem={} method={} start={} intervals={} way={}", problem, method,
                                              start, intervals, way));
                 });
