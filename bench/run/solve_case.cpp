@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "methods/diagnostics/conserved_quantities.hpp"
+#include "methods/diagnostics/given_distance.hpp"
 #include "methods/diagnostics/undefined_point.hpp"
 #include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/error.hpp"
@@ -96,10 +97,17 @@ void judge_between_stages(SolvedCase& solved, const Trajectory& motion) {
       std::string(sentence_of(solved.solution.status)) + found.words(motion, problem.card().time_unit.factor);
 }
 
-/// Replays the intervals of a solved case one by one; an answer that is not a motion is too coarse instead of solved.
+/// Replays the intervals of a solved case one by one; an answer that is not a motion is too coarse instead of solved,
+/// one that does not move as far as it has to is not confirmed.
 void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   const Accuracy found = accuracy(solved.program->traced_problem(), motion);
   solved.accuracy = found;
+  const std::string lost = lost_distance(solved.the_case.problem->bounds(), motion, found);
+  if (!lost.empty()) {
+    solved.solution.status = Status::not_confirmed;
+    solved.solution.message = lost;
+    return;
+  }
   if (found.relative_jump <= largest_jump_of_a_motion) return;
   solved.solution.status = Status::too_coarse;
   const Eigen::Index k = found.interval;
