@@ -24,11 +24,11 @@ enum class Remedy : std::uint8_t {
 
 /// The next thing to try, and what it is about.
 struct Advice {
-  Remedy remedy = Remedy::none;
-  std::string coordinate = {};  ///< of `radians`; of `other_units` the largest
-  double size = 0.0;            ///< by which it changes; its size; of `longer_horizon` the horizon
-  std::string smallest = {};    ///< of `other_units`, the smallest coordinate
-  double smallest_size = 0.0;   ///< and its size
+  Remedy remedy = Remedy::none;  ///< what to try
+  std::string coordinate = {};   ///< of `radians`; of `other_units` the largest
+  double size = 0.0;             ///< by which it changes; its size; of `longer_horizon` the horizon
+  std::string smallest = {};     ///< of `other_units`, the smallest coordinate
+  double smallest_size = 0.0;    ///< and its size
 };
 
 /// The next thing to try after a failed solve, chosen from the properties of the problem and the solve: angles in
