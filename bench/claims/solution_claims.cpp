@@ -97,7 +97,8 @@ Finding momentum_consistency(const ResultTables& tables, const std::string& prob
     const MomentumBalance looser = of_grids(by_tolerance[i]);
     const std::string& tolerance = looser.dmoc.front().text("tolerance");
     const auto defect = [&](const Selection& of_method, const char* method) {
-      return Measurement{"largest defect of an interval", of_method.max(largest_defect), method, "tolerance " + tolerance};
+      return Measurement{"largest defect of an interval", of_method.max(largest_defect), method,
+                         "tolerance " + tolerance};
     };
     others.push_back(worded("at {}: dmoc {:.1e}, hamiltonian {:.1e}", tolerance, defect(looser.dmoc, "dmoc"),
                             defect(looser.hamiltonian, "hamiltonian")));
