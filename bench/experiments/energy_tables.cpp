@@ -89,10 +89,10 @@ class FollowedEnergy {
 
 Scheme midpoint_of(const Problem& problem, const std::string& method) { return {problem.name(), method, "gauss", 1}; }
 
-/// A quantity, and the order at which the modified energy in it is cut off; empty where it has none.
+/// A quantity, and the order at which the modified energy in it is cut off.
 struct EnergyQuantity {
   std::string name;
-  std::optional<int> truncation = std::nullopt;
+  int truncation = 0;
 
   auto operator<=>(const EnergyQuantity&) const = default;
 };
@@ -248,7 +248,7 @@ void follow_optimal_motions(const std::shared_ptr<const Problem>& problem, const
     const auto add = [&, h = h, work = balance.largest_work](const EnergyQuantity& quantity, double gap, double share) {
       if (gap > share * work) curves.add(quantity, h, gap);
     };
-    add({"gap"}, balance.largest_gap, share_of_solver);
+    add({"gap", truncations.front()}, balance.largest_gap, share_of_solver);
     for (std::size_t i = 0; i < truncations.size(); ++i) {
       rows.modified.push_back({scheme, intervals, h, truncations[i], gaps.from_work[i], gaps.from_modified_work[i]});
       add({"gap_to_work", truncations[i]}, gaps.from_work[i], share_of_replay);
