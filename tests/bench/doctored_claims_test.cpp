@@ -446,7 +446,7 @@ TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
   const std::map<std::string, Rows> all = tests::all_rows();
   ResultTables tables;
   for (const auto& [name, rows] : all) tables.add(name, tests::declared_table(name, rows));
-  // A claim judges the tables that it reads; one that does not tell them might read any.
+  // A claim judges the tables that it reads; one that does not list them might read any.
   std::map<std::string, std::vector<ReadRows>> read;
   for (const JudgedClaim& claim : judge_claims(tables)) {
     // It is about failures.
