@@ -41,7 +41,7 @@ struct ViolationBetweenStages {
 /// interval, both ends among them. Violations up to 1e-8 of the range, or of 1 if that is more, count as rounding.
 /// Where a path constraint has a minimum among these points, and its differences there would carry it further beyond
 /// its bound than it is anywhere else, the part about the minimum gets nine points too, and so on: an obstacle that all
-/// points step over is entered at its middle. What no difference of nine points shows is not found.
+/// points step over is entered at its middle. A dip that does not show in the differences of nine points is not found.
 ///
 /// The scale of a bound is the range of its component along the motion; the range of all components of q, or of q̇,
 /// where it is constant. The share of a path constraint is δ |h_i| / D_i at its least value, where D_i adds up by how

@@ -87,7 +87,7 @@ for file in sorted((folder / "results").glob("*.json")):
             of_row.validate({**row, "objective": None, "seconds": None})
             properties = told["schema"]["properties"]
             assert properties["seconds"]["unit"] == "s"
-for name in ("claims", "findings", "claims_rows"):  # which no run's metadata tell of
+for name in ("claims", "findings", "claims_rows"):  # which no metadata of a run describe
     schema = read(name + ".schema.json")
     declares_all(name, schema)
     with open(folder / "results" / (name + ".csv"), newline="") as table:
