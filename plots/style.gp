@@ -51,8 +51,10 @@ number_in(text) = strlen(text) > 0 ? text + 0 : 1
 
 # Fitted slope of a curve with its standard error, as text; empty if the table lacks it or two points are no fit.
 slope_fields(name, where, quantity, fields) = exists_table(name) ? system(rows_awk(sprintf(\
-    "-v where='problem=%s,method=%s,tableau=%s,stages=%s,quantity=%s' -v fields=%s", entry(where, "problem"),\
-    entry(where, "method"), entry(where, "tableau"), entry(where, "stages"), quantity, fields), name)) : ""
+    "-v where='problem=%s,method=%s,tableau=%s,stages=%s,quantity=%s%s' -v fields=%s", entry(where, "problem"),\
+    entry(where, "method"), entry(where, "tableau"), entry(where, "stages"), quantity, truncation_in(where),\
+    fields), name)) : ""
+truncation_in(where) = strstrt(where, ",truncation=") > 0 ? ",truncation=".entry(where, "truncation") : ""
 slope_text(fields) =\
     words(fields) < 2 ? "" : sprintf("slope %.3f ± %.3f", number(word(fields, 1)), number(word(fields, 2)))
 slope(name, where, quantity) = slope_text(slope_fields(name, where, quantity, "slope,standard_error"))
