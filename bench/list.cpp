@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/claims/claims_table.hpp"
+#include "bench/programs.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/meanings.hpp"
 #include "bench/run/metadata.hpp"
@@ -209,6 +210,8 @@ void print_briefly(const std::vector<std::shared_ptr<const Problem>>& problems) 
   for (const auto& problem : problems) fmt::print("{:<28} {}\n", problem->name(), problem->card().description);
 }
 
+std::vector<std::string> program_names() { return names_of(programs(), &Program::name); }
+
 /// The names of a kind, a line each, for shells that complete them.
 int print_names(const std::string& kind) {
   const std::vector<Named<std::vector<std::string> (*)()>> kinds{{"problem", problem_names},
@@ -216,7 +219,8 @@ int print_names(const std::string& kind) {
                                                                  {"tableau", tableau_names},
                                                                  {"solver", solver_names},
                                                                  {"derivatives", derivative_back_end_names},
-                                                                 {"integrator", explicit_integrator_names}};
+                                                                 {"integrator", explicit_integrator_names},
+                                                                 {"program", program_names}};
   for (const std::string& name : value_named(kinds, kind, "--names: there is no kind")()) fmt::print("{}\n", name);
   return 0;
 }
@@ -238,7 +242,7 @@ int print_all(CommandLine& line) {
   line.flag("--families", as_gnuplot, "the families of methods with labels and line styles instead, for figures");
   std::string kind;
   line.option("--names", kind,
-              "only names, one per line: of problem, method, tableau, solver, derivatives or integrator");
+              "only names, one per line: of problem, method, tableau, solver, derivatives, integrator or program");
   line.example("--problem cart_pole");
   line.exit_code_1("");
   parse_with_libraries(line);

@@ -8,7 +8,7 @@
 
 namespace dmocbench {
 
-/// The topics of the core, chapter by chapter: bench/CMakeLists.txt names them.
+/// The topics of the core, chapter by chapter (topics.cpp).
 std::vector<std::vector<Claims (*)()>> topics_by_chapter();
 
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include <pybind11/pybind11.h>
 
 namespace dmocbench::python {
@@ -18,8 +16,5 @@ void bind_solve(pybind11::module_& module);
 void bind_batch(pybind11::module_& module);
 /// Experiments, as the program `dmocbench` runs them.
 void bind_run(pybind11::module_& module);
-
-/// The tag of the package's Python code, from the checksums of its files when the build was configured.
-[[nodiscard]] std::string_view tag_of_python_code();
 
 }  // namespace dmocbench::python

@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "bench/extensions/register_extensions.hpp"
+#include "bench/programs.hpp"
 #include "bench/python/bindings.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/environment.hpp"
@@ -21,7 +21,7 @@ void register_errors(py::module_& module) {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The C++ part of dmocbench; import the package dmocbench instead.";
   module.attr("__version__") = DMOCBENCH_VERSION;
-  module.attr("tag_of_python_code") = std::string(dmocbench::python::tag_of_python_code());
+  module.attr("tag_of_python_code") = DMOCBENCH_TAG_OF_PYTHON_CODE;
   register_errors(module);
   dmocbench::check_environment();
   dmocbench::order_by_one_thread();

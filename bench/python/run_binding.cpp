@@ -7,7 +7,7 @@
 #include <pthread.h>
 #include <pybind11/stl.h>
 
-#include "bench/dispatch.hpp"
+#include "bench/programs.hpp"
 #include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
 #include "bench/python/handles.hpp"
@@ -18,12 +18,7 @@
 #include "methods/error.hpp"
 #include "problems/problem_registry.hpp"
 
-namespace dmocbench {
-
-/// All programs; the build writes it.
-std::span<const Program> programs();
-
-namespace python {
+namespace dmocbench::python {
 
 namespace py = pybind11;
 

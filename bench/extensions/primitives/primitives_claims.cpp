@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/claims/claim.hpp"
-#include "bench/extensions/register_extensions.hpp"
+#include "bench/extensions/extension_claims.hpp"
 
 namespace dmocbench {
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "bench/claims/claim.hpp"
-#include "bench/extensions/register_extensions.hpp"
+#include "bench/extensions/extension_claims.hpp"
 
 namespace dmocbench {
 

@@ -8,7 +8,4 @@ namespace dmocbench {
 [[nodiscard]] Claims step_control_claims();  ///< step sizes tied to the motion
 [[nodiscard]] Claims low_thrust_claims();    ///< many revolutions with few steps in each
 
-/// Adds the claims of all extensions to the core's. The mains of `claims` and `dmocbench` call it, once.
-void register_extensions();
-
 }  // namespace dmocbench
