@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiments/effectivity.hpp"
-#include "bench/experiments/needed_intervals.hpp"
+#include "bench/experiments/adaptive/effectivity.hpp"
+#include "bench/experiments/adaptive/needed_intervals.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/error.hpp"

@@ -9,7 +9,7 @@
 
 #include <tl/expected.hpp>
 
-#include "bench/experiments/one_step_tableaus.hpp"
+#include "bench/experiments/invariants/one_step_tableaus.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/process_pool.hpp"

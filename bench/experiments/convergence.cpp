@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiments/situation.hpp"
+#include "bench/experiments/convergence/situation.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/indirect_reference.hpp"
 #include "bench/tables/fitted_orders.hpp"

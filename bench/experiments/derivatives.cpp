@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/experiments/measured_derivatives.hpp"
+#include "bench/experiments/derivatives/measured_derivatives.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/uniform_01.hpp"
 #include "methods/error.hpp"

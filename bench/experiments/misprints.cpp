@@ -3,7 +3,7 @@
 #include <numbers>
 #include <optional>
 
-#include "bench/experiments/continuous_flow.hpp"
+#include "bench/experiments/invariants/continuous_flow.hpp"
 #include "bench/run/restated_problem.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"

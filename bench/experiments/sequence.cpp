@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/experiments/solved_steps.hpp"
+#include "bench/experiments/sequence/solved_steps.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/options.hpp"

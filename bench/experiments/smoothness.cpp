@@ -4,8 +4,8 @@
 #include <memory>
 #include <utility>
 
-#include "bench/experiments/optimum_error.hpp"
-#include "bench/experiments/situation.hpp"
+#include "bench/experiments/convergence/situation.hpp"
+#include "bench/experiments/smoothness/optimum_error.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/start_provider.hpp"

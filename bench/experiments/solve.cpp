@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiments/minor_trace.hpp"
-#include "bench/experiments/wanted_accuracy.hpp"
+#include "bench/experiments/solve/minor_trace.hpp"
+#include "bench/experiments/solve/wanted_accuracy.hpp"
 #include "bench/run/advice.hpp"
 #include "bench/run/command_line.hpp"
 #include "bench/run/experiment.hpp"

@@ -4,14 +4,14 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiments/continuous_flow.hpp"
-#include "bench/experiments/energy_columns.hpp"
-#include "bench/experiments/energy_tables.hpp"
-#include "bench/experiments/example_systems.hpp"
-#include "bench/experiments/long_time_energy.hpp"
-#include "bench/experiments/orthogonal_forces.hpp"
-#include "bench/experiments/rotations.hpp"
-#include "bench/experiments/simulated_tables.hpp"
+#include "bench/experiments/invariants/continuous_flow.hpp"
+#include "bench/experiments/invariants/energy_columns.hpp"
+#include "bench/experiments/invariants/energy_tables.hpp"
+#include "bench/experiments/invariants/example_systems.hpp"
+#include "bench/experiments/invariants/long_time_energy.hpp"
+#include "bench/experiments/invariants/orthogonal_forces.hpp"
+#include "bench/experiments/invariants/rotations.hpp"
+#include "bench/experiments/invariants/simulated_tables.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/start_provider.hpp"

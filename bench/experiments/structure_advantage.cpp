@@ -8,9 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/experiments/advantage_ratios.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/indirect_reference.hpp"
+#include "bench/tables/advantage_ratios.hpp"
 #include "methods/error.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 

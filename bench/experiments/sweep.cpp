@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiments/swept_values.hpp"
+#include "bench/experiments/sweep/swept_values.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/tables/selection.hpp"
 #include "methods/error.hpp"

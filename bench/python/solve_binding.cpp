@@ -9,7 +9,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "bench/experiments/wanted_accuracy.hpp"
+#include "bench/experiments/solve/wanted_accuracy.hpp"
 #include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
 #include "bench/python/handles.hpp"

@@ -1,6 +1,6 @@
 // The reference in long double against the tape and against an error that was put in.
 
-#include "bench/experiments/measured_derivatives.hpp"
+#include "bench/experiments/derivatives/measured_derivatives.hpp"
 
 #include <cmath>
 

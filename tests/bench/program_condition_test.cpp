@@ -1,4 +1,4 @@
-#include "bench/experiments/program_condition.hpp"
+#include "bench/experiments/shooting/program_condition.hpp"
 
 #include <gtest/gtest.h>
 

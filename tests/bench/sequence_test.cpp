@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "bench/experiments/neighbours.hpp"
-#include "bench/experiments/one_interval_later.hpp"
-#include "bench/experiments/solved_steps.hpp"
+#include "bench/experiments/sequence/neighbours.hpp"
+#include "bench/experiments/sequence/one_interval_later.hpp"
+#include "bench/experiments/sequence/solved_steps.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"

@@ -1,4 +1,4 @@
-#include "bench/experiments/smallest_curvature.hpp"
+#include "bench/experiments/coercivity/smallest_curvature.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "bench/experiments/optimum_error.hpp"
-#include "bench/experiments/situation.hpp"
+#include "bench/experiments/convergence/situation.hpp"
+#include "bench/experiments/smoothness/optimum_error.hpp"
 #include "bench/run/restated_problem.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "problems/double_integrator.hpp"

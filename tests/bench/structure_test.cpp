@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/experiments/energy_tables.hpp"
-#include "bench/experiments/long_time_energy.hpp"
-#include "bench/experiments/orthogonal_forces.hpp"
-#include "bench/experiments/rotations.hpp"
-#include "bench/experiments/simulated_tables.hpp"
+#include "bench/experiments/invariants/energy_tables.hpp"
+#include "bench/experiments/invariants/long_time_energy.hpp"
+#include "bench/experiments/invariants/orthogonal_forces.hpp"
+#include "bench/experiments/invariants/rotations.hpp"
+#include "bench/experiments/invariants/simulated_tables.hpp"
 
 namespace dmocbench {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/experiments/swept_values.hpp"
+#include "bench/experiments/sweep/swept_values.hpp"
 
 #include <algorithm>
 

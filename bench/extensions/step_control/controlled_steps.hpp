@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/experiments/long_time_energy.hpp"
+#include "bench/experiments/invariants/long_time_energy.hpp"
 #include "methods/extensions/step_control/step_control_map.hpp"
 
 namespace dmocbench {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bench/experiments/example_systems.hpp"
+#include "bench/experiments/invariants/example_systems.hpp"
 
 namespace dmocbench {
 
