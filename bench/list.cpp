@@ -17,7 +17,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/runtime/counted.hpp"
-#include "methods/transcription/derivatives/derivative_back_end.hpp"
+#include "methods/transcription/derivatives/back_ends.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/elements/shooting_element.hpp"

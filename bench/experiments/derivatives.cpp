@@ -10,6 +10,7 @@
 #include "bench/run/experiment.hpp"
 #include "bench/run/uniform_01.hpp"
 #include "methods/error.hpp"
+#include "methods/transcription/derivatives/back_ends.hpp"
 
 namespace dmocbench::derivatives_program {
 

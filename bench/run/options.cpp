@@ -21,7 +21,7 @@
 #include "methods/mechanics/embedded_problem.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/runtime/stop_scope.hpp"
-#include "methods/transcription/derivatives/derivative_back_end.hpp"
+#include "methods/transcription/derivatives/back_ends.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/elements/galerkin_element.hpp"
 #include "methods/transcription/elements/shooting_element.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -247,5 +248,26 @@ Expression pow(const Expression& x, double exponent) {
 Expression detail::unit_step(const Expression& x) {
   return function(Operation::unit_step, detail::unit_step<double>, Symmetry::none, x);
 }
+
+namespace detail {
+
+std::vector<Node*> reachable_nodes(std::span<const Expression> formulas) {
+  static std::atomic<std::uint64_t> traversals{0};
+  const std::uint64_t traversal = ++traversals;
+  std::vector<Node*> nodes;
+  const auto add = [&](Node* node) {
+    if (node == nullptr || node->traversal_ == traversal) return;
+    node->traversal_ = traversal;
+    node->set_number(nodes.size());
+    nodes.push_back(node);
+  };
+  for (const Expression& formula : formulas) add(formula.node());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {  // NOLINT(modernize-loop-convert): the list grows meanwhile
+    for (Node* operand : nodes[i]->key().operands) add(operand);
+  }
+  return nodes;
+}
+
+}  // namespace detail
 
 }  // namespace dmocbench

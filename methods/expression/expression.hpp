@@ -167,4 +167,11 @@ namespace detail {
 /// Number of nodes alive on this thread, inputs and constants (apart from 0) among them.
 [[nodiscard]] std::size_t live_nodes() noexcept;
 
+namespace detail {
+
+/// The nodes that the formulas need, each once; `number` is its place in the result until the next call.
+[[nodiscard]] std::vector<Node*> reachable_nodes(std::span<const Expression> formulas);
+
+}  // namespace detail
+
 }  // namespace dmocbench

@@ -1,11 +1,9 @@
 #include "methods/expression/node.hpp"
 
-#include <atomic>
 #include <bit>
 #include <memory>
 
 #include "methods/error.hpp"
-#include "methods/expression/expression.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench::detail {
@@ -25,23 +23,6 @@ std::size_t NodeKey::hash() const noexcept {
 }
 
 void Node::free() noexcept { table_->erase(this); }
-
-std::vector<Node*> reachable_nodes(std::span<const Expression> formulas) {
-  static std::atomic<std::uint64_t> traversals{0};
-  const std::uint64_t traversal = ++traversals;
-  std::vector<Node*> nodes;
-  const auto add = [&](Node* node) {
-    if (node == nullptr || node->traversal_ == traversal) return;
-    node->traversal_ = traversal;
-    node->set_number(nodes.size());
-    nodes.push_back(node);
-  };
-  for (const Expression& formula : formulas) add(formula.node());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {  // NOLINT(modernize-loop-convert): the list grows meanwhile
-    for (Node* operand : nodes[i]->key().operands) add(operand);
-  }
-  return nodes;
-}
 
 NodeTable& NodeTable::of_this_thread() {
   constexpr auto orphan = [](NodeTable* table) noexcept { table->orphan(); };

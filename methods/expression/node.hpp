@@ -74,9 +74,6 @@ class Node {
   std::uint32_t readers_ = 0;
 };
 
-/// The nodes that the formulas need, each once; `number` is its place in the result until the next call.
-[[nodiscard]] std::vector<Node*> reachable_nodes(std::span<const Expression> formulas);
-
 /// The unique table of one thread: hash-consing makes equal nodes the same node.
 ///
 /// It outlives its thread as long as one of its nodes is alive, so that an expression kept beyond the end of its thread

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <new>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -11,8 +12,7 @@
 
 namespace dmocbench {
 
-void rethrow_naming(const Problem& problem, const char* function) {
-  const std::string name = problem.name();
+void rethrow_naming(const std::string& name, const char* function) {
   try {
     throw;
   } catch (const Stopped&) {

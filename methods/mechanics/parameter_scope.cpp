@@ -1,6 +1,7 @@
 #include "methods/mechanics/parameter_scope.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -11,6 +12,17 @@
 #include "methods/mechanics/problem.hpp"
 
 namespace dmocbench {
+
+std::string Parameter::range() const {
+  return fmt::format("{} in [{:g}, {:g}]", whole ? "a whole number" : "a number", lower, upper);
+}
+
+void Parameter::check(double candidate) const {
+  const bool in_range = std::isfinite(candidate) && candidate >= lower && candidate <= upper;
+  if (in_range && (!whole || candidate == std::trunc(candidate))) return;
+  const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
+  throw Error(fmt::format("parameter {} must be {}{}, got {:g}", name, range(), in_unit, candidate));
+}
 
 namespace {
 
@@ -145,6 +157,65 @@ std::size_t parameter_number(const Problem& problem, std::string_view name) {
   const auto found = std::ranges::find(parameters, name, &Parameter::name);
   if (found != parameters.end()) return static_cast<std::size_t>(found - parameters.begin());
   return position_of(parameters, &Parameter::name, name, problem.name() + " has no parameter");  // throws
+}
+
+Problem::Problem(std::vector<Parameter> parameters) : parameters_(std::move(parameters)) {
+  for (const Parameter& parameter : parameters_) {
+    const auto is_same = [&](const Parameter& other) { return other.name == parameter.name; };
+    if (std::ranges::count_if(parameters_, is_same) > 1) throw Error("two parameters are named " + parameter.name);
+    parameter.check(parameter.value);
+    defaults_.push_back(parameter.value);
+  }
+}
+
+double Problem::parameter(std::string_view name) const {
+  const std::size_t number = parameter_number(*this, name);
+  ParameterScope* const scope = ParameterScope::of(*this);
+  if (scope == nullptr) return parameters()[number].value;
+  scope->read_as_number(number);
+  return scope->value(number);
+}
+
+Expression Problem::varying(std::string_view name) const {
+  const std::size_t number = parameter_number(*this, name);
+  ParameterScope* const scope = ParameterScope::of(*this);
+  if (scope == nullptr) return {parameters()[number].value};
+  const auto input = scope->read_varying(number);
+  return input ? Expression::input(*input) : Expression(scope->value(number));
+}
+
+std::vector<std::size_t> Problem::unknowns() const {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < parameters().size(); ++i) {
+    if (parameters()[i].is_unknown) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+void Problem::set_parameter(std::string_view name, double value) {
+  const std::size_t number = parameter_number(*this, name);
+  if (&parameters() != &parameters_)
+    throw Error(this->name() + " has the parameters of another problem; set them there");
+  Parameter& parameter = parameters_[number];
+  parameter.check(value);
+  parameter.value = value;
+}
+
+std::string Problem::settings() const {
+  std::string text;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const auto& [name, value] = std::pair(parameters_[i].name, parameters_[i].value);
+    if (value != defaults_[i]) text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
+  }
+  return text;
+}
+
+bool Problem::has_default_parameters(std::initializer_list<std::string_view> except) const {
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const bool excepted = std::ranges::find(except, parameters_[i].name) != except.end();
+    if (!excepted && parameters_[i].value != defaults_[i]) return false;
+  }
+  return true;
 }
 
 }  // namespace dmocbench

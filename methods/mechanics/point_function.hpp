@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "methods/expression/tape.hpp"
+#include "methods/expression/vectors.hpp"
 #include "methods/mechanics/state.hpp"
-#include "methods/mechanics/traced_problem.hpp"
 
 namespace dmocbench {
 

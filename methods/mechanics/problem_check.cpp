@@ -121,7 +121,7 @@ void check_problem(const Problem& problem) try {
 } catch (const Error&) {
   throw;
 } catch (...) {  // of a function that returns numbers, as horizon() or bounds()
-  rethrow_naming(problem, "a function");
+  rethrow_naming(problem.name(), "a function");
 }
 
 double positive_cost_scale(const Problem& problem) {

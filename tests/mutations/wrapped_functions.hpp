@@ -8,6 +8,7 @@
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/transcription/costates.hpp"
+#include "methods/transcription/derivatives/back_ends.hpp"
 
 // The functions whose callers tests_under_mutation diverts (ld, option --wrap): in all other object files a call of the
 // function is a call of __wrap_<name> (`mutable_…` below, defined in mutations.cpp), and __real_<name> is the function

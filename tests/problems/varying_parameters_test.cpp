@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/transcription/derivatives/back_ends.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/derivatives/back_ends.hpp"
 #include "methods/transcription/derivatives/finite_differences.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"

@@ -11,7 +11,6 @@
 
 #include "methods/error.hpp"
 #include "methods/extensions/primitives/discrete_flow.hpp"
-#include "methods/extensions/primitives/meeting_trees.hpp"
 #include "methods/extensions/primitives/motion_tree.hpp"
 #include "methods/extensions/primitives/solve_primitives.hpp"
 #include "methods/extensions/primitives/without_bounds.hpp"

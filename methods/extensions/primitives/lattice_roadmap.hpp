@@ -1,25 +1,11 @@
 #pragma once
 
-#include <cstddef>
-
-#include <Eigen/Core>
-
+#include "methods/extensions/primitives/meeting_trees.hpp"
 #include "methods/extensions/primitives/solve_primitives.hpp"
 #include "methods/extensions/primitives/stored_roadmap.hpp"
 #include "methods/mechanics/problem.hpp"
 
 namespace dmocbench {
-
-/// The lattice of states of a problem without a symmetry, and which of them are joined.
-struct LatticeOptions {
-  int time_steps = 16;                 ///< of the horizon
-  int intervals_per_step = 16;         ///< of the midpoint rule in each
-  int connection = 3;                  ///< time steps of the primitives that join the two trees
-  Eigen::MatrixXd controls;            ///< the constant controls that trees try, one per row
-  Eigen::VectorXd cell;                ///< size of the lattice's cells in (q, v), 2n entries
-  std::size_t most_states = 1500;      ///< of a tree, in each time step
-  std::size_t most_connections = 300;  ///< that are solved
-};
 
 /// A roadmap between the ends of a problem whose states lie on a lattice, one in a cell at most.
 ///

@@ -6,11 +6,21 @@
 #include <Eigen/Core>
 
 #include "methods/extensions/primitives/discrete_flow.hpp"
-#include "methods/extensions/primitives/lattice_roadmap.hpp"
 #include "methods/extensions/primitives/motion_tree.hpp"
 #include "methods/mechanics/problem.hpp"
 
 namespace dmocbench {
+
+/// The lattice of states of a problem without a symmetry, and which of them are joined.
+struct LatticeOptions {
+  int time_steps = 16;                 ///< of the horizon
+  int intervals_per_step = 16;         ///< of the midpoint rule in each
+  int connection = 3;                  ///< time steps of the primitives that join the two trees
+  Eigen::MatrixXd controls;            ///< the constant controls that trees try, one per row
+  Eigen::VectorXd cell;                ///< size of the lattice's cells in (q, v), 2n entries
+  std::size_t most_states = 1500;      ///< of a tree, in each time step
+  std::size_t most_connections = 300;  ///< that are solved
+};
 
 /// A motion that nearly leads from a state of the last layer of the forward tree to one of the backward tree.
 struct TreeConnection {

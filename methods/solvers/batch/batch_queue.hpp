@@ -11,8 +11,8 @@
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/runtime/lane_loops.hpp"
+#include "methods/solvers/batch/batch.hpp"
 #include "methods/solvers/batch/batch_source.hpp"
-#include "methods/solvers/batch/solve_batch.hpp"
 
 namespace dmocbench::batch {
 

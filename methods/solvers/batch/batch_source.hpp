@@ -7,7 +7,7 @@
 #include "methods/program/lane_program.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
-#include "methods/solvers/batch/solve_batch.hpp"
+#include "methods/solvers/batch/batch.hpp"
 
 namespace dmocbench::batch {
 

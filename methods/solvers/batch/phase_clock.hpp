@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "methods/runtime/clock.hpp"
-#include "methods/solvers/batch/solve_batch.hpp"
+#include "methods/solvers/batch/batch.hpp"
 
 namespace dmocbench::batch {
 

@@ -4,9 +4,17 @@
 #include <vector>
 
 #include "methods/transcription/derivatives/assembled_pattern.hpp"
-#include "methods/transcription/derivatives/program_part.hpp"
+#include "methods/transcription/derivatives/derivative_back_end.hpp"
+#include "methods/transcription/derivatives/local_functions.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 
 namespace dmocbench {
+
+/// How the values and derivatives of a part make up the program's arrays.
+struct PartPlaces {
+  AssemblyPlan constraints;      ///< entries in the order of `LocalFunctions::rows`
+  DerivativePlaces derivatives;  ///< where unknowns and rows lie, and derivatives go
+};
 
 /// The places with these numbers, in their order.
 [[nodiscard]] std::vector<SeriesPlace> picked(const std::vector<SeriesPlace>& places,

@@ -1,5 +1,7 @@
 #include "methods/transcription/derivatives/program_part.hpp"
 
+#include "methods/transcription/derivatives/back_ends.hpp"
+
 namespace dmocbench {
 
 ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,

@@ -10,15 +10,10 @@
 
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "methods/transcription/derivatives/local_functions.hpp"
+#include "methods/transcription/derivatives/part_places.hpp"
 #include "methods/transcription/derivatives/series_assembly.hpp"
 
 namespace dmocbench {
-
-/// How the values and derivatives of a part make up the program's arrays.
-struct PartPlaces {
-  AssemblyPlan constraints;      ///< entries in the order of `LocalFunctions::rows`
-  DerivativePlaces derivatives;  ///< where unknowns and rows lie, and derivatives go
-};
 
 /// A part of a program on numbers: the functions of an interval for all intervals, or of the ends. Its inputs are
 /// the program's own vectors, read in place. Evaluations do not allocate.
@@ -26,7 +21,7 @@ class ProgramPart {
  public:
   /// `steps` and `times`, one entry per interval, and `parameters`, one per open parameter, or of each one per
   /// interval, are read in every evaluation and must outlive this object. `derivatives` names a back end, see
-  /// `make_derivative_back_end`.
+  /// `make_derivative_back_end` (back_ends.hpp).
   ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,
               const Eigen::VectorXd& times, const Eigen::VectorXd& parameters, std::string_view derivatives);
   // Inputs point into this object.

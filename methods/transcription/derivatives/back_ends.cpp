@@ -1,4 +1,4 @@
-#include "methods/transcription/derivatives/derivative_back_end.hpp"
+#include "methods/transcription/derivatives/back_ends.hpp"
 
 #include <array>
 

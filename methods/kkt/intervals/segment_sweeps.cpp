@@ -1,7 +1,7 @@
 // Compiled once per instruction set, each time with names of its own.
-#include "methods/kkt/intervals/segment_kernel.hpp"
-
 #include "methods/kkt/intervals/segment_sweeps.hpp"
+
+#include "methods/kkt/intervals/segment_kernel.hpp"
 
 namespace dmocbench::kkt {
 
