@@ -205,6 +205,18 @@ int print_families() {
   return 0;
 }
 
+/// Titles and units of the suite's problems as a table, which plots/style.gp reads.
+int print_titles(const std::vector<std::shared_ptr<const Problem>>& problems) {
+  fmt::print("problem,label,time_unit,state_unit,control_unit,momentum_unit,cost_unit,energy_unit\n");
+  for (const auto& problem : problems) {
+    const ProblemCard card = problem->card();
+    const AxisUnits& units = card.axis_units;
+    fmt::print("{},{},{},{},{},{},{},{}\n", problem->name(), card.title, card.time_unit.name, units.state,
+               units.control, units.momentum, units.cost, units.energy);
+  }
+  return 0;
+}
+
 /// One line per problem: the name and the description in its card.
 void print_briefly(const std::vector<std::shared_ptr<const Problem>>& problems) {
   for (const auto& problem : problems) fmt::print("{:<28} {}\n", problem->name(), problem->card().description);
@@ -240,6 +252,8 @@ int print_all(CommandLine& line) {
               "claims_rows");
   bool as_gnuplot = false;
   line.flag("--families", as_gnuplot, "the families of methods with labels and line styles instead, for figures");
+  bool as_titles = false;
+  line.flag("--titles", as_titles, "titles and units of the problems instead, a table for figures");
   std::string kind;
   line.option("--names", kind,
               "only names, one per line: of problem, method, tableau, solver, derivatives, integrator or program");
@@ -252,6 +266,7 @@ int print_all(CommandLine& line) {
   const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
                                           settings);  // throws before anything is printed
   if (as_json) return print_cards(problems);
+  if (as_titles) return print_titles(problems);
   if (!names.empty()) {
     for (const auto& problem : problems) print_problem(*problem);
     return 0;

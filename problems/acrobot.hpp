@@ -33,6 +33,8 @@ class Acrobot : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "swing-up of a double pendulum by a motor at its elbow in fixed time, least control effort",
+            .title = "Acrobot swing-up",
+            .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
             .source = "PROPT guide, example Acrobot, after Tedrake: Underactuated Robotics, chapter 3",
             .configuration_units = {"rad", "rad"},
             .control_units = {"N m"},

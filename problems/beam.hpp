@@ -23,6 +23,11 @@ class Beam : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "elastic line between two clamps below a bound, least bending",
+            .title = "Beam below a bound",
+            .axis_units = {.state = "dimensionless",
+                           .control = "dimensionless",
+                           .momentum = "dimensionless",
+                           .energy = "dimensionless"},
             .source =
                 "Bryson, Denham, Dreyfus (1963); Bryson, Ho: Applied Optimal Control, section 3.11; beam of "
                 "OptimalControlProblems.jl",

@@ -30,6 +30,8 @@ class Brachistochrone : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "the fastest descent between two points, controlled by the wire's reaction; free horizon",
+        .title = "Brachistochrone",
+        .axis_units = {.state = "m", .control = "1/s", .momentum = "m/s", .cost = "s"},
         .source = "Johann Bernoulli 1696; data of the Dymos example",
         .guess = "the slide down a straight wire, u its reaction over the speed at half the time",
         .reference = reference_optimum(),

@@ -21,6 +21,8 @@ class Cannonball final : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "radius and launch of a cannonball of given muzzle energy for the largest range",
+            .title = "Cannonball",
+            .axis_units = {.state = "km", .cost = "m"},
             .source = "Falck, Gray, Ponnapalli, Wright: Dymos, example cannonball",
             .guess = "a parabola of 3000 m and 25 s, radius 0.05 m",
             .time_unit = {.name = "s", .factor = 10.0},

@@ -31,6 +31,8 @@ class CartPole : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "swing-up of a pendulum on a cart in fixed time, least control effort",
+            .title = "Cart-pole swing-up",
+            .axis_units = {.state = "m or rad", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
             .source = "Kelly: An Introduction to Trajectory Optimization, SIAM Review 59 (2017), section 6",
             .guess = "x = d t/T, theta = pi t/T - 2 sin(pi t/T), v their slopes, u = 0",
             .configuration_units = {"m", "rad"},

@@ -15,6 +15,8 @@ class CartPoleCartesian final : public RedundantStatement<CartPole> {
   [[nodiscard]] ProblemCard card() const override {
     const ProblemCard of_angles = minimal().card();
     return {.description = "swing-up of a pendulum on a cart in fixed time, as two points that a rod joins",
+            .title = "Cart-pole swing-up (Cartesian)",
+            .axis_units = {.state = "m", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
             .source = "cart_pole in Cartesian coordinates with one constraint",
             .guess = "the one of cart_pole",
             .reference = of_angles.reference,

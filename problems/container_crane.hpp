@@ -28,6 +28,8 @@ class ContainerCrane : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "container crane in fixed time with the least swing, velocities bounded",
+        .title = "Container crane",
+        .axis_units = {.state = "m or rad", .control = "m/s²"},
         .source =
             "Teo, Goh, Wong: A unified computational approach to optimal control problems (1991), after Sakawa, Shindo "
             "(1982); Augustin, Maurer: Sensitivity analysis and real-time control of a container crane (2001)",

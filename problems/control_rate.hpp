@@ -17,6 +17,7 @@ class ControlRate final : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "double integrator whose force has a bounded rate, least effort",
+            .title = "Double integrator with bounded rate",
             .source = "Becerra: PSOPT Optimal Control Solver User Manual, example control_rate",
             .guess = "q and the force on straight lines between the ends, u = 0",
             .reference = ReferenceOptimum{.objective = 24.0 / 13.0,

@@ -28,6 +28,8 @@ class DoubleOscillator : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "two shaken masses whose damper is the control, initial velocity and final state free",
+        .title = "Double oscillator",
+        .axis_units = {.state = "m", .control = "dimensionless"},
         .source =
             "OptimalControlProblems.jl and CTBenchmarks.jl, problem double_oscillator, after Coudurier, Lepreux, "
             "Petit: Optimal bang-bang control of a mechanical double oscillator using averaging methods (2018)",

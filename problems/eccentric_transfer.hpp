@@ -30,6 +30,8 @@ class EccentricTransfer : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "low thrust transfer of a satellite between two ellipses, least control effort",
+        .title = "Transfer between ellipses",
+        .axis_units = AxisUnits::pure_numbers(),
         .source =
             "made for this suite after the transfer between circles of Ober-Bloebaum, Junge, Marsden: Discrete "
             "Mechanics and Optimal Control: an Analysis, section 4.2.1",

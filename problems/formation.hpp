@@ -33,6 +33,8 @@ class Formation final : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "satellites in formation reverse their order with least distances between them",
+        .title = "Satellites in formation",
+        .axis_units = {.state = "km"},
         .source =
             "after Junge, Marsden, Ober-Bloebaum: Optimal reconfiguration of formation flying spacecraft - a "
             "decentralized approach, 2006",

@@ -18,6 +18,8 @@ class GoddardRocket final : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "rocket with drag that rises to the largest altitude",
+        .title = "Goddard rocket",
+        .axis_units = AxisUnits::pure_numbers(),
         .source = "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 10",
         .guess = "h = 1 + 0.01 s (2 - s), s = t/T, T = 0.2; mass on a straight line, u = 1.75",
         .time_unit = {.name = "", .factor = 1.0},

@@ -30,6 +30,8 @@ class HangGlider : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "hang glider through a thermal updraft to the largest distance",
+        .title = "Hang glider",
+        .axis_units = {.state = "100 m", .control = "dimensionless", .cost = "m"},
         .source =
             "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 11, after "
             "Bulirsch, Nerz, Pesch, von Stryk: Combining direct and indirect methods in optimal control (1993)",

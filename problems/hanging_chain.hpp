@@ -22,6 +22,7 @@ class HangingChain final : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card{
         .description = "chain of given length between two points, least potential energy",
+        .title = "Hanging chain",
         .source = "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 4",
         .guess = "the parabola of COPS, 4 |b - a| x (x/2 - 1/4) + a, without force",
         .time_unit = {.name = "", .factor = 1.0},

@@ -27,6 +27,8 @@ class Hovercraft : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "underactuated hovercraft to another place and attitude, least control effort",
+        .title = "Hovercraft",
+        .axis_units = {.state = "m or rad", .control = "N", .momentum = "N m s", .cost = "N² s", .energy = "N m"},
         .source =
             "the hovercraft of Junge, Marsden, Ober-Bloebaum: Discrete mechanics and optimal control, IFAC 2005, with "
             "data of this suite",

@@ -21,6 +21,8 @@ class Hypersensitive : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "spring that hardens, driven to rest and away again: fast at both ends, slow between them",
+        .title = "Hypersensitive spring",
+        .axis_units = AxisUnits::pure_numbers(),
         .source =
             "Rao, Mease: Eigenvector approximate dichotomic basis method for solving hyper-sensitive optimal "
             "control problems, Optimal Control Applications and Methods 21, 2000; of second order here",

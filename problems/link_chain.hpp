@@ -32,6 +32,8 @@ class LinkChain : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "swing-up of a planar chain of n rods in fixed time, least control effort",
+            .title = "Chain of links",
+            .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
             .source =
                 "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2, "
                 "with n links",

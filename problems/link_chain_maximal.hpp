@@ -20,6 +20,9 @@ class LinkChainMaximal final : public RedundantStatement<LinkChain> {
   [[nodiscard]] ProblemCard card() const override {
     const ProblemCard of_angles = minimal().card();
     return {.description = "swing-up of a planar chain of n rods, each a body of its own that joints hold",
+            .title = "Chain of links (maximal coordinates)",
+            .axis_units =
+                {.state = "m or rad", .control = "N m", .momentum = "N s or N m s", .cost = "N² m² s", .energy = "N m"},
             .source = "link_chain in maximal coordinates with two constraints per joint",
             .guess = "the one of link_chain",
             .reference = of_angles.reference,

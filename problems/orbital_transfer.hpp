@@ -19,6 +19,7 @@ class CircleToCircle : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     constexpr double seconds_per_hour = 3600.0;
     ProblemCard card{
+        .axis_units = AxisUnits::pure_numbers(),
         .source = "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.1",
         .time_unit = {.name = "h", .factor = time_scale() / seconds_per_hour}};
     const double revolutions = parameter("revolutions");
@@ -92,6 +93,7 @@ class OrbitalTransfer : public CircleToCircle {
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = CircleToCircle::card();
     card.description = "low thrust transfer of a satellite between two circular orbits, least control effort";
+    card.title = "Orbital transfer";
     card.picture = [this](const ControlledState& x) -> Picture {
       const Expression radius = initial_radius() * x.q[0];
       const Expression thrust = acceleration_scale() * x.u[0];

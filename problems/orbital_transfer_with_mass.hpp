@@ -20,6 +20,7 @@ class OrbitalTransferWithMass final : public OrbitalTransfer {
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = OrbitalTransfer::card();
     card.description = "low thrust transfer of a satellite that burns mass, least control effort";
+    card.title = "Orbital transfer with mass";
     card.source = "orbital_transfer with the mass flow of an engine of limited power";
     card.reference = with_default_parameters(
         *this, {.objective = 3.29498773270e-5,

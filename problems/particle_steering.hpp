@@ -27,6 +27,8 @@ class ParticleSteering : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "a particle steered by the direction of its thrust to a height and a speed, shortest time",
+            .title = "Particle steering",
+            .axis_units = {.state = "m", .control = "rad", .momentum = "m/s", .cost = "s"},
             .source = "Dolan, More, Munson: Benchmarking Optimization Software with COPS 3.0, problem 10",
             .reference = reference_optimum(),
             .picture = [](const ControlledState& x) -> Picture {

@@ -22,6 +22,8 @@ class PlanarQuadrotor : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "a quadrotor in a vertical plane flown from rest to rest in fixed time, least control effort",
+        .title = "Planar quadrotor",
+        .axis_units = {.state = "m or rad", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
         .source = "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor); the flight is this suite's",
         .guess = "q on the straight line from q(0) to q(T), v its slope, u_1 = u_2 = m g / 2, which hovers",
         .configuration_units = {"m", "m", "rad"},

@@ -17,6 +17,7 @@ class PlanarQuadrotorFlip : public PlanarQuadrotor {
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PlanarQuadrotor::card();
     card.description = "a somersault of a planar quadrotor on the spot in fixed time, least control effort";
+    card.title = "Somersault of the quadrotor";
     card.reference = reference_optimum();
     return card;
   }

@@ -41,6 +41,8 @@ class RigidQuadrotor final : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "a quadrotor in space, a rigid body, follows a curve in fixed time, final state free",
+        .title = "Quadrotor in space",
+        .axis_units = {.state = "m or rad", .control = "m/s² or rad/s²", .momentum = "m/s or m²/s", .cost = "m² s"},
         .source =
             "Montoison, Caillau: Modeling and Optimization of Control Problems on GPUs (arXiv:2510.03932), problem "
             "quadrotor, after ExaModels.jl; with torques instead of angular velocities",

@@ -30,6 +30,8 @@ class RobotArm : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "robot arm that slides and turns from rest to rest in the shortest time",
+        .title = "Robot arm",
+        .axis_units = {.cost = "s"},
         .source = "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 8",
         .guess = "q on the straight line from q(0) to q(T), v its slope, u = 0, T = 10",
         .reference = reference_optimum(),

@@ -39,6 +39,8 @@ class SatelliteDirectors final : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "a rigid satellite turns from rest to rest, its attitude a rotation matrix",
+        .title = "Satellite (directors)",
+        .axis_units = {.state = "dimensionless"},
         .source =
             "posed for this suite, after the directors of Betsch and Leyendecker; closed form about a principal axis",
         .guess = "a turn about the axis with the angle alpha (3 s^2 - 2 s^3), s = t/T; u = 0",

@@ -32,6 +32,8 @@ class SphericalPendulum : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "spherical pendulum from one steady cone to a wider one, least control effort",
+        .title = "Spherical pendulum",
+        .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
         .source = "posed for this suite: a mass matrix that depends on the configuration, a symmetry, both ends steady",
         .configuration_units = {"rad", "rad"},
         .control_units = {"N m", "N m"},

@@ -16,6 +16,8 @@ class SphericalPendulumCartesian : public RedundantStatement<SphericalPendulum> 
   [[nodiscard]] ProblemCard card() const override {
     const ProblemCard of_angles = minimal().card();
     return {.description = "spherical pendulum from one steady cone to a wider one, as a point on a sphere",
+            .title = "Spherical pendulum (Cartesian)",
+            .axis_units = {.state = "m", .control = "N m", .momentum = "N s", .cost = "N² m² s", .energy = "N m"},
             .source = "spherical_pendulum in Cartesian coordinates with one constraint",
             .guess = "the one of spherical_pendulum",
             .reference = of_angles.reference,

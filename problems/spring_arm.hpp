@@ -20,6 +20,8 @@ class SpringArm final : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "arm with a spring of unknown stiffness from rest to rest, least torque",
+            .title = "Arm with a spring",
+            .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
             .source = "an arm with parallel elasticity, stated for this library"};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"angle"}; }

@@ -33,6 +33,8 @@ class TwoLinkManipulator : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "swing-up of a planar two-link arm in fixed time, least control effort",
+        .title = "Two-link manipulator",
+        .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
         .source = "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2",
         .reference = with_default_parameters(*this, {.objective = 80.37902916907,
                                                      .digits = 13,

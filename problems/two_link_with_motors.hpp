@@ -17,6 +17,8 @@ class TwoLinkWithMotors final : public TwoLinkManipulator {
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = TwoLinkManipulator::card();
     card.description = "swing-up of a planar two-link arm by motors with inductance, least heat";
+    card.title = "Two-link manipulator with motors";
+    card.axis_units = {.state = "rad"};
     card.source = "two_link_manipulator with motors in its joints";
     card.reference = with_default_parameters(
         *this, {.objective = 83.8281466682,

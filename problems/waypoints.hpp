@@ -20,6 +20,8 @@ class Waypoints final : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card{.description = "hovercraft through given points at given times, least control effort",
+                     .title = "Hovercraft through waypoints",
+                     .axis_units = {.state = "m", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
                      .source = "Pulsipher, Zhang, Hongisto, Zavala: InfiniteOpt.jl, example hovercraft path planning",
                      .guess = "straight lines from point to point, without force",
                      .time_unit = {.name = "s", .factor = 1.0},

@@ -7,6 +7,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {

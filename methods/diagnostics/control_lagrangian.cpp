@@ -7,6 +7,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/linear_solve.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 
 namespace dmocbench {
 

@@ -43,9 +43,26 @@ struct PictureQuantity {
 /// All that a picture of the motion shows.
 using Picture = std::vector<PictureQuantity>;
 
+/// The units of what figures draw, as the problem is solved: "N m", "dimensionless" for a pure number, "" where none is
+/// stated. The time axis has `ProblemCard::time_unit`.
+struct AxisUnits {
+  std::string state = {};     ///< of q
+  std::string control = {};   ///< of u
+  std::string momentum = {};  ///< of p
+  std::string cost = {};      ///< of the cost
+  std::string energy = {};    ///< of L
+
+  /// All quantities are pure numbers.
+  [[nodiscard]] static AxisUnits pure_numbers() {
+    return {"dimensionless", "dimensionless", "dimensionless", "dimensionless", "dimensionless"};
+  }
+};
+
 /// Words, units, a reference and a picture for people who read about a problem. No solver uses them.
 struct ProblemCard {
   std::string description = {};  ///< one line
+  std::string title = {};        ///< of figures, "Cart-pole swing-up"; by default the problem's name in words
+  AxisUnits axis_units = {};     ///< of figures
   std::string source = {};       ///< where the problem comes from
   /// `Problem::guess` in words.
   std::string guess = "q on the straight line from q(0) to q(T), v its slope, u = 0";

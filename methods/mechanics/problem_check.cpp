@@ -77,6 +77,11 @@ void check_units(const Problem& problem, const char* of, const std::vector<std::
 
 void check_card(const Problem& problem, const ProblemCard& card) {
   require_one_line(problem, "card().description", card.description);
+  require_one_line(problem, "card().title", card.title);
+  for (const std::string& unit : {card.axis_units.state, card.axis_units.control, card.axis_units.momentum,
+                                  card.axis_units.cost, card.axis_units.energy}) {
+    require_one_line(problem, "card().axis_units", unit);
+  }
   require_one_line(problem, "card().source", card.source);
   require_one_line(problem, "card().guess", card.guess);
   require_one_line(problem, "card().time_unit", card.time_unit.name);

@@ -201,6 +201,8 @@ TEST(ProblemCheck, RefusesTextsThatATerminalWouldObey) {
       {"unit", [](Words& words) -> std::string& { return words.parameters[0].unit; }},
       {"meaning", [](Words& words) -> std::string& { return words.parameters[0].meaning; }},
       {"description", [](Words& words) -> std::string& { return words.card.description; }},
+      {"title", [](Words& words) -> std::string& { return words.card.title; }},
+      {"axis_units", [](Words& words) -> std::string& { return words.card.axis_units.momentum; }},
       {"source", [](Words& words) -> std::string& { return words.card.source; }},
       {"guess", [](Words& words) -> std::string& { return words.card.guess; }},
       {"time_unit", [](Words& words) -> std::string& { return words.card.time_unit.name; }},

@@ -6,6 +6,7 @@
 
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/value_of.hpp"
 

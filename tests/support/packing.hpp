@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/motions/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
