@@ -13,6 +13,7 @@
 #include "bench/python/python_problem.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "methods/expression/schedule.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "problems/registry.hpp"
@@ -85,6 +86,7 @@ void bind_problems(py::module_& module) {
                              })
       .def("operation_count", &operation_count, "Operations of the formulas and their derivatives.");
   module.def("problem_names", &problem_names, "Names of all problems that are built in or loaded.");
+  module.def("spell_members", &spell_members, py::arg("names"), "Sets the names of members of Problem in messages.");
   module.def("load_problem_libraries", &load_problem_libraries, py::arg("files"));
   module.def(
       "check_parameter",

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "methods/judgement/confirm.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {
@@ -144,8 +145,10 @@ std::string in_words(const Advice& advice) {
     case Remedy::more_time:
       return "Try more time (--seconds) or fewer intervals.";
     case Remedy::finite_formula:
-      return "Try bounds that keep the coordinates away from the singularity of that formula (Problem::bounds), and a "
-             "guess within them.";
+      return fmt::format(
+          "Try bounds that keep the coordinates away from the singularity of that formula ({}), and a "
+          "guess within them.",
+          member_name("Problem::bounds"));
     case Remedy::radians:
       return fmt::format("Try radians: {} changes by {:g}, which looks like an angle in degrees.", advice.coordinate,
                          advice.size);
@@ -162,7 +165,8 @@ std::string in_words(const Advice& advice) {
     case Remedy::common_start:
       return "Try --start common, a motion that other methods find first.";
     case Remedy::another_guess:
-      return "Try another guess (Problem::guess), or --start FILE with a motion near the one you want.";
+      return fmt::format("Try another guess ({}), or --start FILE with a motion near the one you want.",
+                         member_name("Problem::guess"));
   }
   return "";
 }

@@ -7,6 +7,7 @@
 #include "methods/adaptive/interval_conditions.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
+#include "methods/mechanics/member_name.hpp"
 
 namespace dmocbench {
 
@@ -223,9 +224,8 @@ const Transcription& with_fixed_ends(const Transcription& program) {
   if (program.has_free_horizon()) throw Error("the error cannot be estimated where the horizon is free; fix it");
   program.traced_problem().require_no_constraints("the estimate of the error");
   if (program.traced_problem().boundary_condition_count() > 0) {
-    throw Error(
-        "the error cannot be estimated where the problem has boundary conditions; state the ends by initial_state, "
-        "final_state and bounds");
+    throw Error("the error cannot be estimated where the problem has boundary conditions; state the ends by " +
+                member_name("initial_state") + ", " + member_name("final_state") + " and bounds");
   }
   return program;
 }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/path_constraints.hpp"
 #include "methods/numerics/dense_solve.hpp"
 #include "methods/numerics/lagrange_basis.hpp"
@@ -319,14 +320,16 @@ class Measurement {
   [[nodiscard]] std::string name_of_bound(Eigen::Index j) const {
     if (j >= 2 * n_ + m_) {
       const Eigen::Index i = j - 2 * n_ - m_;
-      return fmt::format("bounds().y: y[{}] ({})", i, problem_.first_order_names()[static_cast<std::size_t>(i)]);
+      return fmt::format("{}: y[{}] ({})", member_name("bounds().y"), i,
+                         problem_.first_order_names()[static_cast<std::size_t>(i)]);
     }
     if (j >= 2 * n_) {
       const Eigen::Index i = j - 2 * n_;
-      return fmt::format("bounds().u: u[{}] ({})", i, problem_.control_names()[static_cast<std::size_t>(i)]);
+      return fmt::format("{}: u[{}] ({})", member_name("bounds().u"), i,
+                         problem_.control_names()[static_cast<std::size_t>(i)]);
     }
     const Eigen::Index i = j % n_;
-    return fmt::format("{}q[{}] ({})", j < n_ ? "bounds().q: " : "bounds().v: the velocity of ", i,
+    return fmt::format("{}q[{}] ({})", member_name(j < n_ ? "bounds().q: " : "bounds().v: the velocity of "), i,
                        problem_.configuration_names()[static_cast<std::size_t>(i)]);
   }
   [[nodiscard]] std::string name_of_path(Eigen::Index i) const {

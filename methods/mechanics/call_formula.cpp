@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
@@ -21,12 +22,12 @@ void rethrow_naming(const std::string& name, const char* function) {
     throw;
   } catch (const Error& error) {
     if (std::string_view(error.what()).starts_with(name)) throw;
-    throw Error(fmt::format("{}: {}: {}", name, function, error.what()));
+    throw Error(fmt::format("{}: {}: {}", name, member_name(function), error.what()));
   } catch (const std::exception& error) {
-    throw Error(fmt::format("{}: {} throws an exception: {}", name, function, error.what()));
+    throw Error(fmt::format("{}: {} throws an exception: {}", name, member_name(function), error.what()));
   } catch (...) {
-    throw Error(
-        fmt::format("{}: {} throws an object that is not a std::exception; throw dmocbench::Error", name, function));
+    throw Error(fmt::format("{}: {} throws an object that is not a std::exception; throw dmocbench::Error", name,
+                            member_name(function)));
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/call_formula.hpp"
+#include "methods/mechanics/member_name.hpp"
 
 namespace dmocbench {
 
@@ -79,13 +80,14 @@ std::pair<std::string, std::string> name_and_unit(const std::string& column) {
 }
 
 void require_names(const Problem& problem) {
-  TakenColumns columns(problem.name() + ": among configuration_names and control_names", "t");
+  TakenColumns columns(
+      problem.name() + ": among " + member_name("configuration_names") + " and " + member_name("control_names"), "t");
   const auto names_of = [&](const char* function, const auto& call) { return call_formula(problem, function, call); };
   const auto configurations = names_of("configuration_names", [&] { return problem.configuration_names(); });
   const auto controls = names_of("control_names", [&] { return problem.control_names(); });
   if (configurations.empty()) {
-    throw Error(problem.name() +
-                ": configuration_names is empty; a problem needs a configuration, since for "
+    throw Error(problem.name() + ": " + member_name("configuration_names") +
+                " is empty; a problem needs a configuration, since for "
                 "first-order states alone all methods are the same");
   }
   const auto first_order = names_of("first_order_names", [&] { return problem.first_order_names(); });

@@ -14,6 +14,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/call_formula.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
@@ -171,20 +172,21 @@ BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::V
   const auto require_whole = [&](const Bounds& of, const char* what) {
     if (of.all_fixed() || !of.any()) return;
     throw Error(fmt::format("{}: {} gives or bounds {} in part, which an embedding cannot take; take multipliers",
-                            redundant_->name(), end, what));
+                            redundant_->name(), member_name(end), what));
   };
   require_whole(bounds.q, "q");
   require_whole(bounds.v, "its rates");
   if (bounds.v.all_fixed() && !bounds.q.all_fixed()) {
     throw Error(fmt::format("{}: {} gives the rates of q alone, which an embedding cannot take; take multipliers",
-                            redundant_->name(), end));
+                            redundant_->name(), member_name(end)));
   }
   BoundaryState result{.q = theta, .v = rate_of(state.v, theta), .y = state.y};
   const BoundaryState reached = lifted(result);
   const auto require_near = [&](const Eigen::VectorXd& from, const Eigen::VectorXd& to, const char* what) {
     const double distance = (from - to).norm();
     if (distance <= 1e-9 * (1.0 + to.norm())) return;  // not where it is not a number
-    throw Error(fmt::format("{}: embedding(theta) misses {}: {} by {:.3g}", redundant_->name(), end, what, distance));
+    throw Error(fmt::format("{}: embedding(theta) misses {}: {} by {:.3g}", redundant_->name(), member_name(end), what,
+                            distance));
   };
   if (bounds.q.all_fixed()) require_near(reached.q, state.q, "q");
   if (bounds.v.all_fixed()) require_near(reached.v, state.v, "its rates");

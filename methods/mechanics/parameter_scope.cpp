@@ -9,6 +9,7 @@
 
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem.hpp"
 
 namespace dmocbench {
@@ -98,12 +99,12 @@ void ParameterTrace::read_as_number(std::size_t parameter) {
   const auto& [name, is_unknown] =
       std::pair(problem_.parameters()[parameter].name, problem_.parameters()[parameter].is_unknown);
   if (is_unknown) {
-    throw Error(fmt::format("{}: a formula reads the unknown {} by parameter(), as a number; varying() is the unknown",
-                            problem_.name(), name));
+    throw Error(fmt::format("{}: a formula reads the unknown {} by {}, as a number; {} is the unknown", problem_.name(),
+                            name, member_name("parameter()"), member_name("varying()")));
   }
-  throw Error(fmt::format(
-      "{}: the parameter {} cannot be kept open, since a formula reads it by parameter(); varying() would let it vary",
-      problem_.name(), name));
+  throw Error(
+      fmt::format("{}: the parameter {} cannot be kept open, since a formula reads it by {}; {} would let it vary",
+                  problem_.name(), name, member_name("parameter()"), member_name("varying()")));
 }
 
 void ParameterTrace::require_unknowns_read() const {

@@ -10,6 +10,7 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/call_formula.hpp"
+#include "methods/mechanics/member_name.hpp"
 
 namespace dmocbench {
 
@@ -25,7 +26,7 @@ void require_inside(double value, double lower, double upper, const std::string&
 }
 
 void require_state(const BoundaryState& state, const Problem& problem, const char* name) {
-  const std::string subject = problem.name() + ": the boundary state " + name;
+  const std::string subject = problem.name() + ": the boundary state " + member_name(name);
   for (const Eigen::VectorXd* part : {&state.q, &state.v}) {
     if (part->size() != problem.configuration_size()) {
       throw Error(fmt::format("{} has {} entries, expected {}", subject, part->size(), problem.configuration_size()));
@@ -40,7 +41,7 @@ void require_state(const BoundaryState& state, const Problem& problem, const cha
 
 void require_state_inside(const BoundaryState& state, const EndBounds& bounds, const Problem& problem,
                           const char* name) {
-  const std::string subject = problem.name() + ": the boundary state " + name;
+  const std::string subject = problem.name() + ": the boundary state " + member_name(name);
   for (Eigen::Index i = 0; i < state.q.size(); ++i) {
     require_inside(state.q[i], bounds.q.lower[i], bounds.q.upper[i], fmt::format("{}: q[{}]", subject, i));
     require_inside(state.v[i], bounds.v.lower[i], bounds.v.upper[i], fmt::format("{}: v[{}]", subject, i));
@@ -77,9 +78,9 @@ void narrow(Bounds& end, const Bounds& everywhere, const std::string& subject, c
     const double lower = std::max(end.lower[i], everywhere.lower[i]);
     const double upper = std::min(end.upper[i], everywhere.upper[i]);
     if (lower > upper) {
-      throw Error(
-          fmt::format("{} and bounds().{} leave no value for {}[{}]: {:g} to {:g} there, {:g} to {:g} at the end",
-                      subject, part, part, i, everywhere.lower[i], everywhere.upper[i], end.lower[i], end.upper[i]));
+      throw Error(fmt::format("{} and {}{} leave no value for {}[{}]: {:g} to {:g} there, {:g} to {:g} at the end",
+                              subject, member_name("bounds()."), part, part, i, everywhere.lower[i],
+                              everywhere.upper[i], end.lower[i], end.upper[i]));
     }
     end.lower[i] = lower;
     end.upper[i] = upper;
@@ -103,8 +104,8 @@ void require_velocity_left(const Bounds& v, const Bounds& everywhere, const std:
     const double upper = std::min(v.upper[i], everywhere.upper[i]);
     const double slack = 1e-12 * std::max(1.0, std::abs(upper));
     if (lower <= upper + slack) continue;
-    throw Error(
-        fmt::format("{} and bounds().v leave no value for v[{}]: {:g} lies above {:g}", subject, i, lower, upper));
+    throw Error(fmt::format("{} and {} leave no value for v[{}]: {:g} lies above {:g}", subject,
+                            member_name("bounds().v"), i, lower, upper));
   }
 }
 
@@ -113,7 +114,7 @@ std::vector<InteriorBounds> checked_interior(std::vector<InteriorBounds> interio
                                              const std::string& name) {
   for (std::size_t j = 0; j < interior.size(); ++j) {
     InteriorBounds& at = interior[j];
-    const std::string subject = fmt::format("{}.interior[{}]", name, j);
+    const std::string subject = fmt::format("{}[{}]", name, j);
     if (!(at.relative_time > 0.0 && at.relative_time < 1.0)) {
       throw Error(fmt::format("{}.relative_time is {:g}; it must lie between 0 and 1, as a share of the horizon",
                               subject, at.relative_time));
@@ -128,16 +129,17 @@ std::vector<InteriorBounds> checked_interior(std::vector<InteriorBounds> interio
   std::ranges::sort(interior, {}, &InteriorBounds::relative_time);
   const auto same = std::ranges::adjacent_find(interior, {}, &InteriorBounds::relative_time);
   if (same == interior.end()) return interior;
-  throw Error(fmt::format("{}.interior has two entries at the relative time {:g}; state their bounds in one", name,
+  throw Error(fmt::format("{} has two entries at the relative time {:g}; state their bounds in one", name,
                           same->relative_time));
 }
 
 void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
   if (!(bounds.lower > 0.0) || !(bounds.upper >= bounds.lower)) {
-    const char* hint =
-        bounds.upper == 0.0 ? "; begin with Problem::bounds(), which fixes the ends and the horizon" : "";
-    throw Error(fmt::format("{}: bounds().horizon must be positive and ascend, got {:g} and {:g}{}", problem.name(),
-                            bounds.lower, bounds.upper, hint));
+    const std::string hint = bounds.upper == 0.0 ? fmt::format("; begin with {}, which fixes the ends and the horizon",
+                                                               member_name("Problem::bounds()"))
+                                                 : "";
+    throw Error(fmt::format("{}: {} must be positive and ascend, got {:g} and {:g}{}", problem.name(),
+                            member_name("bounds().horizon"), bounds.lower, bounds.upper, hint));
   }
 }
 
@@ -162,19 +164,21 @@ ProblemBounds problem_bounds(const Problem& problem) {
 
 ProblemBounds complete_bounds(const Problem& problem, ProblemBounds bounds) {
   const Eigen::Index n = problem.configuration_size();
-  const std::string name = problem.name() + ": bounds()";
+  const auto part = [&](const std::string& name) {
+    return fmt::format("{}: {}", problem.name(), member_name("bounds()." + name));
+  };
   require_horizon(problem, bounds.horizon);
-  bounds.q = checked_bounds(bounds.q, n, name + ".q");
-  bounds.v = checked_bounds(bounds.v, n, name + ".v");
-  bounds.u = checked_bounds(bounds.u, problem.control_size(), name + ".u");
-  bounds.path = checked_bounds(bounds.path, bounds.path.lower.size(), name + ".path");
-  bounds.integrals = checked_bounds(bounds.integrals, bounds.integrals.lower.size(), name + ".integrals");
-  bounds.y = checked_bounds(bounds.y, problem.first_order_size(), name + ".y");
-  bounds.first = checked_end(bounds.first, bounds, name + ".first");
-  bounds.last = checked_end(bounds.last, bounds, name + ".last");
-  require_velocity_left(bounds.first.v, bounds.v, name + ".first");
-  require_velocity_left(bounds.last.v, bounds.v, name + ".last");
-  bounds.interior = checked_interior(std::move(bounds.interior), bounds, name);
+  bounds.q = checked_bounds(bounds.q, n, part("q"));
+  bounds.v = checked_bounds(bounds.v, n, part("v"));
+  bounds.u = checked_bounds(bounds.u, problem.control_size(), part("u"));
+  bounds.path = checked_bounds(bounds.path, bounds.path.lower.size(), part("path"));
+  bounds.integrals = checked_bounds(bounds.integrals, bounds.integrals.lower.size(), part("integrals"));
+  bounds.y = checked_bounds(bounds.y, problem.first_order_size(), part("y"));
+  bounds.first = checked_end(bounds.first, bounds, part("first"));
+  bounds.last = checked_end(bounds.last, bounds, part("last"));
+  require_velocity_left(bounds.first.v, bounds.v, part("first"));
+  require_velocity_left(bounds.last.v, bounds.v, part("last"));
+  bounds.interior = checked_interior(std::move(bounds.interior), bounds, part("interior"));
   return bounds;
 }
 
@@ -182,8 +186,8 @@ void require_bounds_of_formulas(const Problem& problem, const ProblemBounds& bou
                                 Eigen::Index integrals) {
   const auto require = [&](const char* part, const char* formula, const Bounds& given, Eigen::Index count) {
     if (given.lower.size() == count) return;
-    throw Error(fmt::format("{}: bounds().{} has {} entries, and {} has {}", problem.name(), part, given.lower.size(),
-                            formula, count));
+    throw Error(fmt::format("{}: {}{} has {} entries, and {} has {}", problem.name(), member_name("bounds()."), part,
+                            given.lower.size(), formula, count));
   };
   if (!bounds.path.empty()) require("path", "path_constraints", bounds.path, path_constraints);
   require("integrals", "integrands", bounds.integrals, integrals);

@@ -12,6 +12,7 @@
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/call_formula.hpp"
 #include "methods/mechanics/column_names.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 
 namespace dmocbench {
@@ -196,7 +197,7 @@ void TracedProblem::require_no_constraints(const char* method) const {
   if (holonomic_count_ == 0 && !has_embedding()) return;
   throw Error(fmt::format("{} does not take {} g(q) = 0 ({}); state the problem in minimal coordinates", method,
                           has_embedding() ? "the embedding of constraints" : "constraints",
-                          has_embedding() ? "EmbeddedProblem" : "Problem::constraints"));
+                          has_embedding() ? std::string("EmbeddedProblem") : member_name("Problem::constraints")));
 }
 
 TracedProblem::HolonomicValues TracedProblem::holonomic_at(const ExpressionVector& q, const ExpressionVector& v) const {
@@ -261,8 +262,8 @@ ExpressionVector TracedProblem::parameters() const {
 void TracedProblem::require_first_order(Eigen::Index given) const {
   if (given == l_) return;
   throw Error(
-      "this method does not support first-order states (Problem::first_order_names); dmoc, hamiltonian, tangent and "
-      "galerkin do");
+      fmt::format("this method does not support first-order states ({}); dmoc, hamiltonian, tangent and galerkin do",
+                  member_name("Problem::first_order_names")));
 }
 
 Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const {

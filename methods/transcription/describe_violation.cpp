@@ -10,6 +10,7 @@
 #include "methods/expression/schedule.hpp"
 #include "methods/judgement/dependent_rows.hpp"
 #include "methods/mechanics/formula_check.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/transcription/start.hpp"
 
 namespace dmocbench {
@@ -46,7 +47,7 @@ class ConstraintWords {
       if (place.index == blocks_->intervals())
         return end_momentum("final_state", "bounds().last", bounds_->last, block, row) + where(place);
     }
-    return fmt::format(fmt::runtime(block.words.sentence), component) + where(place);
+    return fmt::format(fmt::runtime(member_name(block.words.sentence)), component) + where(place);
   }
 
   [[nodiscard]] std::string unknown(std::size_t unknown) const {
@@ -54,9 +55,9 @@ class ConstraintWords {
     const std::string component = component_of(block, unknown);
     const Place place = blocks_->structure().unknowns[unknown];
     if (block.kind == Quantity::integral && place.index == blocks_->intervals()) {
-      return fmt::format("bounds().integrals[{}]", component);
+      return member_name("bounds().integrals") + "[" + component + "]";
     }
-    const std::string sentence = fmt::format(fmt::runtime(block.words.sentence), component);
+    const std::string sentence = fmt::format(fmt::runtime(member_name(block.words.sentence)), component);
     // A control that neighbours share is the first one of an interval.
     if (block.kind == Quantity::control) return sentence + in_interval(std::min(place.index, blocks_->intervals() - 1));
     return sentence + where(place);
@@ -104,7 +105,7 @@ class ConstraintWords {
   [[nodiscard]] std::string end_momentum(const char* state, const char* bounds, const EndBounds& end,
                                          const RowBlock& block, std::size_t row) const {
     return fmt::format("{}: the momentum (p = L_v of its velocity) of {}",
-                       end.v.is_fixed(number_in(block, row)) ? state : bounds, component_of(block, row));
+                       member_name(end.v.is_fixed(number_in(block, row)) ? state : bounds), component_of(block, row));
   }
 
   const Problem* problem_;
@@ -150,8 +151,8 @@ std::string held_controls(const Problem& problem, const Transcription& transcrip
       }
     }
     if (2 * held <= stages * intervals) continue;
-    text += fmt::format(" bounds().u holds {} at {} of {} stages.", named('u', i, problem.control_names()), held,
-                        stages * intervals);
+    text += fmt::format(" {} holds {} at {} of {} stages.", member_name("bounds().u"),
+                        named('u', i, problem.control_names()), held, stages * intervals);
   }
   return text;
 }
@@ -274,8 +275,8 @@ std::string held_horizon(const Problem& problem, const Transcription& transcript
   if (!transcription.has_free_horizon()) return "";
   const HorizonBounds bounds = problem.bounds().horizon;
   const double horizon = transcription.horizon(x);
-  if (is_held(horizon, bounds.lower)) return " bounds().horizon holds T at its lower bound.";
-  if (is_held(horizon, bounds.upper)) return " bounds().horizon holds T at its upper bound.";
+  if (is_held(horizon, bounds.lower)) return " " + member_name("bounds().horizon") + " holds T at its lower bound.";
+  if (is_held(horizon, bounds.upper)) return " " + member_name("bounds().horizon") + " holds T at its upper bound.";
   return "";
 }
 
@@ -313,8 +314,8 @@ bool states_more_than(const EndBounds& end, const Bounds& all_along) {
 std::string contradiction(const Transcription& transcription) {
   std::vector<std::string> parts;
   const EndBounds& last = transcription.bounds().last;
-  if (states_more_than(last, transcription.bounds().q)) parts.emplace_back("final_state");
-  if (!transcription.bounds().interior.empty()) parts.emplace_back("bounds().interior");
+  if (states_more_than(last, transcription.bounds().q)) parts.push_back(member_name("final_state"));
+  if (!transcription.bounds().interior.empty()) parts.push_back(member_name("bounds().interior"));
   if (transcription.traced_problem().boundary_condition_count() > 0) parts.emplace_back("boundary_conditions");
   if (transcription.traced_problem().path_constraint_count() > 0) parts.emplace_back("path_constraints");
   if (parts.empty()) return "";

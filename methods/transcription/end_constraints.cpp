@@ -14,6 +14,7 @@
 #include "methods/expression/replay.hpp"
 #include "methods/expression/schedule.hpp"
 #include "methods/mechanics/holonomic_constraints.hpp"
+#include "methods/mechanics/member_name.hpp"
 
 namespace dmocbench {
 
@@ -97,8 +98,8 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
     throw Error(
         fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} there (t = "
                     "{:g}), and has to be at {} {:g}",
-                    problem.name(), point.name, i, names.empty() ? "" : " (" + names[i] + ")", value, point.time,
-                    is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]));
+                    problem.name(), member_name(point.name), i, names.empty() ? "" : " (" + names[i] + ")", value,
+                    point.time, is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]));
   }
 }
 
@@ -127,7 +128,7 @@ void require_holonomic_constraints_at_ends(const Problem& problem, const TracedP
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       if (std::abs(values[i]) <= known_digits * (1.0 + terms[i])) continue;
       throw Error(fmt::format("{}: {} does not keep constraints[{}]: {} = {:.3g} there, and has to be 0",
-                              problem.name(), name, i, what, values[i]));
+                              problem.name(), member_name(name), i, what, values[i]));
     }
   };
   for (const auto& [end, name] : {std::pair(&bounds.first, "initial_state"), std::pair(&bounds.last, "final_state")}) {

@@ -7,6 +7,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
@@ -51,7 +52,7 @@ ReleasedComponents released(const Problem& problem, const TracedProblem& traced,
     std::vector<Eigen::Index> columns = independent_columns(jacobian, is_free);
     if (std::ssize(columns) < constraints.count()) {
       throw Error(fmt::format("{}: constraints are dependent at {}: G = dg/dq has rank {}, not {}", problem.name(),
-                              name, columns.size(), constraints.count()));
+                              member_name(name), columns.size(), constraints.count()));
     }
     std::erase_if(columns, [&](Eigen::Index i) { return is_free[static_cast<std::size_t>(i)]; });
     return columns;

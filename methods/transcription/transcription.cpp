@@ -10,6 +10,7 @@
 
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/transcription/derivatives/part_places.hpp"
 #include "methods/transcription/motions/constraint_windows.hpp"
@@ -38,21 +39,20 @@ void require_equalities_fit(const Problem& problem, const TracedProblem& traced,
     ++equalities;
     if (controls.stages() < tableau.stages()) {
       throw Error(
-          fmt::format("{}: bounds().path makes path_constraints[{}] an equality at {} points of an interval, more than "
+          fmt::format("{}: {} makes path_constraints[{}] an equality at {} points of an interval, more than "
                       "its {} control nodes; take as many --control-nodes",
-                      problem.name(), i, tableau.stages(), controls.stages()));
+                      problem.name(), member_name("bounds().path"), i, tableau.stages(), controls.stages()));
     }
     const bool is_same = controls.shares_controls || !traced.constraints_read_controls()[static_cast<std::size_t>(i)];
     if (!has_stages_at_nodes || !is_same) continue;
     throw Error(
-        fmt::format("{}: bounds().path makes path_constraints[{}] an equality, which with stages at the nodes "
+        fmt::format("{}: {} makes path_constraints[{}] an equality, which with stages at the nodes "
                     "two intervals would impose on the same numbers; take --tableau gauss",
-                    problem.name(), i));
+                    problem.name(), member_name("bounds().path"), i));
   }
   if (equalities <= traced.control_size()) return;
-  throw Error(
-      fmt::format("{}: bounds().path makes {} path constraints equalities; there can be as many as controls, {}",
-                  problem.name(), equalities, traced.control_size()));
+  throw Error(fmt::format("{}: {} makes {} path constraints equalities; there can be as many as controls, {}",
+                          problem.name(), member_name("bounds().path"), equalities, traced.control_size()));
 }
 
 constexpr std::array cost_forms{Named<CostForm>{"bolza", CostForm::bolza}, Named<CostForm>{"mayer", CostForm::mayer}};
@@ -79,8 +79,8 @@ void require_same_times(const Problem& problem, const ProblemBounds& before, con
     return a.relative_time == b.relative_time && a.v.any() == b.v.any();
   };
   if (std::ranges::equal(before.interior, now.interior, is_same)) return;
-  throw Error(problem.name() +
-              ": bounds().interior has other times than before, or bounds on other velocities; that is another "
+  throw Error(problem.name() + ": " + member_name("bounds().interior") +
+              " has other times than before, or bounds on other velocities; that is another "
               "transcription");
 }
 
@@ -302,10 +302,11 @@ void Transcription::set_final_state(const BoundaryState& state) { set_end(state,
 void Transcription::set_end(const BoundaryState& state, EndBounds ProblemBounds::*end, const char* name) {
   const Eigen::Index n = traced_.configuration_size();
   if (state.q.size() != n || state.v.size() != n || !state.q.allFinite() || !state.v.allFinite()) {
-    throw Error(fmt::format("{}: {} needs {} numbers each for q and v", problem_->name(), name, n));
+    throw Error(fmt::format("{}: {} needs {} numbers each for q and v", problem_->name(), member_name(name), n));
   }
   if (state.y.size() != traced_.first_order_size() || !state.y.allFinite()) {
-    throw Error(fmt::format("{}: {} needs {} numbers y", problem_->name(), name, traced_.first_order_size()));
+    throw Error(
+        fmt::format("{}: {} needs {} numbers y", problem_->name(), member_name(name), traced_.first_order_size()));
   }
   Values values = present_values();
   const auto fix = [](const Eigen::VectorXd& at, Bounds& bounds) {

@@ -11,7 +11,7 @@ from typing import Any, Iterator, Sequence
 
 from . import _core
 from ._core import Error
-from .problem import Problem, sentences_of_python
+from .problem import Problem
 from .solving import AnyProblem, handle_of
 
 
@@ -143,8 +143,7 @@ def run(experiment: str, problem: AnyProblem | Sequence[AnyProblem] | None = Non
         for setting in sorted(settings):
             words += ["--set", setting]
     sys.stdout.flush()
-    with sentences_of_python():
-        code = _core.run(experiment, words + _arguments(options) + [str(word) for word in arguments], True)
+    code = _core.run(experiment, words + _arguments(options) + [str(word) for word in arguments], True)
     return _results(os.fspath(out), name or experiment, problems, code == 0)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import copy
 import difflib
 import inspect
@@ -21,28 +20,14 @@ _infinity = math.inf
 Numbers = Union[float, Sequence[float], Mapping[str, float], None]
 """A number for every entry, a list of them, or a dict by the names of entries."""
 
-# Names in messages of C++ and their Python names.
-_words = {"Problem::": "", "initial_state": "start", "final_state": "end", "bounds().first": "start", "bounds().last": "end",
-          "bounds().interior": "waypoints",
-          "bounds().horizon": "horizon", "bounds().": "bounds of ", "configuration_names": "q", "control_names": "u", "first_order_names": "y",
-          "varying()": "a formula",
-          "parameter()": "its number"}
-
-
-def in_words_of_python(sentence: str) -> str:
-    """A sentence of C++ with the names that functions have here."""
-    for word, ours in _words.items():
-        sentence = sentence.replace(word, ours)
-    return sentence
-
-
-@contextlib.contextmanager
-def sentences_of_python():
-    """Errors of C++ in the words of Python."""
-    try:
-        yield
-    except Error as error:
-        raise Error(in_words_of_python(str(error))) from None
+# Members of the C++ class as messages name them, and as they are called here.
+_core.spell_members([
+    ("initial_state", "start"), ("final_state", "end"), ("bounds().first", "start"), ("bounds().last", "end"),
+    ("bounds().interior", "waypoints"), ("bounds().horizon", "horizon"), ("bounds().", "bounds of "),
+    ("configuration_names", "q"), ("control_names", "u"), ("first_order_names", "y"),
+    ("Problem::first_order_names", "y"), ("Problem::", ""),
+    ("varying()", "a formula"), ("parameter()", "its number"),
+])
 
 
 class _Vector:
@@ -351,8 +336,7 @@ class Problem:
 
     def handle(self) -> _core.ProblemHandle:
         """The problem as C++ sees it, checked. Throws Error with a sentence if something is missing or does not fit."""
-        with sentences_of_python():
-            return _core.ProblemHandle(self)
+        return _core.ProblemHandle(self)
 
     def parameters(self) -> dict[str, float]:
         """The values of all parameters by name."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from ._core import Error
-from .problem import Problem, in_words_of_python, sentences_of_python
+from .problem import Problem
 
 
 class NamedProblem:
@@ -176,13 +176,12 @@ class Solution:
     @property
     def message(self) -> str:
         """The outcome of the solve, in a sentence."""
-        return in_words_of_python(self._answer.message)
+        return self._answer.message
 
     def estimated_error(self) -> float:
         """The estimated relative error of q, p and cost, from this answer alone. Throws Error if the solve failed, the
         horizon is free, bounds or path constraints are active, or there are first-order states, unknowns or integrals."""
-        with sentences_of_python():
-            return self._answer.estimated_error()
+        return self._answer.estimated_error()
 
     def __dir__(self):
         return sorted({*super().__dir__(), *type(self).__annotations__})
@@ -281,8 +280,7 @@ def solve(problem: AnyProblem, method: str = "dmoc", *, intervals: int = 128, ta
         if value is not None:
             given[name] = value
     asked = _fill(_core.Asked(), given)
-    with sentences_of_python():
-        return Solution(_core.solve(handle_of(problem), asked, start._answer if start is not None else None))
+    return Solution(_core.solve(handle_of(problem), asked, start._answer if start is not None else None))
 
 
 class Batch:
@@ -340,5 +338,4 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
     given.update({name: value for name, value in (("tolerance", tolerance), ("most_iterations", most_iterations))
                   if value is not None})
     asked = _fill(_core.BatchAsked(), given)
-    with sentences_of_python():
-        return Batch(_core.solve_batch(handle, asked, count, list(columns), values, *tables), n, m)
+    return Batch(_core.solve_batch(handle, asked, count, list(columns), values, *tables), n, m)
