@@ -32,6 +32,7 @@ class Beam : public Problem {
                 "Bryson, Denham, Dreyfus (1963); Bryson, Ho: Applied Optimal Control, section 3.11; beam of "
                 "OptimalControlProblems.jl",
             .guess = "the line without a bound, x = t(1 - t), lowered to x <= l",
+            .time_unit = {.name = "", .factor = 1.0},
             .reference = ReferenceOptimum{.objective = least_cost(),
                                           .digits = 16,
                                           .certificate = "closed form, 8/(9 l) where x lies on the bound",

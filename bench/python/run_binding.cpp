@@ -94,6 +94,4 @@ void bind_run(py::module_& module) {
   });
 }
 
-}  // namespace python
-
-}  // namespace dmocbench
+}  // namespace dmocbench::python
