@@ -128,8 +128,9 @@ std::string sentence_of(const std::exception& error) {
 }
 
 template <class Value>
-void CommandLine::option(const std::string& names, Value& value, const std::string& help) {
+void CommandLine::option(const std::string& names, Value& value, const std::string& help, OptionRole role) {
   CLI::Option* const option = add(app_, group_, names, value, help)->required(!names.starts_with('-'));
+  note(option, role);
   constexpr bool is_path = std::is_same_v<Value, std::filesystem::path>;
   if constexpr (is_path || std::is_same_v<Value, std::string>) {
     const auto is_empty = [](const std::string& text) {
@@ -139,32 +140,35 @@ void CommandLine::option(const std::string& names, Value& value, const std::stri
   }
   if constexpr (std::is_arithmetic_v<Value>) option->check(is_written_as_number);
 }
-template void CommandLine::option(const std::string&, int&, const std::string&);
-template void CommandLine::option(const std::string&, double&, const std::string&);
-template void CommandLine::option(const std::string&, std::string&, const std::string&);
-template void CommandLine::option(const std::string&, std::filesystem::path&, const std::string&);
-template void CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&);
+template void CommandLine::option(const std::string&, int&, const std::string&, OptionRole);
+template void CommandLine::option(const std::string&, double&, const std::string&, OptionRole);
+template void CommandLine::option(const std::string&, std::string&, const std::string&, OptionRole);
+template void CommandLine::option(const std::string&, std::filesystem::path&, const std::string&, OptionRole);
+template void CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&, OptionRole);
 
 template <class Number>
 void CommandLine::number(const std::string& names, Number& value, std::type_identity_t<Number> least,
-                         std::type_identity_t<Number> largest, const std::string& help) {
+                         std::type_identity_t<Number> largest, const std::string& help, OptionRole role) {
   using Limit = std::conditional_t<std::is_floating_point_v<Number>, double, long long>;
   const auto nan = [](const std::string& text) {  // which no comparison finds outside of a range
     return std::isnan(std::strtod(text.c_str(), nullptr)) ? fmt::format("{} is not a number", text) : std::string();
   };
   CLI::Option* const option = add(app_, group_, names, value, help);
+  note(option, role);
   option->check(is_written_as_number)->check(CLI::Validator(nan, ""));
   CLI::Validator range = CLI::Range(static_cast<Limit>(least), static_cast<Limit>(largest));
   option->check(range.description(fmt::format(" {} to {}", least, largest)));
 }
-template void CommandLine::number(const std::string&, int&, int, int, const std::string&);
-template void CommandLine::number(const std::string&, long long&, long long, long long, const std::string&);
-template void CommandLine::number(const std::string&, std::uint64_t&, std::uint64_t, std::uint64_t, const std::string&);
-template void CommandLine::number(const std::string&, double&, double, double, const std::string&);
+template void CommandLine::number(const std::string&, int&, int, int, const std::string&, OptionRole);
+template void CommandLine::number(const std::string&, long long&, long long, long long, const std::string&, OptionRole);
+template void CommandLine::number(const std::string&, std::uint64_t&, std::uint64_t, std::uint64_t, const std::string&,
+                                  OptionRole);
+template void CommandLine::number(const std::string&, double&, double, double, const std::string&, OptionRole);
 
 template <class Value>
 void CommandLine::list(const std::string& names, std::vector<Value>& values, const std::string& help) {
   CLI::Option* const option = add(app_, group_, names, values, help)->delimiter(',');
+  note(option, OptionRole::result);
   if constexpr (std::is_arithmetic_v<Value>) option->check(is_written_as_number);
   lists_.push_back(names);
 }
@@ -187,8 +191,12 @@ void CommandLine::refuse_empty_entries() const {
   }
 }
 
-void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
-  app_.add_flag(names, value, help)->group(group_);
+void CommandLine::flag(const std::string& names, bool& value, const std::string& help, OptionRole role) {
+  note(app_.add_flag(names, value, help)->group(group_), role);
+}
+
+void CommandLine::note(const CLI::Option* option, OptionRole role) {
+  if (role == OptionRole::result) for_results_.push_back(option);
 }
 
 std::string CommandLine::end_of_help() const {
@@ -209,12 +217,12 @@ std::vector<std::string> CommandLine::parse() {
   return {argv_, argv_ + argc_};
 }
 
-std::vector<std::pair<std::string, std::string>> CommandLine::values() const {
-  std::vector<std::pair<std::string, std::string>> values;
-  for (const CLI::Option* option : app_.get_options()) {
+std::map<std::string, std::string> CommandLine::values_for_results() const {
+  std::map<std::string, std::string> values;
+  for (const CLI::Option* option : for_results_) {
     const bool is_given = option->count() > 0;
-    values.emplace_back(option->get_name(),
-                        is_given ? fmt::format("{}", fmt::join(option->results(), ",")) : option->get_default_str());
+    values[option->get_name()] =
+        is_given ? fmt::format("{}", fmt::join(option->results(), ",")) : option->get_default_str();
   }
   return values;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,9 +17,17 @@
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the name is CLI11's
 class App;
+class Option;
 }  // namespace CLI
 
 namespace dmocbench {
+
+/// What an option changes. Runs whose options of the role `result` are equal write equal rows but for times.
+enum class OptionRole : std::uint8_t {
+  result,   ///< the rows
+  place,    ///< where files are read and written
+  machine,  ///< how a machine does the work, and what it prints
+};
 
 /// The options of a program: their names, the variables that take their values, and their help, which shows the values
 /// that these variables have at first.
@@ -29,16 +39,16 @@ class CommandLine {
   /// Reads into `value`: int, double, string, path, and a vector of strings (the option may be repeated). A name
   /// without dashes names a required positional argument.
   template <class Value>
-  void option(const std::string& names, Value& value, const std::string& help);
+  void option(const std::string& names, Value& value, const std::string& help, OptionRole role = OptionRole::result);
   /// Reads a number between `least` and `largest`: int, long long, std::uint64_t or double.
   template <class Number>
   void number(const std::string& names, Number& value, std::type_identity_t<Number> least,
-              std::type_identity_t<Number> largest, const std::string& help);
+              std::type_identity_t<Number> largest, const std::string& help, OptionRole role = OptionRole::result);
   /// Reads values with commas between them: int or string.
   template <class Value>
   void list(const std::string& names, std::vector<Value>& values, const std::string& help);
   /// `names` as in "--polish,!--no-polish", where an exclamation mark precedes a negating name.
-  void flag(const std::string& names, bool& value, const std::string& help);
+  void flag(const std::string& names, bool& value, const std::string& help, OptionRole role = OptionRole::result);
   /// The group of `--help` that options belong to from here on.
   void group(const std::string& name) { group_ = name; }
   /// Text after the options in `--help`.
@@ -49,12 +59,14 @@ class CommandLine {
   void exit_code_1(const std::string& meaning) { meaning_of_1_ = meaning; }
   /// The values are known from here on; the name of the program and all its arguments. Throws as `check_environment`.
   std::vector<std::string> parse();
-  /// After `parse`: the options and their values as text, including defaults, in the order of `--help`.
-  [[nodiscard]] std::vector<std::pair<std::string, std::string>> values() const;
+  /// After `parse`: the options that change rows and their values as text, including defaults, by name.
+  [[nodiscard]] std::map<std::string, std::string> values_for_results() const;
 
  private:
   friend int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                          const std::function<int(CommandLine&)>& body);
+  /// Takes note of an option's role.
+  void note(const CLI::Option* option, OptionRole role);
   CommandLine(CLI::App& app, int argc, char** argv) : app_(app), argc_(argc), argv_(argv) {}
   /// Throws if a list has an empty entry between two commas, which CLI11 drops silently, and if an option has no value
   /// after =.
@@ -70,7 +82,8 @@ class CommandLine {
   std::string footer_;
   std::string example_;
   std::string meaning_of_1_ = "a row could not be measured";
-  std::vector<std::string> lists_;  ///< options with commas between their values
+  std::vector<std::string> lists_;               ///< options with commas between their values
+  std::vector<const CLI::Option*> for_results_;  ///< options that change rows
 };
 
 /// The groups of `--help` that most programs have: which problem, and where results go.

@@ -72,8 +72,8 @@ std::vector<std::string> with_distinguishing(const std::vector<std::string>& cho
 }  // namespace
 
 void Findings::add_to(CommandLine& line) {
-  line.flag("--quiet", is_quiet_, "print errors only");
-  line.flag("--json", as_json_, "print the findings as one JSON object");
+  line.flag("--quiet", is_quiet_, "print errors only", OptionRole::machine);
+  line.flag("--json", as_json_, "print the findings as one JSON object", OptionRole::machine);
 }
 
 void Findings::say(const std::string& sentence) {

@@ -284,16 +284,17 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.number("--seconds", options.most_seconds, 0.0, 1e6, "time limit of a solve; 0: no limit");
   line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
   line.option("--repeats", options.repeats, "solves per row; times are medians");
-  line.flag("--verbose", options.verbose, "show the solver's own output");
+  line.flag("--verbose", options.verbose, "show the solver's own output", OptionRole::machine);
   line.group(group_of_output);
-  line.option("--out", options.out, "folder for the results");
-  line.option("--name", options.name, "name of the table and of the files next to it");
-  line.flag("--fresh", options.fresh, "solve all cases instead of resuming an interrupted run");
+  line.option("--out", options.out, "folder for the results", OptionRole::place);
+  line.option("--name", options.name, "name of the table and of the files next to it", OptionRole::place);
+  line.flag("--fresh", options.fresh, "solve all cases instead of resuming an interrupted run", OptionRole::machine);
 }
 
 void add_jobs_option(CommandLine& line, ExperimentOptions& options) {
   line.number("--jobs", options.jobs, 1, 256,
-              "number of processes; each solves one problem at a time, in large batches one method of it");
+              "number of processes; each solves one problem at a time, in large batches one method of it",
+              OptionRole::machine);
 }
 
 void add_tolerances_option(CommandLine& line, ExperimentOptions& options) {
@@ -312,13 +313,16 @@ void add_part_options(CommandLine& line, ExperimentOptions& options) {
       "--part", options.part,
       "i/n: solve only the i-th of n parts of the cases, and write it to OUT/NAME.parts/i-of-n.part when it is "
       "complete. A part that exists is not solved again. Failed solves do not change the exit code, 0. `merge` joins "
-      "the parts");
+      "the parts",
+      OptionRole::place);
   line.option("--missing-parts", options.missing_parts,
-              "n: print the numbers of the missing parts of this run, of n, one per line, and solve nothing");
+              "n: print the numbers of the missing parts of this run, of n, one per line, and solve nothing",
+              OptionRole::place);
   line.option(
       "--join", options.join,
       "results folder whose parts are joined to the one table instead of solving anything, as `merge` calls it; "
-      "may be repeated");
+      "may be repeated",
+      OptionRole::place);
 }
 
 SolverOptions solver_options(const ExperimentOptions& options) {

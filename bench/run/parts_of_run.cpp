@@ -101,8 +101,7 @@ void forget_joining(Json& command_line) {
 }  // namespace
 
 PartsOfRun::PartsOfRun(Experiment& experiment, const std::vector<Case>& cases, const Json& metadata,
-                       const std::vector<std::pair<std::string, std::string>>& options,
-                       std::vector<std::string> columns)
+                       const std::map<std::string, std::string>& options, std::vector<std::string> columns)
     : experiment_(experiment), cases_(cases), columns_(std::move(columns)) {
   const ExperimentOptions& chosen = experiment.options();
   if (!chosen.part.empty()) part_ = parse_part("--part", chosen.part);

@@ -22,7 +22,7 @@ class PartsOfRun {
   /// `options`: names and values of the command line; `columns`: names of the table's columns. Throws `Error` if --part
   /// is not a part or --missing-parts is not a number of parts.
   PartsOfRun(Experiment& experiment, const std::vector<Case>& cases, const nlohmann::ordered_json& metadata,
-             const std::vector<std::pair<std::string, std::string>>& options, std::vector<std::string> columns);
+             const std::map<std::string, std::string>& options, std::vector<std::string> columns);
 
   /// Whether this run is one part, requested by --part.
   [[nodiscard]] bool is_one() const noexcept { return part_.has_value(); }

@@ -58,7 +58,8 @@ void add_library_option(CommandLine& line, std::vector<std::string>& libraries) 
   line.group(group_of_problem);
   line.option("--library", libraries,
               "shared library of problems, made by dmocbench_add_problems; may be repeated. Libraries in "
-              "DMOCBENCH_LIBRARIES are loaded first");
+              "DMOCBENCH_LIBRARIES are loaded first",
+              OptionRole::place);
 }
 
 void load_problem_libraries(const std::vector<std::string>& libraries) {

@@ -62,7 +62,7 @@ bool has_instances(const std::vector<Case>& cases) {
 class Run {
  public:
   Run(Experiment& experiment, Findings& findings, const std::vector<std::string>& command_line,
-      const std::vector<std::pair<std::string, std::string>>& values)
+      const std::map<std::string, std::string>& values)
       : experiment_(experiment),
         findings_(findings),
         options_(experiment.options()),
@@ -542,7 +542,7 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     experiment.add_options(line);
     if (!wants_motions) add_part_options(line, experiment.options());
     const std::vector<std::string> command_line = parse_with_libraries(line);
-    return Run(experiment, findings, command_line, line.values()).run();
+    return Run(experiment, findings, command_line, line.values_for_results()).run();
   });
 }
 

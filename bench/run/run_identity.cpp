@@ -1,7 +1,5 @@
 #include "bench/run/run_identity.hpp"
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 
 #include <boost/crc.hpp>
@@ -16,13 +14,6 @@ namespace dmocbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Options that change only the times in rows, and the paths of problem libraries, whose contents are compared instead.
-bool is_about_the_machine(const std::string& option) {
-  constexpr std::array names{"--help", "--out",     "--name",  "--jobs",  "--verbose", "--part",   "--missing-parts",
-                             "--join", "--library", "--fresh", "--quiet", "--json",    "--version"};
-  return std::ranges::find(names, option) != names.end();
-}
 
 /// Names, grids, tolerances and parameters of all cases.
 std::string checksum_of(const std::vector<Case>& cases) {
@@ -71,28 +62,20 @@ Json program_of(const std::string& experiment, const Json& metadata) {
   return identity;
 }
 
-Json options_of_run(const std::vector<std::pair<std::string, std::string>>& options) {
-  Json result = Json::object();
-  for (const auto& [name, value] : options) {
-    if (!is_about_the_machine(name)) result[name] = value;
-  }
-  return result;
-}
-
 }  // namespace
 
 Json identity_of(const std::string& experiment, const Json& metadata,
-                 const std::vector<std::pair<std::string, std::string>>& options) {
+                 const std::map<std::string, std::string>& options) {
   Json identity = program_of(experiment, metadata);
-  identity["options"] = options_of_run(options);
+  identity["options"] = options;
   return identity;
 }
 
 Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, const Json& metadata,
-                 const std::vector<std::pair<std::string, std::string>>& options) {
+                 const std::map<std::string, std::string>& options) {
   Json identity = program_of(card.name, metadata);
   identity["parameters"] = parameters_of(cases);  // before the options: a difference is reported by its first entry
-  identity["options"] = options_of_run(options);
+  identity["options"] = options;
   const std::string& start = card.options.start;
   std::error_code none;  // a start that is not a file is rejected where it is read
   if (start != "common" && start != "guess" && std::filesystem::is_regular_file(start, none))

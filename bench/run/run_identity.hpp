@@ -1,8 +1,8 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,16 +12,15 @@
 namespace dmocbench {
 
 /// The properties that all parts of a run have in common: program, compiler, instruction set, libraries (of problems by
-/// name and checksum), parameters of the problems, options (except options that affect only place and speed:
-/// --out, --name, --jobs, --library, --verbose and the like), the cases, and the file that solves start
-/// from. `metadata` describes the run (`describe_run`), `options` are names and values of the command line.
+/// name and checksum), parameters of the problems, options, the cases, and the file that solves start
+/// from. `metadata` describes the run (`describe_run`), `options` are `CommandLine::values_for_results`.
 [[nodiscard]] nlohmann::ordered_json identity_of(const ExperimentCard& card, const std::vector<Case>& cases,
                                                  const nlohmann::ordered_json& metadata,
-                                                 const std::vector<std::pair<std::string, std::string>>& options);
+                                                 const std::map<std::string, std::string>& options);
 
 /// The same of a run without cases.
 [[nodiscard]] nlohmann::ordered_json identity_of(const std::string& experiment, const nlohmann::ordered_json& metadata,
-                                                 const std::vector<std::pair<std::string, std::string>>& options);
+                                                 const std::map<std::string, std::string>& options);
 
 /// The keys of metadata that describe a machine.
 inline constexpr std::array keys_of_machine{"processor", "cores", "memory_gib", "operating_system"};

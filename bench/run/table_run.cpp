@@ -19,9 +19,11 @@ namespace {
 
 std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, Findings& findings, bool* fresh) {
   line.group(group_of_output);
-  line.option("--out", out, "folder for the results");
+  line.option("--out", out, "folder for the results", OptionRole::place);
   findings.add_to(line);
-  if (fresh != nullptr) line.flag("--fresh", *fresh, "measure everything instead of resuming an interrupted run");
+  if (fresh != nullptr) {
+    line.flag("--fresh", *fresh, "measure everything instead of resuming an interrupted run", OptionRole::machine);
+  }
   std::vector<std::string> command_line = line.parse();
   listen_for_interrupt();  // created folders are removed when the run ends
   return command_line;
@@ -62,7 +64,8 @@ TableRun::TableRun(std::string name, CommandLine& line, Resumes resumes)
       scope_(interrupt_requested, 0.0) {
   require_writable(out_ / (name_ + ".json"));
   if (resumes == Resumes::no) return;
-  finished_ = {out_ / (name_ + ".unfinished"), identity_of(name_, describe_run(command_line_), line.values())};
+  finished_ = {out_ / (name_ + ".unfinished"),
+               identity_of(name_, describe_run(command_line_), line.values_for_results())};
   if (fresh_) return;
   tables_ = finished_.resume();
   if (finished_.count() > 0 && findings_.are_for_people()) {
