@@ -45,9 +45,6 @@ int run(int argc, char** argv);
 namespace local_minima_program {
 int run(int argc, char** argv);
 }
-namespace merge_program {
-int run(int argc, char** argv);
-}
 namespace misprints_program {
 int run(int argc, char** argv);
 }
@@ -113,8 +110,6 @@ constexpr std::array core_programs{
             list_program::run},
     Program{"local_minima", "Which local minima there are and how often each method falls into which",
             local_minima_program::run},
-    Program{"merge", "Joins the parts of a run (--part) into the one table that the whole run would have written",
-            merge_program::run},
     Program{"misprints", "The misprints of the paper, each formula evaluated as printed and as corrected",
             misprints_program::run},
     Program{"new", "Writes the header of a problem to begin with, and the CMakeLists.txt that makes a library of it",

@@ -1,5 +1,8 @@
 // Everything about one problem: motion, orders, invariants, minima, figures, and a report.
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -11,7 +14,6 @@
 #include <unistd.h>
 
 #include "bench/run/command_line.hpp"
-#include "bench/run/joining_run.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/process_pool.hpp"
@@ -37,6 +39,30 @@ std::string drawer() {
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
   const std::filesystem::path installed = self.parent_path() / "dmocbench-figures";
   return std::filesystem::exists(installed) ? installed.string() : DMOCBENCH_SOURCE_DIR "/plots/figures";
+}
+
+/// The words that start a program of the suite: the one of this name next to this program, or this one if it contains
+/// all of them.
+std::vector<std::string> start_of_program(const std::string& name) {
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
+  if (self.filename() != "study") return {self.string(), name};
+  const std::filesystem::path program = self.parent_path() / name;
+  if (::access(program.c_str(), X_OK) != 0)
+    throw Error(fmt::format("there is no program {}; build it", program.string()));
+  return {program.string()};
+}
+
+/// Becomes that program. Throws `Error` if it cannot be run.
+[[noreturn]] void run_in_place(const std::vector<std::string>& command_line) {
+  std::vector<char*> words;
+  std::vector<std::string> copies = command_line;
+  words.reserve(copies.size() + 1);
+  for (std::string& word : copies) words.push_back(word.data());
+  words.push_back(nullptr);
+  std::fflush(nullptr);
+  ::execv(words.front(), words.data());
+  throw Error(
+      fmt::format("cannot run {}: {}", command_line.front(), std::strerror(errno)));  // NOLINT(concurrency-mt-unsafe)
 }
 
 /// Runs a command and returns its exit code, 128 and the signal's number if a signal ended it.

@@ -8,9 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/json_place.hpp"
-#include "bench/run/part_file.hpp"
+#include "bench/run/meanings.hpp"
 #include "bench/run/result_file.hpp"
-#include "bench/run/written_tables.hpp"
 
 namespace dmocbench {
 
@@ -84,7 +83,8 @@ std::string content_of(const std::filesystem::path& path) {
 void refuse_parts(const std::filesystem::path& folder, const std::string& table) {
   const std::string run = run_of(folder, table, ".parts");
   if (run.empty()) return;
-  throw Error(fmt::format("{0}.csv is not there, but parts of {1} are: merge --name {1} joins them", table, run));
+  throw Error(fmt::format("{0}.csv is not there, but parts of {1} are: its command with --join {2} makes the table",
+                          table, run, folder.string()));
 }
 
 /// The metadata of a run that ended with all its cases. Throws `Error` otherwise.

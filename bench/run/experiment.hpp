@@ -99,9 +99,9 @@ struct OwnColumns {
 
 /// An experiment: many solves, a row for each, and files made of all rows.
 ///
-/// `run_experiment` reads the command line, makes the cases, solves them one by one, measures each answer and keeps the
-/// table on disk up to date. An experiment whose columns only read solved cases is an object of this class; one that
-/// measures something of them derives from `ExperimentOf`.
+/// `run_experiment` reads the command line, makes the cases, solves them one by one, measures each answer, stores its
+/// row and writes the table at the end. An experiment whose columns only read solved cases is an object of this class;
+/// one that measures something of them derives from `ExperimentOf`.
 class Experiment {
  public:
   /// An experiment with these columns after the core columns.
@@ -116,7 +116,7 @@ class Experiment {
   [[nodiscard]] const ExperimentCard& card() const noexcept { return card_; }
   /// Its options, as the command line has set them.
   [[nodiscard]] ExperimentOptions& options() noexcept { return card_.options; }
-  /// The indirect solutions that it compares with, or null. A part of a run keeps them in its file.
+  /// The indirect solutions that it compares with, or null. The store of a run keeps them, too.
   [[nodiscard]] IndirectReference* indirect() const noexcept { return indirect_.get(); }
 
   /// Options after the common ones.
@@ -171,13 +171,14 @@ class ExperimentOf : public Experiment {
 /// Runs an experiment from the command line and returns the exit code: 0 if every curve (the rows of one problem,
 /// method, tableau, number of stages, solver and back end) has a usable row; of an experiment that `wants_motions`, if
 /// every row is a motion; else 1. It is 2 on bad input or if a file cannot be written (one line on standard error), 130
-/// if interrupted. One part of a run (--part) is 0 as soon as its file is there, which has no rows of an interrupted
-/// one. The table of an earlier run keeps its rows of other problems, libraries and settings; a table with other
-/// columns is rejected. An earlier run of the same name is left untouched until the first row is there; from then on
-/// until all files are written, the metadata contain `"complete": false`. Two runs never write one table at a time.
+/// if interrupted. One part of a run (--part) is 0 as soon as all of its rows are stored. The table of an earlier run
+/// keeps its rows of other problems, libraries and settings; a table with other columns is rejected. An earlier run of
+/// the same name is left untouched until the run ends or is interrupted; while its files are written, the metadata
+/// contain `"complete": false`. Two runs never write one table at a time.
 ///
-/// An interrupted run keeps its finished rows, and NAME.unfinished next to its table; the same command resumes it if
-/// program, libraries, options and cases are the same (`identity_of`) and --fresh is not given.
+/// A run that is interrupted or killed keeps its finished rows in NAME.rows next to its table (`RowStore`); the same
+/// command resumes it if program, libraries, options and cases are the same (`RunPlan::identity`) and --fresh is not
+/// given.
 int run_experiment(Experiment&& experiment, int argc, char** argv);
 
 }  // namespace dmocbench

@@ -8,7 +8,6 @@
 
 #include "bench/run/result_file.hpp"
 #include "bench/run/solve_case.hpp"
-#include "bench/run/written_tables.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"

@@ -6,8 +6,9 @@
 #include <fmt/format.h>
 
 #include "bench/run/json_place.hpp"
+#include "bench/run/meanings.hpp"
 #include "bench/run/problem_libraries.hpp"
-#include "bench/run/written_tables.hpp"
+#include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 #include "methods/tables/table_file.hpp"
 
@@ -45,6 +46,12 @@ std::set<Statement> statements_in(const JsonPlace& run) {
   return statements;
 }
 
+std::set<Statement> statements_of(const std::vector<Case>& cases) {
+  std::set<Statement> statements;
+  for (const Case& one : cases) statements.insert(statement_of(one.nominal ? *one.nominal : *one.problem));
+  return statements;
+}
+
 Json in_json(const std::set<Statement>& statements) {
   Json list = Json::array();
   for (const Statement& one : statements)
@@ -76,8 +83,13 @@ Table with_statements(const Table& table, const std::set<Statement>& statements)
   return result;
 }
 
-KeptRows::KeptRows(std::filesystem::path prefix, std::set<Statement> own, bool any_settings)
-    : prefix_(std::move(prefix)), own_(std::move(own)), any_settings_(any_settings) {
+KeptRows::KeptRows(std::filesystem::path prefix, const std::vector<Case>& cases)
+    : KeptRows(std::move(prefix), statements_of(cases)) {
+  any_settings_ = std::ranges::any_of(cases, [](const Case& one) { return one.nominal != nullptr; });
+}
+
+KeptRows::KeptRows(std::filesystem::path prefix, std::set<Statement> own)
+    : prefix_(std::move(prefix)), own_(std::move(own)) {
   const std::filesystem::path metadata = prefix_.string() + ".json";
   std::error_code none;  // a missing file is not a regular file
   if (!std::filesystem::is_regular_file(metadata, none)) return;
@@ -159,9 +171,11 @@ Table KeptRows::joined(const std::filesystem::path& file, const Table& own) cons
   return result;
 }
 
-Table KeptRows::alone(const std::filesystem::path& file) const {
+void KeptRows::reduce(const std::filesystem::path& file) const {
   const auto found = kept_.find(file);
-  return found == kept_.end() ? Table() : found->second;
+  if (found != kept_.end()) return write_file(file, found->second.csv());
+  std::error_code none;  // it need not exist
+  std::filesystem::remove(file, none);
 }
 
 Json KeptRows::kept_runs() const {
@@ -195,11 +209,12 @@ void KeptRows::describe_end(bool is_complete, Json& metadata) const {
                          });
 }
 
-void KeptRows::describe_files(const std::set<std::string>& own, Json& metadata) const {
+void KeptRows::describe_files(const std::vector<std::filesystem::path>& own, Json& metadata) const {
   const JsonPlace earlier(earlier_, prefix_.string() + ".json");
   const auto is_kept = [&](const std::string& name) {
     std::error_code none;  // a name that cannot be looked up is not there
-    return !own.contains(name) &&
+    const auto is_name = [&](const std::filesystem::path& file) { return file.filename() == name; };
+    return std::ranges::none_of(own, is_name) &&
            std::filesystem::exists(prefix_.parent_path() / std::filesystem::path(name).filename(), none);
   };
   if (earlier.has("tables")) {

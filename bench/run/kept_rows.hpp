@@ -4,11 +4,11 @@
 #include <map>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "bench/run/solve_case.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/tables/table.hpp"
 
@@ -38,10 +38,12 @@ class KeptRows {
  public:
   /// No rows.
   KeptRows() = default;
-  /// Of a run with the prefix FOLDER/NAME and its own statements. With `any_settings` the settings of a row do not
-  /// count: a run over instances replaces all rows of its problems. Throws `Error` if the metadata of the earlier runs
+  /// Of a run with the prefix FOLDER/NAME and its own statements. Throws `Error` if the metadata of the earlier runs
   /// are damaged.
-  KeptRows(std::filesystem::path prefix, std::set<Statement> own, bool any_settings = false);
+  KeptRows(std::filesystem::path prefix, std::set<Statement> own);
+  /// Of a run of these cases. Instances count as the problem whose values they vary, and the settings of a row do not
+  /// count then: a run over instances replaces all rows of its problems. Throws `Error` likewise.
+  KeptRows(std::filesystem::path prefix, const std::vector<Case>& cases);
 
   /// The run's own statements.
   [[nodiscard]] const std::set<Statement>& own() const noexcept { return own_; }
@@ -56,16 +58,16 @@ class KeptRows {
   [[nodiscard]] std::size_t count(const std::filesystem::path& file) const;
   /// The kept rows of a file, followed by the rows of a table. Rows of a file with other columns are not kept.
   [[nodiscard]] Table joined(const std::filesystem::path& file, const Table& own) const;
-  /// The kept rows of a file alone; without columns if no rows are kept.
-  [[nodiscard]] Table alone(const std::filesystem::path& file) const;
+  /// Leaves only the kept rows in a file; removes it if it has none. Throws `Error` if it cannot be written.
+  void reduce(const std::filesystem::path& file) const;
   /// Notes the own statements in the metadata of a run, and under "earlier_runs" the runs whose rows are kept.
   void describe_runs(nlohmann::ordered_json& metadata) const;
   /// Writes to the metadata whether the run came to its end ("run_complete"), and whether all runs did whose rows the
   /// tables hold ("complete").
   void describe_end(bool is_complete, nlohmann::ordered_json& metadata) const;
   /// Adds the earlier metadata of tables and motions that still exist and that the run does not write: `own` are the
-  /// names of the files that it writes.
-  void describe_files(const std::set<std::string>& own, nlohmann::ordered_json& metadata) const;
+  /// files that it writes.
+  void describe_files(const std::vector<std::filesystem::path>& own, nlohmann::ordered_json& metadata) const;
 
  private:
   [[nodiscard]] bool is_own(const Statement& statement) const;

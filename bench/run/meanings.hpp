@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,6 +21,17 @@ void add_meanings(nlohmann::ordered_json& metadata, const std::filesystem::path&
 /// Writes a table as a file, and the meanings of its columns to the metadata of its run. Throws `Error` as
 /// `write_file`.
 void write_table(const std::filesystem::path& file, const Table& table, nlohmann::ordered_json& metadata);
+
+/// The description of the tables that a run has written, as `metadata["tables"]`: an object per file by its
+/// name without folder, with its columns, the number of its rows, its checksum ("crc32", eight hexadecimal digits) and
+/// the JSON Schema of its rows. Paths that do not exist or are not regular .csv files are left out. Throws
+/// `Error` if one cannot be read.
+[[nodiscard]] nlohmann::ordered_json describe_tables(const std::vector<std::filesystem::path>& files);
+
+/// Throws `Error` unless a table's content agrees with the metadata: columns, number of rows, checksum.
+/// `table` and `source` are the names of the table's file and of the metadata file, for the sentence.
+void require_as_written(const nlohmann::json& metadata, const std::string& source, const std::string& table,
+                        std::string_view content);
 
 /// Sets `metadata["tables"]` to the description of the files by `describe_tables`, with the meanings of their columns
 /// (noted by `write_table`, or else from `rows`, a table with the columns of the run's own rows) and with the JSON

@@ -309,20 +309,14 @@ void add_batch_option(CommandLine& line, ExperimentOptions& options) {
 
 void add_part_options(CommandLine& line, ExperimentOptions& options) {
   line.group("Parts");
-  line.option(
-      "--part", options.part,
-      "i/n: solve only the i-th of n parts of the cases, and write it to OUT/NAME.parts/i-of-n.part when it is "
-      "complete. A part that exists is not solved again. Failed solves do not change the exit code, 0. `merge` joins "
-      "the parts",
-      OptionRole::place);
-  line.option("--missing-parts", options.missing_parts,
-              "n: print the numbers of the missing parts of this run, of n, one per line, and solve nothing",
+  line.option("--part", options.part,
+              "i/n: solve only the i-th of n parts of the cases, whose rows stay in OUT/NAME.parts/i-of-n.rows. A part "
+              "that was interrupted is resumed. Failed solves do not change the exit code, 0",
               OptionRole::place);
-  line.option(
-      "--join", options.join,
-      "results folder whose parts are joined to the one table instead of solving anything, as `merge` calls it; "
-      "may be repeated",
-      OptionRole::place);
+  line.option("--join", options.join,
+              "results folder whose parts, of the same command with --part, are joined to the one table instead of "
+              "solving anything; may be repeated",
+              OptionRole::place);
 }
 
 SolverOptions solver_options(const ExperimentOptions& options) {

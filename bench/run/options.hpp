@@ -46,7 +46,6 @@ struct ExperimentOptions {
   std::filesystem::path out = "results";  ///< folder for results
   std::string name = {};                  ///< of the table and its accompanying files
   std::string part = {};                  ///< "i/n": solve the i-th of n parts of the cases; empty: all
-  std::string missing_parts = {};         ///< n: only name the missing parts of n, without solving; empty: solve
   std::vector<std::string> join = {};     ///< results folders whose parts are joined instead of solving; empty: solve
 };
 

@@ -47,7 +47,10 @@ Outcome outcome_of(const Table& table) {
       ++outcome.violating;
       ++violating[row.text("method")];
     } else if (!is_solved(status_named(status))) {
-      ++outcome.failures;
+      if (++outcome.failures == 1) {
+        outcome.first_failure = fmt::format("{} {} N = {}: {}", row.text("problem"), row.text("method"),
+                                            row.text("intervals"), row.text("message"));
+      }
     }
     if (row.text("branch") == "other") ++outcome.other_branch;
   }

@@ -20,6 +20,7 @@ struct Outcome {
   /// ", 3 too coarse (dmoc 1, tangent 2)", and the same for answers that violate constraints between stages; empty if
   /// there are no such answers.
   std::string no_motions_by_method;
+  std::string first_failure;  ///< case and message of the first row that counts as a failure; empty without one
 };
 
 /// How the rows of a table ended, by their columns `status` and `branch`.

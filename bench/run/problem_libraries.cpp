@@ -6,11 +6,9 @@
 #include <iterator>
 #include <string_view>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/run/result_file.hpp"
-#include "bench/run/written_tables.hpp"
 #include "methods/error.hpp"
 #include "problems/problem_library.hpp"
 #include "problems/problem_registry.hpp"
@@ -36,8 +34,7 @@ void load(const std::filesystem::path& file) {
   load_problem_library(file, known_problems());
   std::vector<std::string> problems = problem_names();
   problems.erase(problems.begin(), problems.begin() + std::ssize(known));
-  libraries.push_back(
-      {{"path", path}, {"crc32", fmt::format("{:08x}", crc_32(read_file(path)))}, {"problems", problems}});
+  libraries.push_back({{"path", path}, {"crc32", checksum_of(read_file(path))}, {"problems", problems}});
 }
 
 }  // namespace
@@ -84,7 +81,7 @@ void note_source_of_problem(const std::string& problem, const std::string& file,
   for (std::size_t i = libraries.size(); i-- > 0;) {  // an earlier version
     if (libraries[i].at("path") == file && libraries[i].at("problems") == problems) libraries.erase(i);
   }
-  libraries.push_back({{"path", file}, {"crc32", fmt::format("{:08x}", crc_32(source))}, {"problems", problems}});
+  libraries.push_back({{"path", file}, {"crc32", checksum_of(source)}, {"problems", problems}});
 }
 
 std::string library_of(const std::string& problem) {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <optional>
 
+#include <boost/crc.hpp>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -86,7 +87,7 @@ void remove_leftovers(const std::filesystem::path& folder) {
     const pid_t process = number().value_or(0);
     while (number()) name = name.stem().stem();  // a process may have been rewriting another's leftover
     const std::string kind = name.extension().string();
-    if (!name.string().starts_with('.') || (kind != ".csv" && kind != ".json" && kind != ".md" && kind != ".part"))
+    if (!name.string().starts_with('.') || (kind != ".csv" && kind != ".json" && kind != ".md" && kind != ".rows"))
       continue;
     if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) std::filesystem::remove(entry.path(), ignored);
   }
@@ -183,6 +184,19 @@ void append_to_file(const std::filesystem::path& path, std::string_view line) {
   close_or_undo(descriptor, write_all(descriptor, line), path,
                 [&] { std::filesystem::resize_file(path, size, ignored); });
 }
+
+void force_to_disk(const std::filesystem::path& path) {
+  const int descriptor = open_to_write(path, O_APPEND);
+  close_or_undo(descriptor, descriptor >= 0 && ::fsync(descriptor) == 0, path, [] {});
+}
+
+std::uint32_t crc_32(std::string_view text) {
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return crc.checksum();
+}
+
+std::string checksum_of(std::string_view text) { return fmt::format("{:08x}", crc_32(text)); }
 
 ResultLock::ResultLock(const std::filesystem::path& prefix)
     : file_(prefix.parent_path() / fmt::format(".{}.lock", prefix.filename().string())) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -52,6 +53,14 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// Appends a line to a file, in one piece, so that a process that is killed leaves whole lines. It does not wait for
 /// the disk. Throws `Error`, and leaves the file unchanged, if the line cannot be written.
 void append_to_file(const std::filesystem::path& path, std::string_view line);
+
+/// Waits until a file is on the disk. Throws `Error` if it cannot be written there.
+void force_to_disk(const std::filesystem::path& path);
+
+/// The CRC-32 of a text, as in zlib, gzip and the program crc32.
+[[nodiscard]] std::uint32_t crc_32(std::string_view text);
+/// The same in eight hexadecimal digits.
+[[nodiscard]] std::string checksum_of(std::string_view text);
 
 /// Gives this process exclusive use of a name in a results folder during its lifetime, so that two runs never mix.
 class ResultLock {

@@ -15,7 +15,7 @@
 #include "bench/run/process_pool.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/uniform_01.hpp"
-#include "bench/run/written_tables.hpp"
+#include "bench/run/meanings.hpp"
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/polish.hpp"

@@ -6,16 +6,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/json_place.hpp"
 #include "bench/run/meanings.hpp"
 #include "bench/run/metadata.hpp"
 #include "bench/run/process_pool.hpp"
-#include "bench/run/run_identity.hpp"
-#include "bench/run/written_tables.hpp"
 #include "methods/runtime/counted.hpp"
 
 namespace dmocbench {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, Findings& findings, bool* fresh) {
   line.group(group_of_output);
@@ -38,12 +39,11 @@ void write_tables(const std::vector<TableFile>& tables, const std::filesystem::p
   nlohmann::ordered_json metadata = describe_run(command_line);
   kept.describe_runs(metadata);
   std::vector<std::filesystem::path> files;
-  std::set<std::string> names;
-  for (const TableFile& table : tables) names.insert(files.emplace_back(table.file).filename().string());
+  for (const TableFile& table : tables) files.push_back(table.file);
   const auto write_as = [&](bool is_complete) {
     nlohmann::ordered_json described = metadata;
     kept.describe_end(is_complete, described);
-    kept.describe_files(names, described);
+    kept.describe_files(files, described);
     write_metadata(metadata_file, described);
   };
   write_as(false);
@@ -55,6 +55,45 @@ void write_tables(const std::vector<TableFile>& tables, const std::filesystem::p
 
 }  // namespace
 
+Json entry_of_stage(const std::string& stage, const std::vector<TableFile>& added) {
+  Json tables = Json::array();
+  for (const TableFile& one : added) {
+    Json types = Json::object();
+    for (const auto& [column, type] : one.table.types())
+      types[column] = {{"kind", static_cast<unsigned>(type.kind)}, {"may_be_empty", type.may_be_empty}};
+    tables.push_back({{"name", one.file.stem().string()},
+                      {"csv", one.table.csv()},
+                      {"meanings", one.table.meanings()},
+                      {"types", std::move(types)},
+                      {"key", one.table.key()},
+                      {"not_measured", one.not_measured}});
+  }
+  return {{"stage", stage}, {"tables", std::move(tables)}};
+}
+
+std::vector<TableFile> tables_of_stage(const Json& entry, const std::filesystem::path& store) {
+  std::vector<TableFile> tables;
+  const JsonPlace place(entry, store.string());
+  static_cast<void>(place.at("stage").text());
+  for (const JsonPlace& json : place.at("tables").entries()) {
+    const std::string name = json.at("name").text();
+    if (!name.starts_with(store.stem().string()) || name.find('/') != std::string::npos) {
+      throw Error(fmt::format("{} names the table \"{}\", which is not one of this run; remove the file",
+                              store.string(), name));
+    }
+    TableFile& one = tables.emplace_back(TableFile{.file = store.parent_path() / (name + ".csv"),
+                                                   .table = Table::from_csv(json.at("csv").text()),
+                                                   .not_measured = json.at("not_measured").count()});
+    for (const auto& [column, meaning] : json.at("meanings").members()) one.table.explain({{column, meaning.text()}});
+    for (const auto& [column, type] : json.at("types").members()) {
+      const auto kind = static_cast<FieldKind>(type.at("kind").count());
+      one.table.declare({{column, {kind, type.at("may_be_empty").boolean()}}});
+    }
+    one.table.set_key(json.at("key").texts());
+  }
+  return tables;
+}
+
 TableRun::TableRun(std::string name, CommandLine& line, Resumes resumes)
     : name_(std::move(name)),
       command_line_(parse(line, out_, findings_, resumes == Resumes::yes ? &fresh_ : nullptr)),
@@ -64,28 +103,39 @@ TableRun::TableRun(std::string name, CommandLine& line, Resumes resumes)
       scope_(interrupt_requested, 0.0) {
   require_writable(out_ / (name_ + ".json"));
   if (resumes == Resumes::no) return;
-  finished_ = {out_ / (name_ + ".unfinished"),
-               identity_of(name_, describe_run(command_line_), line.values_for_results())};
-  if (fresh_) return;
-  tables_ = finished_.resume();
-  if (finished_.count() > 0 && findings_.are_for_people()) {
+  const Json metadata = describe_run(command_line_);
+  store_ = {out_ / (name_ + ".rows"),
+            header_of_store(identity_of(name_, metadata, line.values_for_results()), metadata)};
+  if (!fresh_) resume();
+}
+
+void TableRun::resume() {
+  for (const Json& entry : store_.resume()) {
+    for (TableFile& table : tables_of_stage(entry, store_.file())) take(std::move(table));
+    stages_.insert(entry.at("stage"));
+    store_.keep(entry);
+  }
+  if (!stages_.empty() && findings_.are_for_people()) {
     print_line(fmt::format("{}: resumes an interrupted run, which has finished {}; --fresh measures everything", name_,
-                           counted(finished_.count(), "stage")));
+                           counted(stages_.size(), "stage")));
   }
 }
 
 void TableRun::stage(const std::string& name, const std::function<void()>& measure) {
-  if (finished_.contain(name)) return;
+  if (stages_.contains(name)) return;
+  added_.clear();
   try {
     measure();
   } catch (...) {
-    if (interrupt_requested() && finished_.count() > 0 && findings_.are_for_people()) {
+    if (interrupt_requested() && !stages_.empty() && findings_.are_for_people()) {
       print_line(fmt::format("{}: {} finished; the same command resumes it", name_,
-                             counted(finished_.count(), "stage is", "stages are")));
+                             counted(stages_.size(), "stage is", "stages are")));
     }
     throw;
   }
-  finished_.add(name, tables_);
+  stages_.insert(name);
+  store_.append(entry_of_stage(name, added_));
+  store_.sync();
 }
 
 const Table& TableRun::table(const std::string& file) const {
@@ -112,15 +162,15 @@ void TableRun::show(const std::string& activity) const {
 }
 
 void TableRun::add(const std::string& file, const Table& table, std::ptrdiff_t not_measured) {
-  const std::filesystem::path path = out_ / (file + ".csv");
-  Table added = with_statements(table, statements_);
-  const auto earlier = std::ranges::find(tables_, path, &TableFile::file);
-  if (earlier == tables_.end()) {
-    tables_.push_back({path, std::move(added), not_measured});
-    return;
-  }
-  for (const Row& row : added.rows()) earlier->table.append(row);
-  earlier->not_measured += not_measured;
+  added_.push_back({out_ / (file + ".csv"), with_statements(table, statements_), not_measured});
+  take(added_.back());
+}
+
+void TableRun::take(TableFile added) {
+  const auto earlier = std::ranges::find(tables_, added.file, &TableFile::file);
+  if (earlier == tables_.end()) return tables_.push_back(std::move(added));
+  for (const Row& row : added.table.rows()) earlier->table.append(row);
+  earlier->not_measured += added.not_measured;
 }
 
 int TableRun::write() const {
@@ -133,7 +183,7 @@ int TableRun::write() const {
   KeptRows kept(out_ / name_, std::move(own));
   for (const TableFile& table : tables_) kept.read(table.file);
   write_tables(tables_, out_ / (name_ + ".json"), command_line_, kept);
-  finished_.forget();
+  store_.remove();
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   constexpr std::size_t few_tables = 4;
   const bool has_many = tables_.size() > few_tables;

@@ -14,15 +14,30 @@
 #include "bench/run/column.hpp"
 #include "bench/run/command_line.hpp"
 #include "bench/run/findings.hpp"
-#include "bench/run/finished_stages.hpp"
 #include "bench/run/kept_rows.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/result_file.hpp"
+#include "bench/run/row_store.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
+
+/// A table of a run, and the file that holds it.
+struct TableFile {
+  std::filesystem::path file;       ///< with its folder, NAME.csv
+  Table table;                      ///< with the meanings of its columns
+  std::ptrdiff_t not_measured = 0;  ///< rows that state why they lack a number
+};
+
+/// The entry of a stage in the store of a run: its name, and the tables that it has added with their declarations.
+/// Tables are named without a folder, because the store may be a copy in another folder.
+[[nodiscard]] nlohmann::ordered_json entry_of_stage(const std::string& stage, const std::vector<TableFile>& added);
+/// The tables in such an entry, for the folder of the store. Throws `Error` that names the store if others have written
+/// something else, or a table whose name does not begin with the one of the store.
+[[nodiscard]] std::vector<TableFile> tables_of_stage(const nlohmann::ordered_json& entry,
+                                                     const std::filesystem::path& store);
 
 /// A run of an experiment without cases (those have experiment.hpp): whole tables, written when all of them are there.
 /// As long as it exists, an interrupt ends this thread's computations (`StopScope`).
@@ -46,7 +61,7 @@ class TableRun {
   /// The findings, printed when the run ends.
   [[nodiscard]] Findings& findings() noexcept { return findings_; }
   /// Calls `measure`, which adds tables, unless the interrupted run that this one resumes has finished the stage; its
-  /// rows are then in the tables already. A stage that is over is saved in NAME.unfinished.
+  /// rows are then in the tables already. A stage that is over is saved in NAME.rows.
   void stage(const std::string& name, const std::function<void()>& measure);
   /// The table of a file so far. Throws `Error` if no stage has added it.
   [[nodiscard]] const Table& table(const std::string& file) const;
@@ -65,6 +80,9 @@ class TableRun {
   [[nodiscard]] int write() const;
 
  private:
+  void resume();
+  void take(TableFile added);
+
   std::string name_;
   std::filesystem::path out_ = "results";
   Findings findings_;
@@ -76,7 +94,9 @@ class TableRun {
   StopScope scope_;
   std::set<Statement> statements_;
   std::vector<TableFile> tables_;
-  FinishedStages finished_;
+  std::vector<TableFile> added_;  ///< in this stage
+  std::set<std::string> stages_;  ///< that are over
+  RowStore store_;
 };
 
 /// The result of `measure()`, or the sentence of the `Error` that it throws. Rethrows `Stopped`, because a requested

@@ -14,7 +14,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/run/result_file.hpp"
-#include "bench/run/written_tables.hpp"
+#include "bench/run/meanings.hpp"
 #include "tests/bench/all_tables_for_claims.hpp"
 #include "tests/support/temporary_folder.hpp"
 

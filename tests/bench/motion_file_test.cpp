@@ -5,7 +5,7 @@
 
 #include "bench/run/result_file.hpp"
 #include "bench/run/start_provider.hpp"
-#include "bench/run/written_tables.hpp"
+#include "bench/run/meanings.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"

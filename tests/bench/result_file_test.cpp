@@ -149,7 +149,7 @@ TEST_F(ResultFile, LeftByAProcessThatIsNoMoreIsRemovedByTheNext) {
     std::string written = temporary_name(folder() / name).filename().string();
     return folder() / (written.substr(0, written.rfind('.') + 1) + std::to_string(process));
   };
-  for (const char* const name : {"table.csv", "table_part_0.csv", "table.json", "3-of-4.part"}) {
+  for (const char* const name : {"table.csv", "table_part_0.csv", "table.json", "3-of-4.rows"}) {
     write_file(named(name, ended), "");
   }
   write_file(named(named("table_part_0.csv", 1).filename(), ended), "");

@@ -9,7 +9,6 @@
 
 #include "bench/run/json_place.hpp"
 #include "bench/run/result_file.hpp"
-#include "bench/run/written_tables.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -129,7 +128,7 @@ RoadmapJson checked_content(std::string_view text) {
     throw Error(fmt::format("it has version {}, this program reads version {}", version.number(), roadmap_version));
   }
   const RoadmapJson& content = place.at("content").json();
-  if (place.at("crc32").text() != fmt::format("{:08x}", crc_32(content.dump()))) {
+  if (place.at("crc32").text() != checksum_of(content.dump())) {
     throw Error("it is damaged: its checksum does not fit its content");
   }
   return content;
@@ -171,7 +170,7 @@ std::string roadmap_text(const StoredRoadmap& stored) {
   content["edges"] = std::move(edges);
   content["start"] = stored.start;
   content["goal"] = stored.goal;
-  const std::string checksum = fmt::format("{:08x}", crc_32(content.dump()));
+  const std::string checksum = checksum_of(content.dump());
   return RoadmapJson{{"format", roadmap_format},
                      {"version", roadmap_version},
                      {"crc32", checksum},

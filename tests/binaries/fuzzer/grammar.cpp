@@ -34,7 +34,6 @@ const Values& known_values() {
       {"--name", {"table", "a b", ".", "..", ".hidden", "-dash", "x.csv", "other/place"}},
       {"--join", {"results", "folder", "none", "file"}},
       {"--library", {"folder", "none", "file", "dangling"}},
-      {"--missing-parts", {"1", "3", "0"}},
       {"--option",
        {"max_iter=3", "factorisation=sparse", "factorisation=magic", "nosuch=1", "tol=nan", "=", "x=", "tol"}},
       {"--out", {"results", "out", "deep/er", "a b", "folder", "file", "file/inner", "dangling"}},

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/extensions/primitives/planned_motion.hpp"
-#include "bench/run/written_tables.hpp"
+#include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 #include "problems/hovercraft.hpp"
 #include "problems/orbital_transfer.hpp"
@@ -77,7 +77,7 @@ TEST(RoadmapFile, IsRefusedWhereverADigitIsAnother) {
 std::string doctored(const std::string& text, const std::string& place, const nlohmann::ordered_json& value) {
   auto json = nlohmann::ordered_json::parse(text);
   json["content"][nlohmann::ordered_json::json_pointer(place)] = value;
-  json["crc32"] = fmt::format("{:08x}", crc_32(json["content"].dump()));
+  json["crc32"] = checksum_of(json["content"].dump());
   return json.dump();
 }
 

@@ -1,22 +1,17 @@
-#include "bench/run/part.hpp"
+#include "bench/run/run_plan.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "bench/run/case_batch.hpp"
 #include "bench/run/case_list.hpp"
 #include "bench/run/json_place.hpp"
-#include "bench/run/part_file.hpp"
 #include "bench/run/result_file.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace dmocbench {
 namespace {
@@ -55,9 +50,9 @@ TEST(Part, ThatCannotBeIsRefusedByName) {
 
 TEST(Part, FilesAreInTheOrderOfTheirNumbers) {
   std::vector<std::string> names;
-  for (std::size_t number = 1; number <= 100; ++number) names.push_back(Part{number, 100}.file_name());
+  for (std::size_t number = 1; number <= 100; ++number) names.push_back(Part{number, 100}.name());
   EXPECT_TRUE(std::ranges::is_sorted(names));
-  EXPECT_EQ(names[2], "003-of-100.part");
+  EXPECT_EQ(names[2], "003-of-100");
 }
 
 TEST(Cases, AreMadeOnceForEachStart) {
@@ -150,66 +145,6 @@ TEST(Dealing, MixesFineAndCoarseGrids) {
   for (const auto& [part, intervals] : work) EXPECT_NEAR(intervals / mean, 1.0, 0.25) << "part " << part;
 }
 
-using PartFiles = tests::InTemporaryFolder;
-
-/// The description of a part as every run writes it.
-nlohmann::ordered_json description(const std::string& part) {
-  return {
-      {"part", part},
-      {"commit", "a"},
-      {"identity", {{"experiment", "objective"}, {"x", 0.1}}},
-      {"command_line", {"objective", "--part", part}},
-      {"utc_time", "2026-01-01T00:00:00Z"},
-      {"machine", {{"host", "h"}, {"processor", "p"}, {"cores", 2}, {"memory_gib", 1.0}, {"operating_system", "s"}}},
-      {"findings", nullptr}};
-}
-
-TEST_F(PartFiles, AreReadAsTheyWereWritten) {
-  const PartFile written{.path = folder() / "1-of-2.part",
-                         .description = description("1/2"),
-                         .table = "case,message\n3,\"a, \"\"b\"\"\nc\"\n"};
-  write_part(written);
-  const PartFile read = read_part(written.path);
-  EXPECT_EQ(read.description, written.description);
-  EXPECT_EQ(read.table, written.table);
-  EXPECT_EQ(read.part().number, 1U);
-}
-
-TEST_F(PartFiles, AreNoneWithOneByteMissingOrChanged) {
-  const std::filesystem::path path = folder() / "1-of-1.part";
-  const auto expect_none = [&path](const std::string& content) {
-    std::ofstream(path) << content;
-    expect_error_naming({"1-of-1.part"}, [&] { static_cast<void>(read_part(path)); });
-  };
-  write_part({.path = path, .description = description("1/1"), .table = "case\n1\n"});
-  const std::string whole = read_file(path);
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    std::string changed = whole;
-    changed[i] = static_cast<char>(changed[i] ^ 1);
-    expect_none(changed);
-    expect_none(whole.substr(0, i));
-  }
-}
-
-TEST_F(PartFiles, NameThemselvesAndTheKeyThatIsMissingOrOfAnotherType) {
-  const std::filesystem::path path = folder() / "1-of-1.part";
-  const auto refused = [&path](const nlohmann::ordered_json& changed, const std::string& key) {
-    write_part({.path = path, .description = changed, .table = "case\n1\n"});
-    expect_error_naming({"1-of-1.part", key}, [&] { static_cast<void>(read_part(path)); });
-  };
-  const nlohmann::ordered_json whole = description("1/1");
-  for (const auto& [key, value] : whole.items()) {
-    nlohmann::ordered_json changed = whole;
-    changed.erase(key);
-    refused(changed, key);
-    if (key == "findings") continue;  // which the experiment judges
-    for (const nlohmann::ordered_json& other : {nlohmann::ordered_json(7), nlohmann::ordered_json::array({7})}) {
-      changed[key] = other;
-      refused(changed, key);
-    }
-  }
-}
-
 TEST(Json, IsReadByTypeOrRefusedByFileKeyAndContent) {
   const nlohmann::ordered_json json{{"outer", {{"text", "a"}, {"number", 1}, {"flag", true}, {"list", {"x", 2}}}}};
   const JsonPlace outer = JsonPlace(json, "f.json").at("outer");
@@ -232,12 +167,6 @@ TEST(TableName, IsThatOfAFileInItsFolder) {
   for (const char* const name : {"", ".", "..", ".hidden", "-x", "a/b", "/tmp/x", "a\nb", "\x1b[31m"}) {
     expect_error_naming({"--name"}, [&] { require_name_of_table(name); });
   }
-}
-
-TEST(PartNumbers, AreNamedByRanges) {
-  EXPECT_EQ(in_ranges({}), "");
-  EXPECT_EQ(in_ranges({3}), "3");
-  EXPECT_EQ(in_ranges({1, 2, 4, 6, 7, 8}), "1 and 2, 4, 6 to 8");
 }
 
 }  // namespace
