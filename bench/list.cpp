@@ -8,11 +8,12 @@
 
 #include "bench/claims/claims_table.hpp"
 #include "bench/programs.hpp"
+#include "bench/run/described_tables.hpp"
 #include "bench/run/experiment.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/run/metadata.hpp"
 #include "bench/run/problem_card_json.hpp"
 #include "bench/run/problem_libraries.hpp"
+#include "bench/run/schemas.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
@@ -170,9 +171,14 @@ int print_json(const nlohmann::ordered_json& json) {
   return 0;
 }
 
+int print_text(std::string_view text) {
+  fmt::print("{}", text);
+  return 0;
+}
+
 int print_schema(const std::string& name) {
-  if (name == "problems") return print_json(problem_cards_schema());
-  if (name == "metadata") return print_json(metadata_schema());
+  if (name == "problems") return print_text(problem_cards_schema());
+  if (name == "metadata") return print_text(metadata_schema());
   if (name == "claims") return print_json(row_schema("claims.csv", claims_table({})));
   if (name == "findings") return print_json(row_schema("findings.csv", findings_table({})));
   if (name == "claims_rows") return print_json(row_schema("claims_rows.csv", claims_rows_table({})));

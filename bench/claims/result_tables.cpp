@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/run/described_tables.hpp"
 #include "bench/run/json_place.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/run/result_file.hpp"
 
 namespace dmocbench {

@@ -103,33 +103,24 @@ template <class Record>
   return key;
 }
 
-/// The meanings of columns by their names: "[UNIT] MEANING". Columns that another table explains are left out.
+/// The facts of columns by their names. Columns of which nothing is known, since another table explains them, are left
+/// out.
 template <class Record>
-[[nodiscard]] std::map<std::string, std::string> meanings_of(const Columns<Record>& columns) {
-  std::map<std::string, std::string> meanings;
+[[nodiscard]] std::map<std::string, ColumnFacts> facts_of(const Columns<Record>& columns) {
+  std::map<std::string, ColumnFacts> facts;
   for (const Column<Record>& column : columns) {
-    if (column.meaning.empty()) continue;
-    meanings[column.name] = (column.unit.empty() ? "" : "[" + column.unit + "] ") + column.meaning;
+    const FieldType type = column.cell.type();
+    if (column.meaning.empty() && type.kind == FieldKind::any) continue;
+    facts[column.name] = {column.unit, column.meaning, type};
   }
-  return meanings;
-}
-
-/// The types of columns by their names, where declared.
-template <class Record>
-[[nodiscard]] std::map<std::string, FieldType> types_of(const Columns<Record>& columns) {
-  std::map<std::string, FieldType> types;
-  for (const Column<Record>& column : columns) {
-    if (column.cell.type().kind != FieldKind::any) types[column.name] = column.cell.type();
-  }
-  return types;
+  return facts;
 }
 
 /// The table of records: a row for each.
 template <class Record, std::ranges::input_range Records = std::vector<Record>>
 [[nodiscard]] Table table_of(const Columns<Record>& columns, const Records& records) {
   Table table(names_of(columns));
-  table.explain(meanings_of(columns));
-  table.declare(types_of(columns));
+  table.describe(facts_of(columns));
   table.set_key(key_of(columns));
   for (const Record& record : records) table.append(row_of(columns, record));
   return table;

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "bench/run/described_tables.hpp"
 #include "bench/run/kept_rows.hpp"
-#include "bench/run/meanings.hpp"
 
 namespace dmocbench {
 

@@ -221,12 +221,10 @@ Table IndirectReference::table() const {
     }
   }
   Table table(names);
-  table.explain(meanings_of(reference_columns));
-  table.declare(types_of(reference_columns));
+  table.describe(facts_of(reference_columns));
   table.set_key(key_of(reference_columns));
   for (const std::string& name : names) {  // names that the columns above do not explain
-    table.explain({{name, "costate at t = 0"}});
-    table.declare({{name, {FieldKind::number, true}}});
+    table.describe({{name, {"", "costate at t = 0", {FieldKind::number, true}}}});
   }
   for (const Json& account : accounts) {
     Row row;

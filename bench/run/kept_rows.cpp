@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "bench/run/described_tables.hpp"
 #include "bench/run/json_place.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
@@ -68,11 +68,10 @@ Statement statement_of(const Problem& problem) {
 Table with_statements(const Table& table, const std::set<Statement>& statements) {
   if (!has_column(table, "problem") || has_column(table, "settings")) return table;
   Table result(with_statement_after_problem(table.columns()));
-  result.explain(table.meanings());
-  result.explain({{"library", "file of the problem's library; empty for problems of the suite"},
-                  {"settings", "parameters that differ from their defaults, with spaces between them"}});
-  result.declare(table.types());
-  result.declare({{"library", {FieldKind::text, true}}, {"settings", {FieldKind::text, true}}});
+  result.describe(table.facts());
+  constexpr FieldType text{FieldKind::text, true};
+  result.describe({{"library", {"", "file of the problem's library; empty for problems of the suite", text}},
+                   {"settings", {"", "parameters that differ from their defaults, with spaces between them", text}}});
   result.set_key(with_statement_after_problem(table.key()));
   for (Row row : table.rows()) {
     const auto stated = std::ranges::find(statements, row.text("problem"), &Statement::problem);

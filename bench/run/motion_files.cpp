@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/run/meanings.hpp"
+#include "bench/run/described_tables.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "methods/program/status.hpp"
 #include "methods/tables/motion_file.hpp"

@@ -11,11 +11,11 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/described_tables.hpp"
 #include "bench/run/json_place.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/uniform_01.hpp"
-#include "bench/run/meanings.hpp"
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/polish.hpp"

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/described_tables.hpp"
 #include "bench/run/json_place.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/run/metadata.hpp"
 #include "bench/run/process_pool.hpp"
 #include "methods/runtime/counted.hpp"
@@ -31,7 +31,7 @@ std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, Fi
 }
 
 /// Writes tables, and next to them the metadata of their run with the JSON Schema of their rows. Columns that a table
-/// leaves unexplained have the meanings of the first table. Rows kept from earlier runs precede the others. The
+/// leaves unexplained are as in the first table. Rows kept from earlier runs precede the others. The
 /// metadata contain `"complete": false` until all tables are there.
 /// Throws `Error` if a file cannot be written.
 void write_tables(const std::vector<TableFile>& tables, const std::filesystem::path& metadata_file,
@@ -48,7 +48,7 @@ void write_tables(const std::vector<TableFile>& tables, const std::filesystem::p
   };
   write_as(false);
   for (const TableFile& table : tables) write_file(table.file, kept.joined(table.file, table.table).csv());
-  for (const TableFile& table : tables) add_meanings(metadata, table.file, table.table);
+  for (const TableFile& table : tables) note_table(table.file, table.table, metadata);
   describe_tables_of_run(files, tables.empty() ? Table() : tables.front().table, metadata);
   write_as(true);
 }
@@ -58,13 +58,16 @@ void write_tables(const std::vector<TableFile>& tables, const std::filesystem::p
 Json entry_of_stage(const std::string& stage, const std::vector<TableFile>& added) {
   Json tables = Json::array();
   for (const TableFile& one : added) {
-    Json types = Json::object();
-    for (const auto& [column, type] : one.table.types())
-      types[column] = {{"kind", static_cast<unsigned>(type.kind)}, {"may_be_empty", type.may_be_empty}};
+    Json facts = Json::object();
+    for (const auto& [column, of] : one.table.facts()) {
+      facts[column] = {{"unit", of.unit},
+                       {"meaning", of.meaning},
+                       {"kind", static_cast<unsigned>(of.type.kind)},
+                       {"may_be_empty", of.type.may_be_empty}};
+    }
     tables.push_back({{"name", one.file.stem().string()},
                       {"csv", one.table.csv()},
-                      {"meanings", one.table.meanings()},
-                      {"types", std::move(types)},
+                      {"facts", std::move(facts)},
                       {"key", one.table.key()},
                       {"not_measured", one.not_measured}});
   }
@@ -84,10 +87,9 @@ std::vector<TableFile> tables_of_stage(const Json& entry, const std::filesystem:
     TableFile& one = tables.emplace_back(TableFile{.file = store.parent_path() / (name + ".csv"),
                                                    .table = Table::from_csv(json.at("csv").text()),
                                                    .not_measured = json.at("not_measured").count()});
-    for (const auto& [column, meaning] : json.at("meanings").members()) one.table.explain({{column, meaning.text()}});
-    for (const auto& [column, type] : json.at("types").members()) {
-      const auto kind = static_cast<FieldKind>(type.at("kind").count());
-      one.table.declare({{column, {kind, type.at("may_be_empty").boolean()}}});
+    for (const auto& [column, of] : json.at("facts").members()) {
+      const FieldType type{static_cast<FieldKind>(of.at("kind").count()), of.at("may_be_empty").boolean()};
+      one.table.describe({{column, {of.at("unit").text(), of.at("meaning").text(), type}}});
     }
     one.table.set_key(json.at("key").texts());
   }

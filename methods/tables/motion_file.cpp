@@ -76,30 +76,25 @@ struct Series {
   std::vector<std::string> units = {};  ///< of each; empty for the problem's own units
 };
 
-/// "[m] meaning", as tables state a unit.
-std::string with_unit(const std::string& unit, const std::string& meaning) {
-  return unit.empty() ? meaning : fmt::format("[{}] {}", unit, meaning);
-}
-
 Table series_table(const std::string& time, const Eigen::VectorXd& times, const std::vector<Series>& all,
                    const std::string& time_unit = "") {
   std::vector<std::string> header{time};
   std::vector<Row> rows(static_cast<std::size_t>(times.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].set(time, times[static_cast<Eigen::Index>(k)]);
-  std::map<std::string, std::string> meanings{{time, with_unit(time_unit, "time")}};
+  constexpr FieldType number{FieldKind::number, true};
+  std::map<std::string, ColumnFacts> facts{{time, {time_unit, "time", number}}};
   for (const auto& [prefix, names, values, meaning, units] : all) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       header.push_back(prefix + names[i]);
-      meanings[header.back()] = with_unit(units.empty() ? "" : units[i], meaning);
+      facts[header.back()] = {units.empty() ? "" : units[i], meaning, number};
       for (Eigen::Index k = 0; k < values.rows(); ++k) {
         rows[static_cast<std::size_t>(k)].set(header.back(), values(k, static_cast<Eigen::Index>(i)));
       }
     }
   }
   Table table(header);
-  table.explain(meanings);
+  table.describe(facts);
   for (Row& row : rows) table.append(std::move(row));
-  for (const std::string& column : header) table.declare({{column, {FieldKind::number, true}}});
   return table;
 }
 
@@ -299,16 +294,17 @@ Table quantity_table(const Problem& problem) {
   const ProblemCard card = problem.card();
   const ProblemBounds bounds = problem.bounds();
   Table table({"kind", "quantity", "unit", "lower", "upper", "time"});
-  table.explain(
-      {{"kind", "t, q, u or h, a path constraint"},
-       {"quantity", "the column with this name in the tables of the motion"},
-       {"unit", "as the problem states it; empty where it states none"},
-       {"lower", "its lower bound; empty for none"},
-       {"upper", "its upper bound; empty for none"},
-       {"time", "time at which these bounds hold, as a share of T; empty for bounds along the whole motion"}});
+  constexpr FieldType text{FieldKind::text, true};
+  constexpr FieldType number{FieldKind::number, true};
+  table.describe(
+      {{"kind", {"", "t, q, u or h, a path constraint", text}},
+       {"quantity", {"", "the column with this name in the tables of the motion", text}},
+       {"unit", {"", "as the problem states it; empty where it states none", text}},
+       {"lower", {"", "its lower bound; empty for none", number}},
+       {"upper", {"", "its upper bound; empty for none", number}},
+       {"time",
+        {"", "time at which these bounds hold, as a share of T; empty for bounds along the whole motion", number}}});
   table.set_key({"kind", "quantity", "time"});
-  for (const char* const text : {"kind", "quantity", "unit"}) table.declare({{text, {FieldKind::text, true}}});
-  for (const char* const number : {"lower", "upper", "time"}) table.declare({{number, {FieldKind::number, true}}});
   Row time;
   time.set("kind", "t");
   time.set("quantity", "t");

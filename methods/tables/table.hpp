@@ -90,6 +90,13 @@ struct FieldType {
   bool may_be_empty = true;         ///< texts and numbers that are not finite may always be
 };
 
+/// What is known of a column besides its name.
+struct ColumnFacts {
+  std::string unit;     ///< "s"; empty for texts, counts and pure numbers
+  std::string meaning;  ///< in words; empty where another table explains the column
+  FieldType type = {};  ///< of its fields
+};
+
 /// A table with named columns. Missing values are empty fields.
 class Table {
  public:
@@ -103,17 +110,10 @@ class Table {
   [[nodiscard]] const std::vector<Row>& rows() const noexcept { return rows_; }
   /// Adds a row at the end.
   void append(Row row) { rows_.push_back(std::move(row)); }
-  /// The meanings of columns, for readers, their units in brackets: "[s] median time of a solve". It is not part of
-  /// `csv`.
-  [[nodiscard]] const std::map<std::string, std::string>& meanings() const noexcept { return meanings_; }
-  /// Sets the meanings of columns; earlier ones stay.
-  void explain(const std::map<std::string, std::string>& meanings) {
-    meanings_.insert(meanings.begin(), meanings.end());
-  }
-  /// The declared types of columns. It is not part of `csv`.
-  [[nodiscard]] const std::map<std::string, FieldType>& types() const noexcept { return types_; }
-  /// Declares the types of columns; earlier ones stay.
-  void declare(const std::map<std::string, FieldType>& types) { types_.insert(types.begin(), types.end()); }
+  /// Units, meanings and types of columns by their names, which need not have one. They are not part of `csv`.
+  [[nodiscard]] const std::map<std::string, ColumnFacts>& facts() const noexcept { return facts_; }
+  /// Adds facts; earlier ones of a column stay.
+  void describe(const std::map<std::string, ColumnFacts>& facts) { facts_.insert(facts.begin(), facts.end()); }
   /// The columns that identify a row; empty if not set. It is not part of `csv`.
   [[nodiscard]] const std::vector<std::string>& key() const noexcept { return key_; }
   /// Sets the columns that identify a row.
@@ -132,9 +132,8 @@ class Table {
  private:
   std::vector<std::string> columns_;
   std::vector<Row> rows_;
-  std::map<std::string, std::string> meanings_;  ///< by the names of columns, which need not have one
-  std::map<std::string, FieldType> types_;       ///< by the names of columns, which need not have one
-  std::vector<std::string> key_;                 ///< names of columns
+  std::map<std::string, ColumnFacts> facts_;
+  std::vector<std::string> key_;  ///< names of columns
 };
 
 }  // namespace dmocbench

@@ -51,9 +51,9 @@ TEST(Column, KnowsWhatItHoldsByTheTypeThatItsGetterReturns) {
       columns + Columns<Cart>{{"is_named", "", "", [](const Cart& cart) { return !cart.name.empty(); }},
                               {"letters", "", "", [](const Cart& cart) { return cart.name.size(); }},
                               {"anything", "", "", [](const Cart&) { return Cell("12"); }}};
-  const std::map<std::string, FieldType> types = table_of(further, std::vector<Cart>{}).types();
+  const std::map<std::string, ColumnFacts> facts = table_of(further, std::vector<Cart>{}).facts();
   const auto is = [&](const std::string& column, FieldKind kind, bool may_be_empty) {
-    const FieldType& type = types.at(column);
+    const FieldType& type = facts.at(column).type;
     return type.kind == kind && type.may_be_empty == may_be_empty;
   };
   EXPECT_TRUE(is("name", FieldKind::text, true));
@@ -64,7 +64,7 @@ TEST(Column, KnowsWhatItHoldsByTheTypeThatItsGetterReturns) {
   EXPECT_TRUE(is("drawn", FieldKind::number, true));
   EXPECT_TRUE(is("is_named", FieldKind::boolean, false));
   EXPECT_TRUE(is("letters", FieldKind::integer, false));
-  EXPECT_FALSE(types.contains("anything"));
+  EXPECT_FALSE(facts.contains("anything"));
 }
 
 TEST(Column, IsPartOfTheKeyOfItsTable) {

@@ -13,8 +13,8 @@
 #include <sys/stat.h>
 
 #include "bench/claims/claim.hpp"
+#include "bench/run/described_tables.hpp"
 #include "bench/run/result_file.hpp"
-#include "bench/run/meanings.hpp"
 #include "tests/bench/all_tables_for_claims.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/described_tables.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/start_provider.hpp"
-#include "bench/run/meanings.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"

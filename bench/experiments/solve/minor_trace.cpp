@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/run/meanings.hpp"
+#include "bench/run/described_tables.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 
@@ -86,7 +86,7 @@ void MinorTrace::write(const SolvedCase& solved) {
 
 void MinorTrace::describe(FurtherOutput& output) const {
   if (!is_wanted() || !is_in_folder(file_, output.prefix.parent_path())) return;
-  add_meanings(output.metadata, file_, table_);
+  note_table(file_, table_, output.metadata);
   output.named_by_user.emplace_back(file_);
 }
 

@@ -1,4 +1,4 @@
-#include "bench/run/meanings.hpp"
+#include "bench/run/described_tables.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
