@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -172,26 +173,21 @@ void CaseRows::join(const RunPlan& plan, Json& metadata) {
       headers.push_back(store.header);
     }
   }
-  const std::string part = headers.empty() ? "1/1" : headers.front().at("part").get<std::string>();
-  require_all(plan, part);
-  describe_parts(headers, parse_part("the part", part).of, metadata);
+  const std::size_t parts =
+      headers.empty() ? 1 : parse_part("the part", headers.front().at("part").get<std::string>()).of;
+  require_all(plan, parts);
+  describe_parts(headers, parts, metadata);
 }
 
-void CaseRows::require_all(const RunPlan& plan, const std::string& part) const {
-  const std::size_t parts = parse_part("the part", part).of;
+void CaseRows::require_all(const RunPlan& plan, std::size_t parts) const {
   const std::vector<std::size_t> part_of = dealt_out(plan.cases(), plan.groups_of_starts(), parts);
-  std::vector<bool> lacks_row(parts + 1, false);
-  std::size_t lost = 0;
+  std::set<std::size_t> numbers;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (rows_[i]) continue;
-    ++lost;
-    lacks_row[part_of[i]] = true;
+    if (!rows_[i]) numbers.insert(part_of[i]);
   }
-  if (lost == 0) return;
-  std::vector<std::size_t> missing;
-  for (std::size_t number = 1; number <= parts; ++number) {
-    if (lacks_row[number]) missing.push_back(number);
-  }
+  if (numbers.empty()) return;
+  const std::vector<std::size_t> missing(numbers.begin(), numbers.end());
+  const auto lost = std::ranges::count(rows_, false, &std::optional<Row>::has_value);
   throw Error(
       fmt::format("{} of {} cases have no row: part{} {} of {} {} missing or not complete; run {} with --part {}/{}",
                   lost, rows_.size(), missing.size() > 1 ? "s" : "", in_ranges(missing), parts,

@@ -49,7 +49,7 @@ class CaseRows {
  private:
   [[nodiscard]] nlohmann::ordered_json entry_of(std::size_t number) const;
   std::vector<std::size_t> take(const StoredEntries& stored);
-  void require_all(const RunPlan& plan, const std::string& part) const;
+  void require_all(const RunPlan& plan, std::size_t parts) const;
 
   Experiment& experiment_;
   std::vector<std::string> columns_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -80,7 +81,7 @@ class Run {
   [[nodiscard]] RowStore store_for(const std::map<std::string, std::string>& options) const {
     if (wants_motions()) return {};
     nlohmann::ordered_json header = header_of_store(plan_.identity(metadata_, options, names_of(columns_)), metadata_);
-    if (plan_.part()) header["part"] = plan_.part()->in_words();
+    if (const std::optional<Part>& part = plan_.part()) header["part"] = part->in_words();
     return {plan_.prefix().string() + ".rows", std::move(header)};
   }
 
@@ -129,9 +130,9 @@ class Run {
     nlohmann::ordered_json end{{"experiment", experiment_.card().name},
                                {"exit_code", code},
                                {"complete", complete},
-                               {"rows", own.rows().size()}};
+                               {"rows", own.rows().size()},
+                               {"file", table_file().string()}};
     describe(outcome, end);
-    end["file"] = table_file().string();
     findings_.end(end);
     return code;
   }
@@ -139,11 +140,9 @@ class Run {
   void print_end(const Outcome& outcome, const Table& own, bool complete) const {
     const std::string& name = experiment_.card().name;
     const std::size_t kept = kept_.count(table_file());
+    const std::string all = counted(plan_.cases().size(), "row was", "rows were");
     print_line(fmt::format(
-        "{}: {}{}, {} not solved{}{}: {}{}", name,
-        complete
-            ? ""
-            : fmt::format("interrupted before {} complete: ", counted(plan_.cases().size(), "row was", "rows were")),
+        "{}: {}{}, {} not solved{}{}: {}{}", name, complete ? "" : fmt::format("interrupted before {} complete: ", all),
         counted(own.rows().size(), "row"), outcome.failures,
         outcome.other_branch == 0 ? "" : fmt::format(", {} on another branch than the start", outcome.other_branch),
         outcome.no_motions_by_method, table_file().string(),
@@ -226,10 +225,9 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
   const ExperimentCard& card = experiment.card();
   return run_program(card.name, card.description, argc, argv, [&](CommandLine& line) {
     line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(columns_of(card, experiment.own_columns()))));
-    const ExperimentOptions& defaults = card.options;
-    line.example(!card.example.empty()
-                     ? card.example
-                     : fmt::format("--problem {} --intervals {}", defaults.problems.front(), defaults.intervals));
+    line.example(!card.example.empty() ? card.example
+                                       : fmt::format("--problem {} --intervals {}", card.options.problems.front(),
+                                                     card.options.intervals));
     const bool wants_motions = card.rows == RowUse::motions;
     line.exit_code_1(wants_motions ? "a row is not solved, or is not a motion"
                                    : "a curve has no usable row (its rows have the reasons)");
