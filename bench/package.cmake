@@ -16,6 +16,11 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_DATADIR BASE_DIRECTORY ${CMAKE_INSTA
 install(CODE "file(CREATE_LINK ${data}/dmocbench/plots/figures
   \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/dmocbench-figures\" SYMBOLIC)"
   COMPONENT program)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/bench/compare_results DESTINATION ${CMAKE_INSTALL_DATADIR}/dmocbench COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/bench/csv.awk DESTINATION ${CMAKE_INSTALL_DATADIR}/dmocbench COMPONENT program)
+install(CODE "file(CREATE_LINK ${data}/dmocbench/compare_results
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/dmocbench-compare\" SYMBOLIC)"
+  COMPONENT program)
 install(CODE "execute_process(COMMAND ${PROJECT_SOURCE_DIR}/bench/packages/man_pages
   \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\"
   \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\" ${PROJECT_VERSION} COMMAND_ERROR_IS_FATAL ANY)"
