@@ -78,7 +78,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "coinor-libipopt-dev, libboost-dev, libeigen3-dev (>= 3.4), libfmt-dev, liblapack-dev, liblapacke-dev, libmumps-seq-dev, libnlopt-dev, pkg-config${adolc}"
 )
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-    "cmake (>= 3.25), dmocbench (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), g++, libcli11-dev, nlohmann-json3-dev")
+    "cmake (>= 3.25), dmocbench (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), g++, libcli11-dev, nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "libraries of dmocbench: optimal control by DMOC and collocation
 Headers, static libraries and CMake files: a language for Lagrangians,

@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
+#include <kainjow/mustache.hpp>
 
-#include "bench/report/html.hpp"
 #include "bench/report/mathml.hpp"
 
 namespace dmocbench {
@@ -22,7 +23,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> greek_le
 std::string symbol(std::string_view word) {
   const auto* const greek =
       std::ranges::find(greek_letters, word, [](const auto& letter) { return std::string_view(letter.first); });
-  return fmt::format("<mi>{}</mi>", greek != greek_letters.end() ? std::string(greek->second) : escaped(word));
+  return fmt::format("<mi>{}</mi>", greek != greek_letters.end() ? std::string(greek->second)
+                                                                 : kainjow::mustache::html_escape(std::string(word)));
 }
 
 bool is_number(std::string_view word) {
@@ -49,25 +51,13 @@ struct Fraction {
 
 constexpr double rounding = 4e-16;  // relative
 
-/// The fraction of small numbers that equals the value up to rounding, if there is one.
-std::optional<Fraction> fraction_of(double value) {
-  constexpr double largest = 9999.0;
-  for (const int denominator : {1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 14, 15, 16, 24, 32}) {
-    const double numerator = std::round(value * denominator);
+/// The fraction of small numbers that the value is in a unit, up to rounding, if there is one.
+std::optional<Fraction> fraction_of(double value, double unit, double largest,
+                                    std::initializer_list<int> denominators) {
+  for (const int denominator : denominators) {
+    const double numerator = std::round(value / unit * denominator);
     if (std::abs(numerator) > largest || numerator == 0.0) continue;
-    if (std::abs(numerator / denominator - value) <= rounding * std::abs(value))
-      return Fraction{static_cast<long long>(numerator), denominator};
-  }
-  return std::nullopt;
-}
-
-/// The multiple of π that the value is, to rounding.
-std::optional<Fraction> fraction_of_pi(double value) {
-  const double share = value / std::numbers::pi;
-  for (const int denominator : {1, 2, 3, 4, 6, 8, 12}) {
-    const double numerator = std::round(share * denominator);
-    if (numerator == 0.0 || std::abs(numerator) > 64.0) continue;
-    if (std::abs(numerator * std::numbers::pi / denominator - value) <= rounding * std::abs(value))
+    if (std::abs(numerator * unit / denominator - value) <= rounding * std::abs(value))
       return Fraction{static_cast<long long>(numerator), denominator};
   }
   return std::nullopt;
@@ -91,13 +81,12 @@ std::string decimal(double value) {
 /// A positive number, which is a fraction where that is short.
 std::string magnitude(double value) {
   if (std::isinf(value)) return "<mi>∞</mi>";
-  const auto pi = fraction_of_pi(value);
-  if (pi) {
+  if (const auto pi = fraction_of(value, std::numbers::pi, 64.0, {1, 2, 3, 4, 6, 8, 12})) {
     const std::string numerator =
         pi->numerator == 1 ? "<mi>π</mi>" : fmt::format("<mrow><mn>{}</mn><mi>π</mi></mrow>", pi->numerator);
     return pi->denominator == 1 ? numerator : fmt::format("<mfrac>{}<mn>{}</mn></mfrac>", numerator, pi->denominator);
   }
-  const auto fraction = fraction_of(value);
+  const auto fraction = fraction_of(value, 1.0, 9999.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 14, 15, 16, 24, 32});
   const bool is_short = fmt::format("{}", value).size() <= 3;  // 0.2 is easier to read as a decimal, 3/2 as a fraction
   if (fraction && fraction->denominator > 1 && (!is_short || fraction->denominator == 2))
     return fmt::format("<mfrac><mn>{}</mn><mn>{}</mn></mfrac>", fraction->numerator, fraction->denominator);

@@ -1,41 +1,132 @@
 #include "bench/report/page.hpp"
 
-#include <fmt/format.h>
+#include <array>
+#include <string_view>
+#include <utility>
+#include <vector>
 
-#include "bench/report/html.hpp"
-#include "bench/report/page_parts.hpp"
-#include "bench/report/sections.hpp"
+#include <kainjow/mustache.hpp>
+#include <zlib.h>
+
+#include "bench/report/model.hpp"
+#include "bench/report/words.hpp"
+#include "bench/run/embedded_file.hpp"
+#include "bench/run/json_place.hpp"
+#include "methods/error.hpp"
+
+DMOCBENCH_EMBEDDED_FILE(page, "plots/report/page.mustache");
+DMOCBENCH_EMBEDDED_FILE(first_screen, "plots/report/first_screen.mustache");
+DMOCBENCH_EMBEDDED_FILE(answer, "plots/report/answer.mustache");
+DMOCBENCH_EMBEDDED_FILE(verdicts, "plots/report/verdicts.mustache");
+DMOCBENCH_EMBEDDED_FILE(claims, "plots/report/claims.mustache");
+DMOCBENCH_EMBEDDED_FILE(claim, "plots/report/claim.mustache");
+DMOCBENCH_EMBEDDED_FILE(problems, "plots/report/problems.mustache");
+DMOCBENCH_EMBEDDED_FILE(motion, "plots/report/motion.mustache");
+DMOCBENCH_EMBEDDED_FILE(figures, "plots/report/figures.mustache");
+DMOCBENCH_EMBEDDED_FILE(tables, "plots/report/tables.mustache");
+DMOCBENCH_EMBEDDED_FILE(style, "plots/report/report.css");
+DMOCBENCH_EMBEDDED_FILE(script, "plots/report/report.js");
 
 namespace dmocbench {
 
-std::string report_page(const ResultsFolder& results, const std::string& folder) {
-  return page_of("DMOC against collocation", {{"Overview", overview_section(results)},
-                                              {"Claims", claims_section(results)},
-                                              {"Gallery", gallery_section(results)},
-                                              {"Figures", figures_section(results)},
-                                              {"Tables", tables_section(results, folder)}});
+namespace {
+
+namespace mustache = kainjow::mustache;
+using Json = nlohmann::ordered_json;
+
+/// Templates within the page by the names by which they read each other; names of values differ from these.
+constexpr std::array<std::pair<const char*, const char*>, 9> templates{
+    {{"first_screen_part", dmocbench_file_first_screen},
+     {"answer_part", dmocbench_file_answer},
+     {"verdicts_part", dmocbench_file_verdicts},
+     {"claims_part", dmocbench_file_claims},
+     {"claim_part", dmocbench_file_claim},
+     {"problems_part", dmocbench_file_problems},
+     {"motion_part", dmocbench_file_motion},
+     {"figures_part", dmocbench_file_figures},
+     {"tables_part", dmocbench_file_tables}}};
+
+/// Values for templates, in which an empty text opens no section. A list `x` has a value `has_x`: its section is
+/// repeated.
+mustache::data data_of(const Json& json) {
+  if (json.is_object()) {
+    mustache::data object = mustache::data::type::object;
+    for (const auto& [key, value] : json.items()) {
+      object.set(key, data_of(value));
+      if (value.is_array()) object.set("has_" + key, !value.empty());
+    }
+    return object;
+  }
+  if (json.is_array()) {
+    mustache::data list = mustache::data::type::list;
+    for (const Json& value : json) list.push_back(data_of(value));
+    return list;
+  }
+  if (json.is_boolean()) return json.get<bool>();
+  const std::string text = json.is_null() ? "" : json.is_string() ? json.get<std::string>() : json.dump();
+  if (text.empty()) return false;
+  return text;
 }
 
-std::string page_of(const std::string& title, const std::vector<std::pair<std::string, std::string>>& sections) {
-  std::string navigation;
-  std::string content;
-  for (const auto& [name, section] : sections) {
-    if (section.empty()) continue;
-    std::string id = name;
-    id.front() = static_cast<char>(id.front() - 'A' + 'a');
-    navigation += fmt::format("<a href=\"#{}\">{}</a>\n", id, escaped(name));
-    content += section;
-  }
-  // The page fetches no files and runs only its own script, regardless of the content of tables and figures. Browsers
-  // hash the whole text between the tags of the script.
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" "
-      "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'\">\n"
-      "<title>{}</title>\n<style>\n{}</style></head>\n<body><nav aria-label=\"sections\">{}</nav>\n"
-      "<main>\n{}</main>\n<script>{}</script></body></html>\n",
-      base64(digest_of_script), escaped(title), style_of_page, navigation, content, script_of_page);
+/// A text in zlib's format, in the letters of base64.
+std::string packed(const std::string& text) {
+  std::vector<Bytef> bytes(::compressBound(text.size()));
+  uLongf size = bytes.size();
+  const std::vector<Bytef> source(text.begin(), text.end());
+  if (::compress2(bytes.data(), &size, source.data(), source.size(), Z_BEST_COMPRESSION) != Z_OK)
+    throw Error("there is no memory to pack the tables of the report");
+  return base64(std::string(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)));
+}
+
+/// JSON in valid UTF-8, whatever bytes names and tables have.
+std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// Figures and tables, packed, by the names by which the script unpacks them.
+mustache::data blobs_of(const ResultsFolder& results) {
+  mustache::data blobs = mustache::data::type::list;
+  const auto add = [&blobs](const std::string& name, const std::string& text) {
+    mustache::data blob;
+    blob.set("blob", name);
+    blob.set("data", packed(text));
+    blobs.push_back(blob);
+  };
+  for (const ReportedFigure& figure : results.figures) add("figure-" + figure.name, figure.svg);
+  for (const ReportedTable& table : results.tables)
+    add("table-" + table.file, dumped(table_json(table, results.metadata_of(table.run))));
+  return blobs;
+}
+
+/// The digest by which the page allows its own script and no other, in base64. The build knows it in hexadecimal
+/// digits.
+std::string digest_of_script() {
+  constexpr std::string_view digits = DMOCBENCH_PAGE_DIGEST;
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16));
+  return base64(bytes);
+}
+
+}  // namespace
+
+std::string report_page(const ResultsFolder& results, const std::string& folder) {
+  const Json model{{"claims", claims_model(results)},
+                   {"measured", results.claims.empty() ? measured_model(results) : Json()},
+                   {"gallery", gallery_model(results)},
+                   {"figures", figures_model(results, folder)},
+                   {"figure_count", results.figures.size()},
+                   {"tables", tables_model(results, folder)},
+                   {"table_count", results.tables.size()},
+                   {"folder", folder},
+                   {"run", run_model(results)}};
+  mustache::data page = data_of(json_in(dumped(model), "the report"));
+  page.set("blobs", blobs_of(results));
+  page.set("style", dmocbench_file_style);
+  page.set("script", dmocbench_file_script);
+  page.set("digest", digest_of_script());
+  for (const auto& [name, text] : templates)
+    page.set(name, mustache::data{mustache::partial{[text = text] { return std::string(text); }}});
+  mustache::mustache form{std::string(dmocbench_file_page)};
+  return form.render(page);
 }
 
 }  // namespace dmocbench

@@ -104,45 +104,54 @@ std::string run_of(const std::string& file, const std::vector<ReportedRun>& runs
   return "";
 }
 
-/// The key of a table in a run's metadata; empty if they do not name it.
-std::vector<std::string> key_of(const std::string& file, const Json* metadata) {
-  try {
-    if (metadata != nullptr)
-      return JsonPlace(*metadata, "").at("tables").at(file).at("schema").at("primaryKey").texts();
-  } catch (const Error&) {  // by an earlier version, or damaged
+/// Throws `Error` unless a claim has all values that the report reads, with their types.
+void require_claim(const JsonPlace& claim) {
+  for (const char* const key : {"claim", "problem", "name", "where", "figure", "whose", "states", "verdict", "sure"})
+    static_cast<void>(claim.at(key).text());
+  for (const char* const key : {"evidence", "figures"}) static_cast<void>(claim.at(key).texts());
+  for (const char* const key : {"measured", "reasons"}) {
+    for (const JsonPlace& clause : claim.at(key).entries()) {
+      static_cast<void>(clause.at("text").text());
+      for (const JsonPlace& number : clause.at("numbers").entries()) {
+        static_cast<void>(number.at("name").text() + number.at("method").text());
+        static_cast<void>(number.at("value").number());
+      }
+    }
   }
-  return {};
+  for (const JsonPlace& rows : claim.at("rows").entries()) {
+    static_cast<void>(rows.at("table").text());
+    static_cast<void>(rows.at("columns").texts());
+    for (const JsonPlace& record : rows.at("records").entries()) static_cast<void>(record.count());
+  }
 }
 
-/// A finding in the columns of claims, with the verdict "measured".
-Row as_claim(const Row& finding) {
-  Row claim;
-  for (const auto& [column, field] :
-       {std::pair("claim", "finding"), std::pair("where", "where"), std::pair("whose", "whose"),
-        std::pair("states", "question"), std::pair("measured", "measured"), std::pair("reason", "condition"),
-        std::pair("evidence", "evidence"), std::pair("sure", "sure")})
-    claim.set(column, finding.text(field));
-  claim.set("verdict", "measured");
-  return claim;
+/// Claims, then findings.
+void read_claims(const std::filesystem::path& folder, ResultsFolder& results) {
+  const std::string name = "claims.json";
+  std::error_code none;
+  if (!std::filesystem::exists(folder / name, none)) return;
+  try {
+    const Json json = json_in(read_file(folder / name), name);
+    for (const char* const part : {"claims", "findings"}) {
+      for (const JsonPlace& claim : JsonPlace(json, name).at(part).entries()) {
+        require_claim(claim);
+        results.claims.push_back(claim.json());
+      }
+    }
+  } catch (const Error& error) {
+    results.claims.clear();
+    results.faults.emplace_back(error.what());
+  }
 }
 
 void read_tables(const std::filesystem::path& folder, ResultsFolder& results) {
-  const std::set<std::string> of_motions = files_of_motions(results.runs);
+  std::set<std::string> others = files_of_motions(results.runs);
+  others.insert({"claims.csv", "findings.csv", "claims_rows.csv"});  // claims.json has the same
   for (const std::filesystem::path& file : files_in(folder, ".csv")) {
     const std::string name = file.filename().string();
     try {
-      Table table = Table::from_csv(read_file(file));
-      if (name == "claims.csv") {
-        results.claims = std::move(table);
-      } else if (name == "findings.csv") {
-        for (const Row& finding : table.rows()) results.claims.append(as_claim(finding));
-      } else if (name == "claims_rows.csv") {
-        results.claim_rows = std::move(table);
-      } else if (!of_motions.contains(name)) {
-        const std::string run = run_of(name, results.runs);
-        table.set_key(key_of(name, results.metadata_of(run)));
-        results.tables.push_back({name, run, std::move(table)});
-      }
+      if (!others.contains(name))
+        results.tables.push_back({name, run_of(name, results.runs), Table::from_csv(read_file(file))});
     } catch (const Error& error) {
       results.faults.push_back(fmt::format("{}: {}", name, error.what()));
     }
@@ -173,6 +182,7 @@ ResultsFolder read_results_folder(const std::filesystem::path& folder) {
   }
   ResultsFolder results;
   read_runs(folder, results);
+  read_claims(folder, results);
   read_tables(folder, results);
   read_motions(folder, results);
   read_figures(folder, results);

@@ -43,8 +43,8 @@ struct ResultsFolder {
   std::vector<ReportedTable> tables;
   std::vector<ReportedFigure> figures;
   std::vector<ReportedMotion> motions;
-  Table claims;                     ///< no rows if no claims were judged
-  Table claim_rows;                 ///< the rows that claims are based on: claim, table, records, columns
+  std::vector<nlohmann::ordered_json>
+      claims;                       ///< as claims.json has them, then the findings; none if nothing was judged
   std::vector<std::string> faults;  ///< files that cannot be shown, a sentence each
 
   /// The metadata of a run, or null.

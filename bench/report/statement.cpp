@@ -1,30 +1,66 @@
-#include "bench/report/statement.hpp"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
+#include <iterator>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "bench/report/html.hpp"
 #include "bench/report/mathml.hpp"
+#include "bench/report/model.hpp"
 #include "bench/report/stated_problem.hpp"
+#include "methods/expression/vectors.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "methods/runtime/parsed.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-std::string math(const std::string& content) { return "<math><mrow>" + content + "</mrow></math>"; }
+using Json = nlohmann::ordered_json;
+using Names = std::vector<std::string>;
 
-/// A formula on a line of its own that may be broken between terms.
-std::string line_of(const std::string& name, const MathTerms& terms, const std::string& ending) {
-  std::string html = "<div class=\"formula\">";
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const std::string begin = i == 0 ? name + "<mo>=</mo>" : "";
-    html += math(begin + terms[i] + (i + 1 == terms.size() ? ending : "")) + "\n";
+/// Letters that parameters usually have.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> usual_letters{{{"mass", "m"},
+                                                                                       {"length", "l"},
+                                                                                       {"gravity", "g"},
+                                                                                       {"inertia", "J"},
+                                                                                       {"stiffness", "k"},
+                                                                                       {"damping", "d"},
+                                                                                       {"friction", "b"},
+                                                                                       {"arm", "r"},
+                                                                                       {"lever", "r"},
+                                                                                       {"thrust", "a"},
+                                                                                       {"width", "w"},
+                                                                                       {"horizon", "T"}}};
+
+/// "m_1" of "mass_1", "m_cart" of "cart_mass"; the name itself where no letter is usual.
+std::string letter_of(const std::string& name) {
+  for (const auto& [word, letter] : usual_letters) {
+    if (name == word) return std::string(letter);
+    if (name.starts_with(std::string(word) + "_")) return std::string(letter) + name.substr(word.size());
+    const std::string ending = "_" + std::string(word);
+    if (name.ends_with(ending)) return fmt::format("{}_{}", letter, name.substr(0, name.size() - ending.size()));
   }
-  return html + "</div>\n";
+  return name;
+}
+
+/// A letter for every parameter that varies: the usual one if it is free.
+std::vector<StatedProblem::Letter> letters_of(const Problem& problem, const std::vector<std::string>& varying,
+                                              std::vector<std::string> taken) {
+  std::vector<StatedProblem::Letter> letters;
+  for (const std::string& name : varying) {
+    const auto parameter = std::ranges::find(problem.parameters(), name, &Parameter::name);
+    std::string letter = mathml_of_name(letter_of(name));
+    if (std::ranges::count(taken, letter) > 0) letter = mathml_of_name(name);
+    taken.push_back(letter);
+    letters.push_back({letter, &*parameter});
+  }
+  return letters;
 }
 
 /// True if a number is written with all its digits: as a fraction, a multiple of π, or because it has few.
@@ -36,168 +72,275 @@ bool is_exact(double value) {
 }
 
 /// A number with its own digits, or at most eight.
-std::string number_html(double value) {
+std::string number_of(double value) {
   return mathml_of_number(is_exact(value) ? value : parsed<double>(fmt::format("{:.8g}", value)).value_or(value));
 }
 
-/// The condition on a component: its given value, or its bounds; empty if it is free.
-std::string condition_of(const std::string& name, double lower, double upper) {
-  const std::string least = number_html(lower);
-  if (lower == upper) return math(name + (is_exact(lower) ? "<mo>=</mo>" : "<mo>≈</mo>") + least);
-  const bool has_lower = std::isfinite(lower);
-  const bool has_upper = std::isfinite(upper);
-  if (!has_lower && !has_upper) return "";
-  if (!has_upper) return math(name + "<mo>≥</mo>" + least);
-  const std::string most = "<mo>≤</mo>" + number_html(upper);
-  return math(has_lower ? least + "<mo>≤</mo>" + name + most : name + most);
+/// The relation of a quantity or a formula to its bounds; empty if it has none.
+std::string relation(double lower, double upper) {
+  const std::string least = number_of(lower);
+  if (lower == upper) return (is_exact(lower) ? "<mo>=</mo>" : "<mo>≈</mo>") + least;
+  if (std::isinf(lower) && std::isinf(upper)) return "";
+  if (std::isinf(upper)) return "<mo>≥</mo>" + least;
+  if (std::isinf(lower)) return "<mo>≤</mo>" + number_of(upper);
+  return fmt::format("<mo>∈</mo><mo>[</mo>{}<mo>,</mo>{}<mo>]</mo>", least, number_of(upper));
 }
 
-/// Conditions in a row, with commas between them.
+std::string indexed(std::string_view letter, const std::string& index) {
+  return fmt::format("<msub><mi>{}</mi>{}</msub>", letter, index);
+}
+
+Names in_mathml(Names names, std::string (*as_mathml)(std::string_view)) {
+  std::ranges::transform(names, names.begin(), as_mathml);
+  return names;
+}
+
+/// "x(0)" of every name.
+Names at_time(Names names, std::string_view time) {
+  constexpr std::string_view form = R"(<mrow>{}<mo stretchy="false">(</mo>{}<mo stretchy="false">)</mo></mrow>)";
+  for (std::string& name : names) name = fmt::format(form, name, time);
+  return names;
+}
+
+void append(Names& names, std::initializer_list<Names> others) {
+  for (const Names& other : others) names.insert(names.end(), other.begin(), other.end());
+}
+
+/// Adds formulas that have names.
+void add(std::vector<StatedFormula>& formulas, const Names& names, const ExpressionVector& values) {
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    formulas.push_back({names.at(static_cast<std::size_t>(i)), values[i], ""});
+}
+
+/// Adds formulas that have a letter and a number.
+void add(std::vector<StatedFormula>& formulas, std::string_view letter, const ExpressionVector& values,
+         const Bounds& bounds) {
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    formulas.push_back(
+        {indexed(letter, fmt::format("<mn>{}</mn>", i + 1)), values[i], relation(bounds.lower[i], bounds.upper[i])});
+  }
+}
+
+Bounds zeros(const ExpressionVector& values) { return Bounds::all(values.size(), 0.0, 0.0); }
+
+void trace_along(const Problem& problem, const ProblemBounds& bounds, StatedProblem& result) {
+  InputCounter inputs(result.letters.size());
+  ControlledState x;
+  x.q = inputs.take(problem.configuration_size());
+  x.v = inputs.take(problem.configuration_size());
+  x.u = inputs.take(problem.control_size());
+  x.y = inputs.take(problem.first_order_size());
+  x.t = inputs.take();
+  result.along.push_back({"<mi>C</mi>", problem.running_cost(x), ""});
+  result.along.push_back({"<mi>L</mi>", problem.lagrangian(x.state()), ""});
+  Names forces = in_mathml(problem.configuration_names(), mathml_of_name);
+  for (std::string& name : forces) name = indexed("f", name);
+  add(result.along, forces, problem.force(x));
+  const ExpressionVector holonomic = problem.constraints(x.q);
+  add(result.along, "g", holonomic, zeros(holonomic));
+  const ExpressionVector path = problem.path_constraints(x);
+  add(result.along, "h", path, bounds.of_path(path.size()));
+  add(result.along, in_mathml(problem.first_order_names(), mathml_of_rate), problem.first_order_rates(x));
+  const ExpressionVector integrands = problem.integrands(x);
+  add(result.along, "c", integrands, Bounds::none(integrands.size()));
+}
+
+void trace_ends(const Problem& problem, StatedProblem& result) {
+  InputCounter inputs(result.letters.size());
+  std::array<State, 2> ends;
+  for (State& end : ends) {
+    end.q = inputs.take(problem.configuration_size());
+    end.v = inputs.take(problem.configuration_size());
+    end.y = inputs.take(problem.first_order_size());
+  }
+  ends[1].t = inputs.take();
+  const Expression final_cost = problem.final_cost(ends[1]);
+  result.has_final_cost = !final_cost.is_zero();
+  if (result.has_final_cost) result.at_ends.push_back({"<mi>Φ</mi>", final_cost, ""});
+  const ExpressionVector conditions = problem.boundary_conditions(ends[0], ends[1]);
+  add(result.at_ends, "r", conditions, zeros(conditions));
+}
+
+/// A letter that no name contains.
+std::string free_letter(const Names& taken) {
+  for (const char* const letter : {"w", "z", "s", "b", "a"}) {
+    const auto has_letter = [&](const std::string& name) {
+      return name.find(fmt::format("<mi>{}</mi>", letter)) != std::string::npos;
+    };
+    if (std::ranges::none_of(taken, has_letter)) return letter;
+  }
+  return "part";
+}
+
+/// A formula on a line of its own that may be broken between terms.
+Json line_of(const std::string& name, MathTerms terms, const std::string& ending) {
+  terms.front().insert(0, name + "<mo>=</mo>");
+  terms.back() += ending;
+  return {{"terms", terms}};
+}
+
+/// Conditions by the place where they hold.
 class Conditions {
  public:
   void add(const std::string& name, double lower, double upper) {
-    const std::string condition = condition_of(name, lower, upper);
-    if (!condition.empty()) row_ += (row_.empty() ? "" : ", ") + condition;
+    const std::string condition = relation(lower, upper);
+    if (!condition.empty()) all_.push_back(name + condition);
   }
-  void add(const std::vector<std::string>& names, const Bounds& bounds) {
+  /// Bounds on `count` quantities, or none; the names of the quantities begin at `first`, which moves behind them.
+  void add(const std::vector<std::string>& names, std::size_t& first, Eigen::Index count, const Bounds& bounds) {
     for (Eigen::Index i = 0; i < bounds.lower.size(); ++i)
-      add(names.at(static_cast<std::size_t>(i)), bounds.lower[i], bounds.upper[i]);
+      add(names.at(first + static_cast<std::size_t>(i)), bounds.lower[i], bounds.upper[i]);
+    first += static_cast<std::size_t>(count);
   }
-  [[nodiscard]] const std::string& row() const { return row_; }
+  void append_to(Json& limits, const char* place, const std::string& time = "") const {
+    if (!all_.empty()) limits.push_back({{"place", place}, {"time", time}, {"conditions", all_}});
+  }
 
  private:
-  std::string row_;
+  std::vector<std::string> all_;
 };
 
-std::vector<std::string> part(const std::vector<std::string>& names, std::size_t first, std::size_t count) {
-  const auto begin = names.begin() + static_cast<std::ptrdiff_t>(first);
-  return {begin, begin + static_cast<std::ptrdiff_t>(count)};
-}
-
-/// Formulas by their names, and the parts that they share.
-struct WrittenFormulas {
-  std::vector<std::string> lines;
-  std::string shared;
-};
-
-WrittenFormulas written(const std::vector<StatedFormula>& formulas, const std::vector<std::string>& inputs,
-                        const StatedProblem& stated) {
+/// Adds formulas by their names, and the parts that they share.
+void add_formulas(const std::vector<StatedFormula>& formulas, const std::vector<std::string>& inputs,
+                  const StatedProblem& stated, Json& model) {
   std::vector<Expression> values;
-  values.reserve(formulas.size());
-  for (const StatedFormula& formula : formulas) values.push_back(formula.value);
+  std::ranges::transform(formulas, std::back_inserter(values), &StatedFormula::value);
   const TypesetFormulas typeset_formulas = typeset(values, inputs, stated.letters.size(), stated.free_letter);
-  WrittenFormulas result;
   for (std::size_t i = 0; i < formulas.size(); ++i) {
-    result.lines.push_back(line_of(formulas[i].name, typeset_formulas.formulas[i], formulas[i].relation));
+    const bool is_no_cost = formulas[i].name == "<mi>C</mi>" && values[i].is_zero();
+    if (!is_no_cost)
+      model["formulas"].push_back(line_of(formulas[i].name, typeset_formulas.formulas[i], formulas[i].relation));
   }
-  for (const auto& [name, terms] : typeset_formulas.shared) result.shared += line_of(name, terms, "");
-  return result;
+  for (const auto& [name, terms] : typeset_formulas.shared) model["shared"].push_back(line_of(name, terms, ""));
 }
 
-/// "m/s^2" with its exponents raised.
+/// "m/s²" of "m/s^2".
 std::string unit_in_print(const std::string& unit) {
-  const std::string text = escaped(unit);
-  std::string html;
-  std::size_t told = 0;
-  for (std::size_t at = text.find('^'); at != std::string::npos; at = text.find('^', at + 1)) {
-    const std::size_t digits = at + 1 + (text.compare(at + 1, 1, "-") == 0 ? 1 : 0);
-    const std::size_t end = std::min(text.find_first_not_of("0123456789", digits), text.size());
-    if (end == digits) continue;
-    html += text.substr(told, at - told) + "<sup>" + text.substr(at + 1, end - at - 1) + "</sup>";
-    told = end;
+  constexpr std::array superscripts{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string print;
+  for (std::size_t at = 0; at < unit.size();) {
+    const bool is_negative = unit.compare(at, 2, "^-") == 0;
+    const std::size_t digits = at + (is_negative ? 2 : 1);
+    const std::size_t end = std::min(unit.find_first_not_of("0123456789", digits), unit.size());
+    if (unit[at] != '^' || end <= digits) {
+      print += unit[at++];
+      continue;
+    }
+    if (is_negative) print += "⁻";
+    for (at = digits; at < end; ++at) print += superscripts.at(static_cast<std::size_t>(unit[at] - '0'));
   }
-  return html + text.substr(told);
+  return print;
 }
 
-std::string letters_html(const StatedProblem& stated) {
-  std::string html;
+Json letters_json(const StatedProblem& stated) {
+  Json letters = Json::array();
   for (const StatedProblem::Letter& letter : stated.letters) {
     const Parameter& parameter = *letter.parameter;
-    html += fmt::format("<li>{} {}, {}</li>\n", math(letter.mathml + "<mo>=</mo>" + mathml_of_number(parameter.value)),
-                        unit_in_print(parameter.unit), escaped(parameter.meaning));
+    letters.push_back({{"equation", letter.mathml + "<mo>=</mo>" + mathml_of_number(parameter.value)},
+                       {"unit", unit_in_print(parameter.unit)},
+                       {"meaning", parameter.meaning}});
   }
-  return html.empty() ? "" : "<ul class=\"letters\">\n" + html + "</ul>\n";
+  return letters;
+}
+
+/// The integral over the time of the motion.
+std::string integral_of(const std::string& integrand) {
+  return "<msubsup><mo>∫</mo><mn>0</mn><mi>T</mi></msubsup>" + integrand +
+         "<mspace width=\"0.2em\"/><mi>d</mi><mi>t</mi>";
 }
 
 /// The integral of the cost, or the final cost, or both.
-std::string objective_html(const StatedProblem& stated) {
+std::string objective_of(const StatedProblem& stated) {
   const bool has_integral = !stated.along.front().value.is_zero() || !stated.has_final_cost;
-  std::string sum;
-  if (has_integral)
-    sum = "<msubsup><mo>∫</mo><mn>0</mn><mi>T</mi></msubsup><mi>C</mi><mspace width=\"0.2em\"/><mi>d</mi><mi>t</mi>";
-  if (stated.has_final_cost) sum += (has_integral ? "<mo>+</mo>" : std::string()) + "<mi>Φ</mi>";
-  return "<p>Minimise " + math(sum) + "</p>\n";
+  std::string sum = has_integral ? integral_of("<mi>C</mi>") : "";
+  if (stated.has_final_cost) sum += has_integral ? "<mo>+</mo><mi>Φ</mi>" : "<mi>Φ</mi>";
+  return sum;
 }
 
-/// Ends, horizon and bounds, a term each.
-std::string limits_html(const Problem& problem, const StatedProblem& stated_problem) {
-  const auto n = static_cast<std::size_t>(problem.configuration_size());
-  const auto m = static_cast<std::size_t>(problem.control_size());
-  const auto l = static_cast<std::size_t>(problem.first_order_size());
-  const std::size_t letters = stated_problem.letters.size();
-  std::string html = "<dl>\n";
+/// Ends, horizon and bounds.
+Json limits_of(const Problem& problem, const StatedProblem& stated) {
+  const Eigen::Index n = problem.configuration_size();
+  const Eigen::Index m = problem.control_size();
+  const Eigen::Index l = problem.first_order_size();
   const ProblemBounds bounds = problem.bounds();
-  const auto add = [&html](std::string_view term, const Conditions& conditions) {
-    if (!conditions.row().empty()) html += fmt::format("<dt>{}<dd>{}\n", term, conditions.row());
-  };
-  Conditions begin;
-  begin.add(part(stated_problem.end_inputs, letters, n), bounds.first.q);
-  begin.add(part(stated_problem.end_inputs, letters + n, n), bounds.first.v);
-  begin.add(part(stated_problem.end_inputs, letters + 2 * n, l), bounds.first.y);
-  add("Begin", begin);
-  for (const InteriorBounds& at : bounds.interior) {
-    Conditions between;
-    between.add(part(stated_problem.inputs, letters, n), at.q);
-    between.add(part(stated_problem.inputs, letters + n, n), at.v);
-    between.add(part(stated_problem.inputs, letters + 2 * n + m, l), at.y);
-    add(fmt::format("At {}", math("<mi>t</mi><mo>/</mo><mi>T</mi><mo>=</mo>" + number_html(at.relative_time))),
-        between);
+  Json limits = Json::array();
+  std::size_t place = stated.letters.size();
+  for (const auto& [name, end] : {std::pair("Begin", &bounds.first), std::pair("End", &bounds.last)}) {
+    Conditions conditions;
+    conditions.add(stated.end_inputs, place, n, end->q);
+    conditions.add(stated.end_inputs, place, n, end->v);
+    conditions.add(stated.end_inputs, place, l, end->y);
+    conditions.append_to(limits, name);
   }
-  Conditions end;
-  const std::size_t of_last = letters + 2 * n + l;
-  end.add(part(stated_problem.end_inputs, of_last, n), bounds.last.q);
-  end.add(part(stated_problem.end_inputs, of_last + n, n), bounds.last.v);
-  end.add(part(stated_problem.end_inputs, of_last + 2 * n, l), bounds.last.y);
-  add("End", end);
+  for (const InteriorBounds& at : bounds.interior) {
+    Conditions conditions;
+    place = stated.letters.size();
+    conditions.add(stated.inputs, place, n, at.q);
+    conditions.add(stated.inputs, place, n, at.v);
+    place += static_cast<std::size_t>(m);
+    conditions.add(stated.inputs, place, l, at.y);
+    conditions.append_to(limits, "At", "<mi>t</mi><mo>/</mo><mi>T</mi><mo>=</mo>" + number_of(at.relative_time));
+  }
   Conditions horizon;
   horizon.add("<mi>T</mi>", bounds.horizon.lower, bounds.horizon.upper);
-  add("Duration", horizon);
-  Conditions on_motion;
-  on_motion.add(part(stated_problem.inputs, letters, n), bounds.q);
-  on_motion.add(part(stated_problem.inputs, letters + n, n), bounds.v);
-  on_motion.add(part(stated_problem.inputs, letters + 2 * n, m), bounds.u);
-  on_motion.add(part(stated_problem.inputs, letters + 2 * n + m, l), bounds.y);
+  horizon.append_to(limits, "Duration");
+  Conditions along;
+  place = stated.letters.size();
+  along.add(stated.inputs, place, n, bounds.q);
+  along.add(stated.inputs, place, n, bounds.v);
+  along.add(stated.inputs, place, m, bounds.u);
+  along.add(stated.inputs, place, l, bounds.y);
   for (Eigen::Index i = 0; i < bounds.integrals.lower.size(); ++i) {
-    on_motion.add(fmt::format("<msubsup><mo>∫</mo><mn>0</mn><mi>T</mi></msubsup><msub><mi>c</mi><mn>{}</mn></msub>"
-                              "<mspace width=\"0.2em\"/><mi>d</mi><mi>t</mi>",
-                              i + 1),
-                  bounds.integrals.lower[i], bounds.integrals.upper[i]);
+    along.add(integral_of(fmt::format("<msub><mi>c</mi><mn>{}</mn></msub>", i + 1)), bounds.integrals.lower[i],
+              bounds.integrals.upper[i]);
   }
-  for (const std::size_t unknown : problem.unknowns()) {
-    const Parameter& parameter = problem.parameters()[unknown];
-    const auto letter = std::ranges::find_if(stated_problem.letters, [&](const StatedProblem::Letter& one) {
-      return one.parameter->name == parameter.name;
-    });
-    on_motion.add(letter->mathml, parameter.lower, parameter.upper);
+  for (const StatedProblem::Letter& letter : stated.letters) {
+    const auto is_letter = [&](std::size_t unknown) { return &problem.parameters()[unknown] == letter.parameter; };
+    if (std::ranges::any_of(problem.unknowns(), is_letter))
+      along.add(letter.mathml, letter.parameter->lower, letter.parameter->upper);
   }
-  add("Bounds", on_motion);
-  return html + "</dl>\n";
+  along.append_to(limits, "Bounds");
+  return limits;
 }
 
 }  // namespace
 
-std::string statement_html(const Problem& problem) {
+StatedProblem stated(const Problem& problem) {
+  StatedProblem result;
+  const Names varying = TracedProblem(problem).varying_parameters();
+  Names lettered = varying;
+  for (const std::size_t unknown : problem.unknowns()) lettered.push_back(problem.parameters()[unknown].name);
+  const Names q = in_mathml(problem.configuration_names(), mathml_of_name);
+  const Names v = in_mathml(problem.configuration_names(), mathml_of_rate);
+  const Names u = in_mathml(problem.control_names(), mathml_of_name);
+  const Names y = in_mathml(problem.first_order_names(), mathml_of_name);
+  Names taken{"<mi>t</mi>", "<mi>C</mi>", "<mi>L</mi>"};
+  append(taken, {q, u, y});
+  result.letters = letters_of(problem, lettered, taken);
+  for (const StatedProblem::Letter& letter : result.letters) result.inputs.push_back(letter.mathml);
+  append(taken, {result.inputs});
+  result.end_inputs = result.inputs;
+  append(result.inputs, {q, v, u, y, {"<mi>t</mi>"}});
+  for (const std::string_view time : {"<mn>0</mn>", "<mi>T</mi>"})
+    append(result.end_inputs, {at_time(q, time), at_time(v, time), at_time(y, time)});
+  append(result.end_inputs, {{"<mi>T</mi>"}});
+  result.free_letter = free_letter(taken);
+
+  const ProblemBounds bounds = problem.bounds();  // before the trace: parameters that they read may be open in formulas
+  const ParameterTrace open(problem, varying);
+  trace_along(problem, bounds, result);
+  trace_ends(problem, result);
+  return result;
+}
+
+PageModel statement_model(const Problem& problem) {
   const StatedProblem stated_problem = stated(problem);
-  const WrittenFormulas along = written(stated_problem.along, stated_problem.inputs, stated_problem);
-  const WrittenFormulas at_ends = written(stated_problem.at_ends, stated_problem.end_inputs, stated_problem);
-
-  std::string html = objective_html(stated_problem);
-  const bool has_cost = !stated_problem.along.front().value.is_zero();
-  for (std::size_t i = has_cost ? 0 : 1; i < along.lines.size(); ++i) html += along.lines[i];
-  for (const std::string& line : at_ends.lines) html += line;
-  if (!along.shared.empty() || !at_ends.shared.empty()) html += "<p>with</p>\n" + along.shared + at_ends.shared;
-
-  return html + limits_html(problem, stated_problem) + letters_html(stated_problem);
+  Json model{{"objective", objective_of(stated_problem)}, {"formulas", Json::array()}, {"shared", Json::array()}};
+  add_formulas(stated_problem.along, stated_problem.inputs, stated_problem, model);
+  add_formulas(stated_problem.at_ends, stated_problem.end_inputs, stated_problem, model);
+  model["limits"] = limits_of(problem, stated_problem);
+  model["letters"] = letters_json(stated_problem);
+  return model;
 }
 
 }  // namespace dmocbench

@@ -1,166 +1,173 @@
-// What the page can do beyond showing: filter claims, sort tables, open what a link names, move motions through time.
+// The page is readable without this; it adds filters, figures and tables that unpack when opened, moving trajectories, small pictures.
 "use strict";
-
-let printing = false;
-
-// --- Links open what they lead to.
-function open_target() {
-  const target = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
-  if (!target) return;
-  for (let element = target; element; element = element.parentElement) {
-    if (element instanceof HTMLDetailsElement) element.open = true;
-    if (element.classList.contains("claim")) element.hidden = false;
-  }
-  target.scrollIntoView();
-}
-addEventListener("hashchange", open_target);
-
-// --- Claims by verdict, problem and whose they are.
-for (const form of document.querySelectorAll(".filter")) {
-  const claims = [...document.querySelectorAll(".claim")];
-  const choices = [...form.querySelectorAll("select")];
-  const search = form.querySelector("[data-search]"), groups = [...document.querySelectorAll(".group")];
-  const apply = () => {
-    const wanted = search.value.trim().toLowerCase();
-    for (const claim of claims) {
-      claim.hidden = choices.some((choice) => choice.value && claim.dataset[choice.dataset.filter] !== choice.value)
-        || (wanted !== "" && !claim.textContent.toLowerCase().includes(wanted));
-    }
-    // A closed group whose claims were chosen opens.
-    const narrows = wanted !== "" || choices.some((choice) => choice.value);
-    for (const group of groups) group.open = narrows && [...group.querySelectorAll(".claim")].some((claim) => !claim.hidden);
-    form.querySelector("output").value = claims.filter((claim) => !claim.hidden).length + " of " + claims.length + " claims";
-  };
-  form.addEventListener("change", apply);
-  search.addEventListener("input", apply);
-  form.addEventListener("submit", (event) => event.preventDefault());
-  form.hidden = false;
-  apply();
-}
-
-// --- Answers show their figures small.
-for (const link of document.querySelectorAll("a.small")) {
-  const drawn = document.getElementById(link.hash.slice(1))?.querySelector("img");
-  if (!drawn) continue;
-  const name = link.textContent;
-  link.replaceChildren(drawn.cloneNode(true));
-  link.title = name;
-}
-
-// --- On narrow screens figures scroll sideways, by keys too.
-const is_narrow = matchMedia("(max-width: 40rem)");
-function let_scroll(figure) {
-  if (is_narrow.matches) figure.tabIndex = 0;
-  else figure.removeAttribute("tabindex");
-}
-function let_all_scroll() { for (const figure of document.querySelectorAll("figure:not(.motion)")) let_scroll(figure); }
-is_narrow.addEventListener("change", let_all_scroll);
-let_all_scroll();
-
-// --- A claim that is opened shows its figures in place.
-function show_figures(claim) {
-  if (claim.dataset.shown) return;
-  claim.dataset.shown = "yes";
-  for (const link of claim.querySelectorAll("a[href^='#figure-']")) {
-    const drawn = document.getElementById(link.hash.slice(1))?.querySelector("img");
-    if (!drawn) continue;
-    const figure = document.createElement("figure");
-    figure.append(drawn.cloneNode(true));
-    let_scroll(figure);
-    claim.append(figure);
-  }
-}
-for (const claim of document.querySelectorAll(".claim")) claim.addEventListener("toggle", () => { if (claim.open && !printing) show_figures(claim); });
-
-// --- Tables sort by a column: numbers by size, texts by letters, empty fields last.
-function compare(a, b) {
-  if (a === "" || b === "") return (a === "") - (b === "");
-  const x = Number(a), y = Number(b);
-  return Number.isNaN(x) || Number.isNaN(y) ? a.localeCompare(b) : x - y;
-}
-function sort_by(head) {
-  const column = head.cellIndex;
-  const direction = head.getAttribute("aria-sort") === "ascending" ? -1 : 1;
-  for (const other of head.parentElement.cells) other.removeAttribute("aria-sort");
-  head.setAttribute("aria-sort", direction > 0 ? "ascending" : "descending");
-  const body = head.closest("table").tBodies[0];
-  const text = (row) => row.cells[column].textContent.trim();
-  const rows = [...body.rows].sort((a, b) => {
-    const order = compare(text(a), text(b));
-    return text(a) === "" || text(b) === "" ? order : direction * order;
-  });
-  body.append(...rows);
-}
-function make_sortable(table) {
-  if (table.dataset.sortable) return;
-  table.dataset.sortable = "yes";
-  const terms = [...(table.closest(".table")?.querySelectorAll(".columns dt") ?? [])];
-  const meanings = new Map(terms.map((name) => [name.textContent.trim(), name.nextElementSibling.textContent.trim()]));
-  for (const head of table.tHead.rows[0].cells) {
-    const meaning = meanings.get(head.firstChild.textContent.trim());
-    if (meaning) head.title = meaning;
-    const button = document.createElement("button");
-    button.type = "button";
-    button.append(...head.childNodes);
-    head.append(button);
-    button.addEventListener("click", () => sort_by(head));
-  }
-}
-// What is closed is made ready when it is opened: there are hundreds of tables.
-for (const table of document.querySelectorAll("table")) if (!table.closest("details")) make_sortable(table);
-addEventListener("toggle", (event) => { if (event.target.open) event.target.querySelectorAll("table").forEach(make_sortable); }, true);
-
-// --- Motions.
-function element(name, attributes, parent) {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+const all = (selector, inside = document) => [...inside.querySelectorAll(selector)];
+const node = (tag, set = {}, ...children) => { const made = Object.assign(document.createElement(tag), set); made.append(...children); return made; };
+const drawn = (tag, attributes, parent, text) => {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
   for (const key in attributes) made.setAttribute(key, attributes[key]);
+  if (text !== undefined) made.textContent = text;
   parent.append(made);
   return made;
+};
+const words = (name) => name.replaceAll("_", " ");
+
+// Numbers with an exponent stay on one line. The markup is the page's own.
+const keep_numbers = (part) => { part.innerHTML = part.innerHTML.replace(/\d[\d.]*e-\d+/g, '<span class="number-kept">$&</span>'); };
+
+// --- Light and dark
+const root = document.documentElement, theme = document.getElementById("theme"), prefers = matchMedia("(prefers-color-scheme: dark)");
+const is_dark = () => (root.dataset.theme ? root.dataset.theme === "dark" : prefers.matches);
+const settle = () => { root.classList.toggle("dark-figures", is_dark()); theme.setAttribute("aria-pressed", is_dark()); };
+theme.hidden = false;
+theme.onclick = () => { root.dataset.theme = is_dark() ? "light" : "dark"; settle(); };
+prefers.addEventListener("change", settle);
+settle();
+
+// --- Packed data: zlib as base64 in elements of the page
+async function unpacked(name) {
+  const packed = document.getElementById("data-" + name);
+  if (!packed) return null;
+  const bytes = Uint8Array.from(atob(packed.textContent), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
 }
-// The number at time t between the nodes.
+const tables = new Map();
+function table_of(file) {
+  if (!tables.has(file)) tables.set(file, unpacked("table-" + file).then((text) => text && JSON.parse(text)));
+  return tables.get(file);
+}
+
+// --- Figures: an image runs no script and fetches no file
+const addresses = new Map();
+function address(name) {
+  if (!addresses.has(name)) addresses.set(name, unpacked("figure-" + name).then((svg) => svg && URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }))));
+  return addresses.get(name);
+}
+const large = document.getElementById("large");
+async function enlarge(name) {
+  const url = await address(name);
+  if (!url) return;
+  large.querySelector("b").textContent = words(name);
+  Object.assign(large.querySelector("a"), { href: url, download: name + ".svg" });
+  large.querySelector("div").replaceChildren(node("img", { src: url, alt: words(name) }));
+  large.showModal();
+}
+large.addEventListener("click", (event) => { if (event.target === large) large.close(); });
+async function draw(button) {
+  if (button.childElementCount) return;
+  button.hidden = false;
+  button.append(node("img", { src: await address(button.dataset.figure), alt: "" }));
+}
+document.addEventListener("click", (event) => {
+  const button = event.target.closest("[data-figure]");
+  if (button) { event.preventDefault(); enlarge(button.dataset.figure); }
+  const link = event.target.closest("[data-records]"), table = link && document.getElementById(decodeURIComponent(link.hash.slice(1)));
+  if (!table) return;
+  Object.assign(table.dataset, { records: link.dataset.records, columns: link.dataset.columns });
+  table.only?.(link.dataset.records, link.dataset.columns);
+  if (location.hash === link.hash) open_target();
+});
+
+// --- Tables: 50 rows at a time, sorted by a head, constant columns in a sentence
+const brief = (text) => { if (!/^-?\d+\.\d{5,}|^-?[\d.]+e[-+]\d/.test(text)) return text; const v = Number(text); return String(Number(v.toPrecision(6))); };
+const is_number = (text) => text !== "" && !Number.isNaN(+text);
+const compare = (a, b) => (is_number(a) && is_number(b) ? a - b : a.localeCompare(b));
+async function show_table(details) {
+  if (details.dataset.shown) return;
+  details.dataset.shown = "yes";
+  const table = await table_of(details.id.slice("table-".length)), names = table.columns.map((column) => column.name);
+  const every = table.rows.map((fields, i) => ({ fields, record: i + 2 }));  // claims count the head as record 1
+  const status = names.indexOf("status"), size = 50;
+  const places = names.map((name, i) => i), differs = (i) => every.length < 2 || every.some((row) => row.fields[i] !== every[0].fields[i]);
+  const differing = places.filter(differs).sort((a, b) => (b === status) - (a === status)), constant = places.filter((i) => !differs(i) && every[0]?.fields[i]);
+  if (constant.length) details.append(node("p", { className: "muted", textContent: "In all rows " + constant.map((i) => names[i] + " = " + brief(every[0].fields[i])).join(", ") }));
+  let rows = [...every], columns = differing, first = 0, by = -1, down = false;
+  const body = node("tbody"), heads = node("tr"), place = node("span"), said = node("p", { className: "muted", hidden: true });
+  const back = node("button", { type: "button", textContent: "◂ previous" }), next = node("button", { type: "button", textContent: "next ▸" });
+  const fill = () => {
+    body.replaceChildren(...rows.slice(first, first + size).map(({ fields }) => node("tr", { className: status >= 0 && fields[status] !== "solved" ? "unsolved" : "" },
+      ...columns.map((i) => node("td", { textContent: brief(fields[i]), title: fields[i], className: is_number(fields[i]) ? "n" : "" })))));
+    place.textContent = `rows ${Math.min(first + 1, rows.length)} to ${Math.min(first + size, rows.length)} of ${rows.length.toLocaleString("en")}`;
+    back.disabled = first === 0;
+    next.disabled = first + size >= rows.length;
+  };
+  const sort = (i) => {
+    down = by === i && !down;
+    by = i;
+    const is_empty = (row) => row.fields[i] === "";
+    rows.sort((a, b) => (is_empty(a) || is_empty(b) ? is_empty(a) - is_empty(b) : (down ? -1 : 1) * compare(a.fields[i], b.fields[i])));
+    first = 0;
+    fill();
+    for (const head of heads.cells) head.ariaSort = +head.dataset.i === i ? (down ? "descending" : "ascending") : "none";
+  };
+  const draw_heads = () => heads.replaceChildren(...columns.map((i) => {
+    const { unit, meaning } = table.columns[i];
+    const head = node("th", { scope: "col", title: meaning }, node("button", { type: "button", textContent: words(names[i]) + (unit ? ` [${unit}]` : ""), onclick: () => sort(i) }));
+    head.dataset.i = i;
+    return head;
+  }));
+  details.only = (records, wanted) => {  // the rows and columns behind a verdict, or all again
+    const ranges = (records ?? "").split(" ").filter(Boolean).map((range) => range.split("-").map(Number));
+    rows = ranges.length ? every.filter((row) => ranges.some(([a, b = a]) => row.record >= a && row.record <= b)) : [...every];
+    const named = places.filter((i) => i === status || (wanted ?? "").split(" ").includes(names[i]));
+    columns = ranges.length && named.length ? named : differing;
+    first = 0;
+    said.hidden = !ranges.length;
+    said.replaceChildren(`Evidence: ${rows.length} of ${every.length} rows. `, node("button", { type: "button", textContent: "Show all", onclick: () => details.only() }));
+    draw_heads();
+    fill();
+  };
+  back.onclick = () => { first -= size; fill(); };
+  next.onclick = () => { first += size; fill(); };
+  if (!every.length || !differing.length) return;
+  const box = node("div", { className: "scroll", tabIndex: 0, role: "region", ariaLabel: "rows of " + details.id.slice("table-".length) }, node("table", {}, node("thead", {}, heads), body));
+  details.append(said, box);
+  if (every.length > size) details.append(node("p", { className: "pages" }, back, next, place));
+  details.only(details.dataset.records, details.dataset.columns);
+}
+
+// --- Motions: vertices of the paths in the page are the places at the instants of the motion
+// The number at time t between the instants.
 function between(times, values, t) {
   let k = 1;
   while (k < times.length - 1 && times[k] < t) ++k;
   const share = Math.min(1, Math.max(0, (t - times[k - 1]) / (times[k] - times[k - 1])));
   return values[k - 1] + share * (values[k] - values[k - 1]);
 }
-function start_motion(figure) {
-  const script = figure.querySelector("script");
-  if (!script) return;
-  const data = JSON.parse(script.textContent);
-  const svg = figure.querySelector("svg"), radius = Number(svg.dataset.radius);
-  // Curves over time have a line at the time that is shown.
-  const cursor = data.cursor && element("line", { class: "cursor", y1: 0, y2: data.cursor.height }, svg);
-  const moving = data.motions.map((motion, i) => ({
-    ...motion,
-    rods: motion.points.map((point) => (point.rod ? element("line", { class: "rod method-" + i }, svg) : null)),
-    marks: motion.points.map((point) => {
-      const mark = element("circle", { class: "point method-" + i, r: radius }, svg);
-      element("title", {}, mark).textContent = motion.method + " " + point.name;
-      return mark;
-    }),
-  }));
-  const slider = figure.querySelector("input"), button = figure.querySelector("button"), output = figure.querySelector("output");
-  const of_what = button.getAttribute("aria-label").replace(/^Play/, "");
-  const first = Math.min(...moving.map((motion) => motion.t[0]));
-  const duration = Math.max(...moving.map((motion) => motion.t[motion.t.length - 1])) - first;
-  const place = (motion, t) => {
-    let from = [0, 0];
-    motion.points.forEach((point, i) => {
-      const at = [between(motion.t, point.x, t), -between(motion.t, point.y, t)];
-      motion.marks[i].setAttribute("cx", at[0]);
-      motion.marks[i].setAttribute("cy", at[1]);
-      if (motion.rods[i]) {
-        for (const [key, value] of [["x1", from[0]], ["y1", from[1]], ["x2", at[0]], ["y2", at[1]]]) motion.rods[i].setAttribute(key, value);
-      }
-      from = at;
+// A point that keeps its distance from the one before, or the first one from the origin, is at the end of a rod.
+const is_rod = (from, to) => { const lengths = to.x.map((x, k) => Math.hypot(x - (from?.x[k] ?? 0), to.y[k] - (from?.y[k] ?? 0))), most = Math.max(...lengths); return most > 0 && most - Math.min(...lengths) < 2e-3 * most; };
+function start_motion(card) {
+  const svg = card.querySelector(".motion"), controls = card.querySelector(".controls");
+  if (!svg || !controls) return;
+  const moving = all("g[data-times]", svg).map((group) => {
+    let before;
+    const paths = all("polyline", group).map((path) => {
+      const vertices = path.getAttribute("points").trim().split(" ").map((vertex) => vertex.split(",").map(Number));
+      const point = { x: vertices.map(([x]) => x), y: vertices.map(([, y]) => y) };
+      if (is_rod(before, point)) point.rod = drawn("line", { class: "moving" }, group);
+      point.mark = drawn("circle", { class: "point", r: svg.dataset.radius }, group);
+      before = point;
+      return point;
     });
-  };
+    return { times: group.dataset.times.trim().split(" ").map(Number), paths };
+  });
+  const cursor = moving.length === 0 && drawn("line", { class: "cursor", y1: 0, y2: svg.viewBox.baseVal.height }, svg);
+  const slider = controls.querySelector("input"), button = controls.querySelector("button"), output = controls.querySelector("output");
+  const of_what = button.getAttribute("aria-label").replace(/^Play/, "");
+  const { begin, end, unit } = svg.dataset;
   const show = () => {
-    const t = first + (duration * slider.value) / slider.max;
-    for (const motion of moving) place(motion, t);
-    if (cursor) for (const key of ["x1", "x2"]) cursor.setAttribute(key, (data.cursor.width * slider.value) / slider.max);
-    output.value = "t = " + t.toPrecision(3) + " " + data.unit;
+    const share = slider.value / slider.max, t = +begin + (end - begin) * share;
+    for (const { times, paths } of moving) {
+      let from = [0, 0];
+      for (const { x, y, rod, mark } of paths) {
+        const at = [between(times, x, t), between(times, y, t)];
+        mark.setAttribute("cx", at[0]);
+        mark.setAttribute("cy", at[1]);
+        if (rod) ["x1", "y1", "x2", "y2"].forEach((key, i) => rod.setAttribute(key, [...from, ...at][i]));
+        from = at;
+      }
+    }
+    if (cursor) for (const key of ["x1", "x2"]) cursor.setAttribute(key, 320 * share);
+    output.value = `t = ${t.toPrecision(3)} ${unit}`;
     slider.setAttribute("aria-valuetext", output.value);
   };
   // Nothing moves unless it is asked to; where motion is not wanted, Play goes to the end in steps.
@@ -178,17 +185,120 @@ function start_motion(figure) {
   button.addEventListener("click", () => {
     if (begun !== null) return stop();
     say("Pause");
-    const share = Number(slider.value) < Number(slider.max) ? slider.value / slider.max : 0;
-    begun = performance.now() - 1000 * seconds * share;
+    begun = performance.now() - 1000 * seconds * (Number(slider.value) < Number(slider.max) ? slider.value / slider.max : 0);
     requestAnimationFrame(frame);
   });
   slider.addEventListener("input", () => { stop(); show(); });
-  figure.querySelector(".controls").hidden = false;
-  figure.classList.add("moves");
+  controls.hidden = false;
   show();
 }
-document.querySelectorAll(".motion").forEach(start_motion);
 
-// --- Print shows what is closed on the screen.
-addEventListener("beforeprint", () => { printing = true; document.querySelectorAll(".claim").forEach((claim) => { claim.open = true; }); });
+// --- What is opened is drawn
+document.addEventListener("toggle", (event) => {
+  const details = event.target;
+  if (!(details instanceof HTMLDetailsElement) || !details.open) return;
+  if (details.classList.contains("table")) show_table(details);
+  if (details.dataset.shown) return;
+  if (details.classList.contains("problem")) {
+    details.dataset.shown = "yes";
+    const more = details.querySelector("noscript");
+    more.outerHTML = more.textContent;  // of this page: texts in it are escaped
+    all("dd:not(:has(math))", details).forEach(keep_numbers);
+    start_motion(details);
+  }
+  if (details.classList.contains("claim")) {
+    details.dataset.shown = "yes";
+    const smalls = node("div", { className: "smalls" });
+    for (const link of all("a[data-figure]", details)) {
+      const button = node("button", { type: "button", ariaLabel: "Enlarge " + link.textContent });
+      button.dataset.figure = link.dataset.figure;
+      smalls.append(button);
+      draw(button);
+    }
+    if (smalls.childElementCount) details.append(smalls);
+    all("li", details).forEach(keep_numbers);
+  }
+  for (const button of all(".pair [data-figure]", details)) draw(button);
+}, true);
+function open_target() {
+  const target = location.hash.length > 1 && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (!target) return;
+  for (let part = target; part; part = part.parentElement) { if (part instanceof HTMLDetailsElement) part.open = true; part.hidden = false; }
+  target.scrollIntoView();
+}
+addEventListener("hashchange", open_target);
+
+// --- Filters of claims and of tables
+for (const form of all(".filter")) {
+  const section = form.parentElement, select = form.querySelector("select"), search = form.querySelector("input");
+  const items = all("details.claim, details.table", section), groups = all("details.group", section);
+  const apply = () => {
+    const wanted = search.value.trim().toLowerCase(), verdict = select?.value ?? "", narrows = wanted !== "" || verdict !== "";
+    for (const item of items) item.hidden = (verdict !== "" && !item.dataset.verdicts.includes(`|${verdict}|`)) || !item.textContent.toLowerCase().includes(wanted);
+    for (const group of groups) {
+      const some = all("details.claim, details.table", group).some((item) => !item.hidden);
+      group.hidden = !some;
+      group.open = narrows && some;
+    }
+    form.querySelector("output").value = narrows ? `${items.filter((item) => !item.hidden).length} of ${items.length}` : "";
+  };
+  form.addEventListener("input", apply);
+  form.addEventListener("submit", (event) => event.preventDefault());
+  form.hidden = false;
+}
+
+// --- Small pictures of the first screen: what they show is in the attributes of their figures
+const method_words = { dmoc: "DMOC", hamiltonian: "Hamiltonian", tangent: "tangent-space" };
+const superscript = (text) => text.replace(/[-\d]/g, (letter) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(letter)]);
+async function plot(figure) {
+  const { plot: kind, table, where, x, y, by, last } = figure.dataset, data = await table_of(table);
+  if (!data) return;
+  const place = new Map(data.columns.map((column, i) => [column.name, i])), wanted = where.split(" ").map((condition) => condition.split("="));
+  const number = (row, column) => Number(row[place.get(column)] || NaN);
+  let rows = data.rows.filter((row) => wanted.every(([column, text]) => row[place.get(column)] === text));
+  if (last) rows = rows.filter((row) => number(row, last) === Math.max(...rows.map((other) => number(other, last))));
+  const methods = Object.keys(method_words).map((method) => [method, rows.filter((row) => row[place.get("method")] === method)]).filter(([, own]) => own.length);
+  if (!methods.length) return;
+  const svg = drawn("svg", { class: "small", viewBox: "0 0 268 88", role: "img", "aria-label": figure.querySelector("figcaption").textContent }, figure);
+  figure.querySelector("figcaption").hidden = false;
+  figure.querySelector("figcaption").after(svg);
+  (kind === "curves" ? curves : bars)(svg, methods, (row) => [number(row, x), number(row, y)], (row) => number(row, x) / (by ? number(row, by) : 1));
+}
+function curves(svg, methods, point) {
+  const series = methods.map(([method, rows]) => [method, rows.map(point).filter(([x, y]) => x > 0 && y > 0).sort((a, b) => a[0] - b[0])]).filter(([, points]) => points.length);
+  const every = series.flatMap(([, points]) => points);
+  if (every.length < 2) return svg.remove();
+  const scale = (values, from, to) => { const low = Math.log(Math.min(...values)), size = Math.log(Math.max(...values)) - low || 1; return (v) => +(from + (Math.log(v) - low) / size * (to - from)).toFixed(1); };
+  const xs = every.map(([x]) => x), ys = every.map(([, y]) => y), X = scale(xs, 38, 186), Y = scale(ys, 68, 12);
+  const ends = (values) => [...new Set([Math.ceil(Math.log10(Math.min(...values))), Math.floor(Math.log10(Math.max(...values)))])].filter((power) => 10 ** power <= Math.max(...values));
+  for (const power of ends(ys)) {
+    drawn("path", { class: "grid", d: `M32 ${Y(10 ** power)}H190` }, svg);
+    drawn("text", { class: "tick", x: 28, y: Y(10 ** power) + 3.5, "text-anchor": "end" }, svg, "10" + superscript(String(power)));
+  }
+  for (const x of [Math.min(...xs), Math.max(...xs)]) drawn("text", { class: "tick", x: X(x), y: 85, "text-anchor": "middle" }, svg, x);
+  for (const [method, points] of series) {
+    const group = drawn("g", { class: method }, svg), at = points.map(([x, y]) => [X(x), Y(y)]);
+    drawn("polyline", { points: at.join(" ") }, group);
+    for (const [cx, cy] of at) drawn("use", { href: "#mark-" + method, x: cx, y: cy }, group);
+  }
+  // Names stand at the ends of the curves, below each other where the curves meet.
+  const names = series.map(([method, points]) => ({ method, y: Y(points.at(-1)[1]) + 4 })).sort((a, b) => a.y - b.y);
+  for (let i = names.length - 1, lowest = 84; i >= 0; --i, lowest = names[i + 1].y - 11) names[i].y = Math.min(names[i].y, lowest);
+  names.forEach(({ method, y }, i) => { if (i > 0) names[i].y = Math.max(y, names[i - 1].y + 11); drawn("text", { class: "direct " + method, x: 196, y: names[i].y }, svg, method_words[method]); });
+}
+function bars(svg, methods, point, value) {
+  const shown = methods.map(([method, rows]) => [method, rows.map(value).filter(Number.isFinite)]).filter(([, values]) => values.length).map(([method, values]) => [method, values.reduce((a, b) => a + b) / values.length]);
+  const most = Math.max(1, ...shown.map(([, v]) => v));
+  svg.setAttribute("viewBox", `0 0 268 ${27 * shown.length + 4}`);
+  shown.forEach(([method, v], i) => {
+    const group = drawn("g", { class: method }, svg), y = 4 + 27 * i, width = 118 * v / most;
+    drawn("use", { href: "#mark-" + method, x: 6, y: y + 8 }, group);
+    drawn("text", { class: "direct", x: 15, y: y + 12 }, group, method === "tangent" ? "tangent" : method_words[method]);
+    drawn("rect", { x: 98, y, width, height: 15, rx: 1.5 }, group);
+    drawn("text", { class: "value", x: 104 + width, y: y + 12 }, group, +v.toPrecision(3));
+  });
+}
+all("figure[data-plot] p").forEach(keep_numbers);
+for (const figure of all("figure[data-plot]")) plot(figure);
+
 open_target();

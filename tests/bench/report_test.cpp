@@ -1,15 +1,17 @@
+#include <algorithm>
+#include <functional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
-#include "bench/report/compared_tables.hpp"
-#include "bench/report/comparison_page.hpp"
-#include "bench/report/html.hpp"
+#include "bench/report/model.hpp"
 #include "bench/report/page.hpp"
-#include "bench/report/reached_optima.hpp"
+#include "bench/report/words.hpp"
 #include "bench/run/result_file.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -28,50 +30,67 @@ Table two_solves() {
 ResultsFolder folder_with(Table table) {
   ResultsFolder results;
   results.runs.push_back({"objective", Json{{"command_line", {"objective", "--out", "x"}}, {"complete", true}}});
-  results.runs.back().metadata["tables"]["objective.csv"]["meanings"]["objective"] = "[cost] of the trajectory";
+  results.runs.back().metadata["tables"]["objective.csv"]["schema"]["properties"]["objective"] =
+      Json{{"description", "of the trajectory"}, {"unit", "cost"}};
   results.tables.push_back({"objective.csv", "objective", std::move(table)});
   return results;
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST(Html, ShowsLettersThatMeanSomethingToItAsLetters) {
-  EXPECT_EQ(escaped("<a href=\"x\">&</a>"), "&lt;a href=&quot;x&quot;&gt;&amp;&lt;/a&gt;");
-  EXPECT_EQ(escaped("q̇ ≤ 1 🚀"), "q̇ ≤ 1 🚀");
-  EXPECT_EQ(escaped("\xff|\xc3"), "?|?");
+/// The text between two marks for the first time; empty if there is none.
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const std::size_t at = text.find(begin);
+  if (at == std::string::npos) return "";
+  return text.substr(at + begin.size(), text.find(end, at + begin.size()) - at - begin.size());
 }
 
-TEST(Html, KeepsNumbersWithAnExponentOnOneLine) {
-  EXPECT_EQ(escaped_prose("to -3.5e-13 & 2e-9; the-end, e-7, 1e5"),
-            "to <span class=\"number\">-3.5e-13</span> &amp; <span class=\"number\">2e-9</span>; the-end, e-7, 1e5");
-  EXPECT_EQ(escaped_prose("1e-"), "1e-");
-  EXPECT_EQ(escaped_prose(""), "");
+/// The bytes of letters of base64.
+std::string bytes_of(const std::string& letters) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned group = 0;
+  int bits = 0;
+  for (const char letter : letters) {
+    if (letter == '=') break;
+    group = (group << 6U) | static_cast<unsigned>(digits.find(letter));
+    bits += 6;
+    if (bits >= 8) bytes += static_cast<char>(group >> static_cast<unsigned>(bits -= 8) & 0xFFU);
+  }
+  return bytes;
 }
 
-TEST(Html, LinksHaveNoLetterThatEndsThem) {
-  EXPECT_EQ(anchor("claim", "two_link/state_slope"), "claim-two-link-state-slope");
-  EXPECT_EQ(anchor("table", "\"><script>"), "table----script-");
+/// A figure or table that is packed in the page.
+std::string unpacked(const std::string& page, const std::string& name) {
+  const std::string bytes = bytes_of(between(page, "<script type=\"application/zlib\" id=\"data-" + name + "\">", "<"));
+  std::string text(1000000, ' ');
+  uLongf size = text.size();
+  EXPECT_EQ(::uncompress(reinterpret_cast<Bytef*>(text.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                         bytes.size()),
+            Z_OK)
+      << name;
+  text.resize(size);
+  return text;
 }
 
-TEST(Html, WritesBytesInTheLettersOfBase64) {  // the examples of RFC 4648
-  const std::vector<std::pair<std::string, std::string>> examples{{"", ""},
-                                                                  {"f", "Zg=="},
-                                                                  {"fo", "Zm8="},
-                                                                  {"foo", "Zm9v"},
-                                                                  {"foob", "Zm9vYg=="},
-                                                                  {"fooba", "Zm9vYmE="},
-                                                                  {"foobar", "Zm9vYmFy"},
-                                                                  {"\xfb\xff\xfe", "+//+"}};
-  for (const auto& [bytes, letters] : examples) EXPECT_EQ(base64(bytes), letters);
+/// A claim as claims.json has it.
+Json claim(const std::string& problem, const std::string& name, const std::string& whose, const std::string& verdict) {
+  Json claim =
+      Json::parse(R"({"where": "section 3.4, th:equi", "figure": "", "states": "they are equal", "sure": "exact",
+    "measured": [{"text": "to 1e-9", "numbers": []}, {"text": "on 3 grids", "numbers": []}],
+    "reasons": [], "evidence": ["objective.csv", "none.csv"], "figures": [], "rows": []})");
+  claim.update({{"claim", problem + "/" + name}, {"problem", problem}, {"name", name}, {"whose", whose}});
+  claim["verdict"] = verdict;
+  return claim;
 }
 
-TEST(Html, ShortensNumbersAndLeavesTexts) {
-  EXPECT_EQ(shortened("0.12345678901234567"), "0.123457");
-  EXPECT_EQ(shortened("16"), "16");
-  EXPECT_EQ(shortened("iteration limit"), "iteration limit");
+TEST(Words, WriteBytesInTheLettersOfBase64) {  // the examples of RFC 4648
+  const std::vector<std::string> letters{"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+  for (std::size_t i = 0; i < letters.size(); ++i) EXPECT_EQ(base64(std::string("foobar").substr(0, i)), letters[i]);
+  EXPECT_EQ(base64("\xfb\xff\xfe"), "+//+");
 }
 
-TEST(Html, NamesMethodsAsFiguresDo) {
+TEST(Words, NameMethodsAsFiguresDo) {
   EXPECT_EQ(method_in_words("dmoc"), "DMOC");
   EXPECT_EQ(method_in_words("multiple_shooting_rk4_1"), "Multiple shooting, rk4, 1 step");
   EXPECT_EQ(method_in_words("single_shooting_midpoint_2"), "Single shooting, midpoint, 2 steps");
@@ -81,51 +100,105 @@ TEST(Html, NamesMethodsAsFiguresDo) {
 /// Claims of the paper and of the suite, and two figures, one of which a claim of the paper names.
 ResultsFolder judged_folder() {
   ResultsFolder results = folder_with(two_solves());
-  results.claims = Table::from_csv(
-      "claim,where,whose,states,measured,verdict,evidence\n"
-      "orbital_transfer/equal_solutions,\"section 3.4, th:equi\",paper,same,1e-13,reproduced,t.csv; "
-      "figures/orbital_transfer_equal.svg\n"
-      "orbital_transfer/ours,,ours,more,5,differs,t.csv\n");
+  results.claims = {claim("orbital_transfer", "equal_solutions", "paper", "reproduced"),
+                    claim("two_link_manipulator", "equal_solutions", "paper", "differs"),
+                    claim("orbital_transfer", "ours", "ours", "differs")};
+  results.claims.front()["figures"] = {"orbital_transfer_equal"};
+  results.claims.front()["evidence"].push_back("figures/orbital_transfer_equal.svg");
   results.figures = {{"orbital_transfer_equal", "<svg/>"}, {"orbital_transfer_sweep", "<svg/>"}};
   return results;
 }
 
-TEST(Report, AnswersOnTheFirstScreenWithSectionVerdictAndFigure) {
+TEST(Report, AnswersQuestionsByTheFirstClausesOfClaimsOnItsFirstScreen) {
   const std::string page = report_page(judged_folder(), "");
-  const std::string overview = page.substr(0, page.find("</section>"));
-  EXPECT_TRUE(has(overview, "<b>Accuracy</b> <i>(section 3.4)</i>"));
-  EXPECT_TRUE(has(overview, "<span class=\"verdict v-reproduced\">reproduced</span>"));
-  EXPECT_TRUE(has(overview, "<a class=\"small\" href=\"#figure-orbital-transfer-equal\">"));
-  EXPECT_TRUE(has(overview, "<a href=\"#figures\">all figures</a>"));
-  EXPECT_FALSE(has(overview, "#gallery"));
+  const std::string answers = between(page, "<section id=\"answers\"", "</section>");
+  EXPECT_TRUE(has(answers, "Are they equally accurate?</h2><p>they are equal <small>(section 3.4)</small></p>"));
+  EXPECT_TRUE(has(answers,
+                  "<a href=\"#claim-orbital_transfer/equal_solutions\">orbital transfer</a> <span class=\"badge "
+                  "reproduced\">reproduced</span> to 1e-9</p>"));
+  EXPECT_TRUE(has(answers, "<span class=\"badge differs\">differs</span> to 1e-9</p>"));
+  EXPECT_FALSE(has(answers, "on 3 grids") || has(answers, "structure?"));
 }
 
-TEST(Report, PutsThePapersClaimsFirstAndClosesTheOthers) {
+TEST(Report, CountsTheStatementsOfThePaper) {
+  const Json model = claims_model(judged_folder());
+  EXPECT_EQ(model["reproduced"], 1);
+  EXPECT_EQ(model["statements"], 2);
+  EXPECT_EQ(model["score"], (Json{{{"verdict", "differs"}, {"count", 1}}, {{"verdict", "reproduced"}, {"count", 1}}}));
+  ASSERT_EQ(model["open"].size(), 1U);
+  EXPECT_EQ(model["open"][0]["name"], "equal_solutions");
+}
+
+TEST(Report, PutsThePapersClaimsFirstAndClosesAll) {
   const std::string page = report_page(judged_folder(), "");
   const std::size_t paper =
-      page.find("<h3>The paper, section 3.4</h3>\n<details class=\"claim\" id=\"claim-orbital-transfer-equal");
-  const std::size_t others = page.find("<details class=\"group\"><summary><b>ours</b> (1)</summary>");
-  ASSERT_NE(paper, std::string::npos);
-  ASSERT_NE(others, std::string::npos);
-  EXPECT_LT(paper, others);
-  EXPECT_GT(page.find("id=\"claim-orbital-transfer-ours\""), others);
+      page.find("<details class=\"group\" id=\"group-section-3.4\"><summary><b>The paper, section 3.4</b>");
+  const std::size_t claim_of_paper = page.find("<dl id=\"claim-orbital_transfer/equal_solutions\">");
+  const std::size_t others = page.find("<details class=\"group\" id=\"group-Findings-of-ours\">");
+  const std::size_t ours = page.find("<dl id=\"claim-orbital_transfer/ours\">");
+  ASSERT_NE(ours, std::string::npos);
+  EXPECT_TRUE(paper < claim_of_paper && claim_of_paper < others && others < ours);
+  EXPECT_FALSE(has(page, "<details open"));
+}
+
+TEST(Report, MakesOneEntryOfAStatementAboutSeveralProblems) {
+  ResultsFolder results = judged_folder();
+  const auto entries = [&results] { return claims_model(results)["groups"][0]["entries"]; };
+  ASSERT_EQ(entries().size(), 1U);
+  EXPECT_EQ(entries()[0]["items"].size(), 2U);
+  results.claims.front()["states"] = "they are not";
+  ASSERT_EQ(entries().size(), 2U);
+  EXPECT_EQ(entries()[0]["states"], "they are equal");  // it differs: first
+}
+
+TEST(Report, ShowsOneNumberOfEachMethodWhereAClaimStatesTheSameOfAll) {
+  ResultsFolder results = judged_folder();
+  Json& numbers = results.claims.front()["measured"][0]["numbers"];
+  numbers = {{{"name", "slope"}, {"value", 1.98765}, {"method", "dmoc"}},
+             {{"name", "slope"}, {"value", 2.0}, {"method", "tangent"}}};
+  const auto values = [&results] { return claims_model(results)["groups"][0]["entries"][0]["items"][0]["values"]; };
+  EXPECT_EQ(values(), (Json{{{"method", "dmoc"}, {"text", "1.99"}}, {{"method", "tangent"}, {"text", "2"}}}));
+  numbers[1]["name"] = "error";
+  EXPECT_TRUE(values().empty());
+  numbers[1]["name"] = "slope";
+  numbers[1]["method"] = "dmoc";
+  EXPECT_TRUE(values().empty());
 }
 
 TEST(Report, GroupsFiguresByThePapersSectionsThenByKind) {
-  const std::string page = report_page(judged_folder(), "");
-  EXPECT_TRUE(has(page, "<dt>The paper, section 3.4<dd><a href=\"#figure-orbital-transfer-equal\">"));
-  EXPECT_TRUE(has(page, "<dt>sweep<dd><a href=\"#figure-orbital-transfer-sweep\">"));
-  EXPECT_LT(page.find("<h3>The paper, section 3.4</h3>\n<figure"), page.find("<h3>sweep</h3>\n<figure"));
+  const Json groups = figures_model(judged_folder(), "");
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_TRUE(groups[0]["of_paper"]);
+  EXPECT_EQ(groups[0]["kinds"][0]["kind"], "section 3.4");
+  EXPECT_EQ(groups[0]["kinds"][0]["figures"][0]["figure"], "orbital_transfer_equal");
+  EXPECT_EQ(groups[1]["kinds"][0]["kind"], "sweep");
+  EXPECT_EQ(groups[1]["kinds"][0]["figures"][0]["figure"], "orbital_transfer_sweep");
 }
 
-TEST(Report, MarksRowsThatWereNotSolvedAndTellsWhatAllRowsShare) {
-  const std::string page = report_page(folder_with(two_solves()), "");
-  EXPECT_TRUE(has(page, "<tr class=\"unsolved\"><td>iteration limit"));
-  EXPECT_TRUE(has(page, "<tr><td>solved<td>16<td>0.123457"));
-  EXPECT_TRUE(has(page, "In all rows problem = arm, method = dmoc, note = same</p>"));
-  EXPECT_TRUE(has(page, "<th scope=\"col\">objective <small>[cost]</small>"));
-  EXPECT_TRUE(has(page, "<dt>objective<dd>of the trajectory"));
+TEST(Report, HoldsTheFieldsOfItsTablesWithTheMeaningsOfTheirColumns) {
+  const ResultsFolder results = folder_with(two_solves());
+  const std::string page = report_page(results, "");
+  const Json table = Json::parse(unpacked(page, "table-objective.csv"));
+  const Table written = two_solves();
+  ASSERT_EQ(table["rows"].size(), written.rows().size());
+  for (std::size_t i = 0; i < written.rows().size(); ++i) {
+    for (std::size_t k = 0; k < written.columns().size(); ++k) {
+      EXPECT_EQ(table["columns"][k]["name"], written.columns()[k]);
+      EXPECT_EQ(table["rows"][i][k], written.rows()[i].text(written.columns()[k]));
+    }
+  }
+  EXPECT_EQ(table["columns"][4]["meaning"], "[cost] of the trajectory");
+  EXPECT_EQ(table["columns"][0]["meaning"], "");
+  EXPECT_TRUE(has(page, "2 rows, 6 columns, 1 rows not solved"));
   EXPECT_TRUE(has(page, "<code>objective --out x</code>"));
+}
+
+TEST(Report, HoldsTheFirstRowsOfLongTablesAndSaysSo) {
+  std::string csv = "n\n";
+  for (std::size_t n = 0; n < most_rows + 2; ++n) csv += fmt::format("{}\n", n);
+  const ResultsFolder results = folder_with(Table::from_csv(csv));
+  EXPECT_EQ(table_json(results.tables.front(), nullptr)["rows"].size(), most_rows);
+  EXPECT_TRUE(has(report_page(results, ""), fmt::format("The first {} rows are here.", most_rows)));
 }
 
 TEST(Report, SaysOfARunThatItIsNotComplete) {
@@ -140,13 +213,13 @@ TEST(Report, TellsHowLongAllRunsTook) {
   results.runs.push_back(results.runs.front());
   results.runs.front().metadata["utc_time"] = "2026-11-23T14:00:00Z";
   results.runs.back().metadata["utc_time"] = "2026-11-23T14:10:00Z";
-  EXPECT_TRUE(has(report_page(results, ""), "the last at 2026-11-23T14:10:00Z, 10.0 minutes later\n"));
+  EXPECT_TRUE(has(report_page(results, ""), "<dt>First run began<dd>2026-11-23T14:00:00Z\n"));
   results.runs.front().metadata["wall_seconds"] = 6000.0;  // it ends last
   results.runs.back().metadata["wall_seconds"] = 30.0;
-  EXPECT_TRUE(has(report_page(results, ""), "; all had ended 100.0 minutes after the first began\n"));
+  EXPECT_TRUE(has(report_page(results, ""), "2026-11-23T14:00:00Z; the last ended 100.0 minutes later\n"));
   results.runs.pop_back();
   results.runs.front().metadata["wall_seconds"] = 2.5;
-  EXPECT_TRUE(has(report_page(results, ""), "began at 2026-11-23T14:00:00Z and took 2.5 s\n"));
+  EXPECT_TRUE(has(report_page(results, ""), "; the last ended 2.5 s later\n"));
 }
 
 TEST(Report, TellsOrdersAndSolvesWhereNobodyHasJudged) {
@@ -159,35 +232,48 @@ TEST(Report, TellsOrdersAndSolvesWhereNobodyHasJudged) {
   results.tables.push_back({"other_slopes.csv", "other",
                             Table::from_csv("problem,method,situation,quantity,slope,standard_error\n"
                                             "arm,dmoc,odd,state,7,1\n")});
-  const auto overview = [&results] {
-    const std::string page = report_page(results, "");
-    return page.substr(0, page.find("</section>"));
-  };
-  EXPECT_TRUE(has(overview(),
-                  "<b>arm by DMOC</b> (gauss, 1 stage per step): <a href=\"#table-convergence-slopes-csv\">"
-                  "fitted orders</a> state 2.012 ± 0.017, control 1.900, costate: floor."));
-  EXPECT_TRUE(has(overview(), "<b>arm by DMOC</b>: cost 0.123456789 with N = 16; 1 of 2 solves solved."));
-  EXPECT_FALSE(has(overview(), "state 7"));
-  results.claims = Table::from_csv("claim,verdict,whose,states,measured\narm/other,differs,paper,nothing,5\n");
-  EXPECT_FALSE(has(overview(), "arm by DMOC"));
+  const auto lines = [&results] { return between(report_page(results, ""), "<section id=\"answers\"", "</section>"); };
+  const std::string link = "<a href=\"#table-convergence_slopes.csv\">";
+  EXPECT_TRUE(has(lines(), "<b>arm by DMOC</b> (gauss, 1 stages per step): fitted orders " + link +
+                               "state 2.012 ± 0.017</a>, " + link + "control 1.900</a>, " + link +
+                               "costate: floor</a>, </li>"));
+  EXPECT_TRUE(has(lines(), "<b>arm by DMOC</b>: cost 0.123456789 with N = 16; 1 of 2 solves solved."));
+  EXPECT_FALSE(has(lines(), "state 7"));
+  results.claims = {claim("arm", "other", "paper", "differs")};
+  EXPECT_FALSE(has(lines(), "arm by DMOC"));
 }
 
-TEST(Report, RunsNothingThatStandsInATable) {
+TEST(Report, RunsNothingThatStandsInATableAClaimOrAMotion) {
+  const std::string hostile = "\"></summary><script>alert(1)</script>'&{{script}}";
   ResultsFolder results = folder_with(Table::from_csv("problem,<img>\n<script>alert(1)</script>,</table>\nb,c\n"));
-  results.claims = Table::from_csv("claim,verdict,whose,states\n<b>/x,</summary>,\"\"\"><i>\",<script>\n");
-  results.motions.push_back({"</script>", "<dmoc>", Table::from_csv("t,</script>_x,</script>_y\n0,1,0\n1,0,1\n")});
+  Json of_all = claim(hostile, hostile, hostile, hostile);
+  for (const char* const key : {"where", "figure", "states", "sure"}) of_all[key] = hostile;
+  of_all["measured"][0]["text"] = of_all["evidence"][0] = hostile;
+  of_all["reasons"] = {{{"text", hostile}, {"numbers", Json::array()}}};
+  of_all["rows"] = {{{"table", "objective.csv"}, {"records", {2}}, {"columns", {hostile}}}};
+  results.claims = {of_all};
+  results.motions.push_back({hostile, hostile, Table::from_csv("t,</script>_x,</script>_y\n0,1,0\n1,0,1\n")});
+  results.motions.push_back({hostile + "2", "<dmoc>", Table::from_csv("t,</text><script>\n0,1\n1,2\n")});
+  results.tables.push_back({hostile, hostile, two_solves()});
+  results.runs.front().metadata["command_line"] = {hostile, hostile};
+  results.runs.front().metadata["commit"] = hostile;
+  results.runs.front().metadata["not_solved"] = 1;
+  results.runs.front().name = hostile;
+  results.faults = {hostile};
   const std::string page = report_page(results, "");
   EXPECT_FALSE(has(page, "<script>alert"));
-  EXPECT_FALSE(has(page, "<img>"));
-  EXPECT_FALSE(has(page, "<b>/x"));
-  EXPECT_FALSE(has(page, "\"name\":\"</script>"));
+  EXPECT_FALSE(has(page, "\"></summary>"));
+  EXPECT_FALSE(has(page, "<img>") || has(page, "<dmoc>") || has(page, "</text><script>"));
+  EXPECT_TRUE(has(page, "&quot;&gt;&lt;/summary&gt;&lt;script&gt;alert(1)&lt;/script&gt;&apos;&amp;{{script}}"));
 }
 
-/// What stands between two marks for the first time; empty if nothing does.
-std::string between(const std::string& text, const std::string& begin, const std::string& end) {
-  const std::size_t at = text.find(begin);
-  if (at == std::string::npos) return "";
-  return text.substr(at + begin.size(), text.find(end, at + begin.size()) - at - begin.size());
+TEST(Report, IsValidTextWhateverBytesNamesHave) {
+  ResultsFolder results = folder_with(Table::from_csv("problem,\xff\n\xc3,\xfe\nb,c\n"));
+  results.faults = {"q̇ ≤ 1 \xff|\xc3"};
+  const std::string page = report_page(results, "");
+  EXPECT_FALSE(has(page, "\xff"));
+  EXPECT_TRUE(has(page, "q̇ ≤ 1 \ufffd|\ufffd</p>"));
+  EXPECT_TRUE(Json::accept(unpacked(page, "table-objective.csv")));
 }
 
 TEST(Report, NothingOfAFigureStandsInThePageAsItIs) {
@@ -197,32 +283,23 @@ TEST(Report, NothingOfAFigureStandsInThePageAsItIs) {
                      {"link", "<svg><a href='javascript:alert(3)'><text>x</text></a></svg>"},
                      {"end", "</svg>\"></figure><script>alert(4)</script>"},
                      {"bytes", "<svg>\xff\xfe alert(5)</svg>"},
-                     {"number", "<svg><path d='M" + std::string(400, '9') + ",1.00'/></svg>"}};
+                     {"number", "<svg><path d='M" + std::string(400, '9') + ",1.00'/></svg>"},
+                     {"\" onerror=\"alert", "no SVG"},
+                     {"<img src=x onerror=alert>", "<svg/>"}};
   const std::string page = report_page(results, "");
-  EXPECT_FALSE(has(page, "alert(") || has(page, "\xff") || has(page, "<svg") || has(page, "999999"));
-  for (const ReportedFigure& figure : results.figures) {
-    const std::string markup = between(page, fmt::format("<figure id=\"figure-{}\">", figure.name), "</figure>");
-    EXPECT_EQ(markup, fmt::format("<img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption>{0}</figcaption>",
-                                  figure.name, base64(figure.svg)));
-  }
-}
-
-TEST(Report, NamesOfFiguresEndNoAttribute) {
-  ResultsFolder results;
-  results.figures = {{"\" onerror=\"alert(1)", "no SVG"}, {"<img src=x onerror=alert(2)>", "<svg/>"}};
-  const std::string page = report_page(results, "");
-  EXPECT_TRUE(has(page, "<img alt=\"&quot; onerror=&quot;alert(1)\" src=\"data:"));
-  EXPECT_FALSE(has(page, "<img src=x"));
+  EXPECT_FALSE(has(page, "alert(") || has(page, "\xff") || has(page, "999999"));
+  EXPECT_TRUE(has(page, "data-figure=\"&quot; onerror=&quot;alert\" aria-label="));
+  EXPECT_FALSE(has(page, "<img src=x") || has(page, "\" onerror=\"alert"));
+  results.figures.resize(6);
+  for (const ReportedFigure& figure : results.figures) EXPECT_EQ(unpacked(page, "figure-" + figure.name), figure.svg);
 }
 
 TEST(Report, AllowsOneScriptByItsDigest) {
-  for (const std::string& page :
-       {report_page(folder_with(two_solves()), ""),
-        comparison_page({"before", folder_with(two_solves())}, {"after", folder_with(two_solves())})}) {
-    const std::string allowed = between(page, "script-src ", "\"");
-    EXPECT_TRUE(allowed.starts_with("'sha256-") && allowed.ends_with("='") && allowed.size() == 53U) << allowed;
-    EXPECT_EQ(page.find("<script"), page.rfind("<script"));
-  }
+  const std::string page = report_page(judged_folder(), "");
+  const std::string allowed = between(page, "script-src ", "\"");
+  EXPECT_TRUE(allowed.starts_with("'sha256-") && allowed.ends_with("='") && allowed.size() == 53U) << allowed;
+  EXPECT_EQ(page.find("<script>"), page.rfind("<script>"));
+  EXPECT_FALSE(has(page, "{{"));
 }
 
 TEST(Report, LinksToFilesLeadToFilesWhateverTheirNames) {
@@ -235,122 +312,36 @@ TEST(Report, LinksToFilesLeadToFilesWhateverTheirNames) {
   EXPECT_TRUE(has(report_page(results, ""), "<a href=\"./javascript%3Aalert"));
 }
 
+TEST(Report, LinksToTheRowsAndColumnsThatDecidedOnAClaimAndShowsTheCommands) {
+  ResultsFolder results = folder_with(two_solves());
+  results.claims = {claim("arm", "order", "ours", "differs")};
+  results.claims.front()["rows"] = {
+      {{"table", "objective.csv"}, {"records", {2, 3, 99}}, {"columns", {"intervals", "objective"}}},
+      {{"table", "gone.csv"}, {"records", {2}}, {"columns", {"x"}}}};
+  const std::string page = report_page(results, "");
+  EXPECT_TRUE(has(page,
+                  "<a href=\"#table-objective.csv\" data-records=\"2-3 99\" data-columns=\"intervals "
+                  "objective\">objective.csv</a>"));
+  EXPECT_TRUE(has(page, "none.csv (not there)"));
+  EXPECT_FALSE(has(page, "gone.csv"));
+  EXPECT_TRUE(has(page, "<code class=\"line\">objective --out x</code><code class=\"line\">claims --out x</code>"));
+  results.runs.front().metadata["command_line"] = {"bin/dmocbench objective", "--out", "x"};
+  EXPECT_TRUE(has(report_page(results, ""), "<code class=\"line\">bin/dmocbench claims --out x</code>"));
+}
+
 TEST(Report, DrawsMotionsWithNumbersAtTheEndsOfTheRange) {
   ResultsFolder results;
   results.motions.push_back({"arm", "dmoc", Table::from_csv("t,x,y\n0,1e-310,0\n1,1.7976931348623157e308,-5e-324\n")});
   EXPECT_TRUE(has(report_page(results, ""), "1e-310"));
 }
 
-TEST(Report, ShowsTheRowsAndColumnsThatDecidedOnAClaimAndTheCommands) {
-  ResultsFolder results = folder_with(two_solves());
-  results.claims = Table::from_csv("claim,verdict,whose,states,evidence\narm/order,differs,ours,two,objective.csv\n");
-  results.claim_rows = Table::from_csv(
-      "claim,table,records,columns\narm/order,objective.csv,2-3 99,intervals objective\narm/order,none.csv,2,x\n");
-  const std::string page = report_page(results, "");
-  const std::size_t begin = page.find("<details class=\"rows\">");
-  ASSERT_NE(begin, std::string::npos);
-  const std::string rows = page.substr(begin, page.find("</table>", begin) - begin);
-  EXPECT_TRUE(has(rows, "<tr><td>solved<td>16<td>0.123457"));
-  EXPECT_TRUE(has(rows, "<tr class=\"unsolved\"><td>iteration limit<td>32<td>\n"));
-  EXPECT_FALSE(has(rows, "<td>dmoc"));
-  EXPECT_TRUE(has(page, "<code class=\"line\">objective --out x</code>\n<code class=\"line\">claims --out x</code>"));
-}
-
-TEST(Report, ChoosesRowsOfAClaimEvenlyWhereThereAreMany) {
-  std::string csv = "n,error\n";
-  for (int n = 1; n <= 101; ++n) csv += fmt::format("{},{}\n", n, 0.5 * n);
-  ResultsFolder results = folder_with(Table::from_csv(csv));
-  results.claims = Table::from_csv("claim,verdict,whose,states,evidence\narm/order,differs,ours,two,objective.csv\n");
-  results.claim_rows = Table::from_csv("claim,table,records,columns\narm/order,objective.csv,2-102,n error\n");
-  const std::string page = report_page(results, "");
-  const std::size_t begin = page.find("<details class=\"rows\">");
-  const std::string rows = page.substr(begin, page.find("</table>", begin) - begin);
-  EXPECT_TRUE(has(rows, "101 rows of objective.csv, 24 of them here"));
-  EXPECT_TRUE(has(rows, "<tr><td>1<td>0.5") && has(rows, "<tr><td>101<td>50.5"));
-}
-
-TEST(Report, AnswersFiveQuestionsByClaimsOnItsFirstScreen) {
-  ResultsFolder results = folder_with(two_solves());
-  results.claims = Table::from_csv(
-      "claim,verdict,whose,states,measured\narm/equal_solutions,reproduced,paper,they are equal,to 1e-9; on 3 grids\n"
-      "leg/equal_solutions,differs,paper,they are equal,to 1e-2\narm/other,differs,paper,nothing,5\n");
-  const std::string page = report_page(results, "");
-  const std::string overview = page.substr(0, page.find("<section id=\"claims\""));
-  EXPECT_TRUE(has(overview, "<b>Accuracy</b>. They are equal: "));
-  EXPECT_TRUE(has(overview, "reproduced</span>: to <span class=\"number\">1e-9</span>; "));
-  EXPECT_TRUE(has(overview, "differs</span>: to <span class=\"number\">1e-2</span>."));
-  EXPECT_FALSE(has(overview, "on 3 grids") || has(overview, "Structure"));
-}
-
-TEST(ComparedTables, PairRowsByWhatTheyAreAboutAndTellCountsAndStatusesThatDiffer) {
-  Table first = Table::from_csv(
-      "problem,method,intervals,status,major_iterations,objective,seconds\n"
-      "arm,dmoc,16,solved,5,0.25,1\narm,dmoc,16,solved,7,0.5,1\narm,dmoc,32,solved,6,0.125,1\n");
-  first.set_key({"problem", "method", "intervals", "sigma"});
-  const Table second = Table::from_csv(
-      "problem,method,intervals,status,major_iterations,objective,seconds\n"
-      "arm,dmoc,64,solved,9,1,2\narm,dmoc,16,solved,5,0.75,2\narm,dmoc,16,time limit,8,0.5,2\n");
-  const PairedRows rows = paired_rows(first, second);
-  EXPECT_EQ(rows.pairs.size(), 2U);
-  EXPECT_EQ(rows.alone, 2U);
-  const std::vector<ChangedField> changes = changed_fields(first, second, rows);
-  ASSERT_EQ(changes.size(), 2U);  // no objective, no time
-  EXPECT_EQ(changes[0].column, "status");
-  EXPECT_EQ(changes[0].second, "time limit");
-  EXPECT_EQ(changes[1].first + " " + changes[1].second, "7 8");
-  EXPECT_EQ(changes[1].about, "arm dmoc 16");
-}
-
-TEST(ComparedTables, JudgeTimesByRoundsAlone) {
-  const auto table = [](const std::string& times) {
-    Table result = Table::from_csv("problem,round_seconds\narm," + times + "\nleg,1 1\nfoot,\n");
-    result.set_key({"problem"});
-    return result;
-  };
-  const Table calm = table("1 1.1 0.9 1 1.05 0.95 1 1.02 0.98 1 1.01");
-  const Table slow = table("2 2.1 1.9 2 2.05 1.95 2 2.02 1.98 2 2.01");
-  const std::vector<ChangedTime> times = changed_times(paired_rows(calm, slow));
-  ASSERT_EQ(times.size(), 2U);
-  EXPECT_TRUE(times[0].is_changed());
-  EXPECT_NEAR(times[0].ratio.ratio, 2.0, 1e-9);
-  EXPECT_FALSE(times[1].is_judged());
-  EXPECT_FALSE(changed_times(paired_rows(calm, calm)).front().is_changed());
-}
-
-TEST(Comparison, TellsClaimsWhoseVerdictChangedAndWhatOneRunLacks) {
-  const ComparedRun first{"before", folder_with(two_solves())};
-  ComparedRun second = first;
-  second.name = "after";
-  second.results.tables.clear();
-  ComparedRun third = first;
-  third.results.claims =
-      Table::from_csv("claim,states,verdict,measured\narm/order,two,reproduced,2.0\narm/cost,less,differs,3\n");
-  second.results.claims = Table::from_csv("claim,states,verdict,measured\narm/order,two,differs,1.0\n");
-  const std::string page = comparison_page(third, second);
-  EXPECT_TRUE(has(page, "1 claim has another verdict, 0 have the same one, 1 is in one of the runs only"));
-  EXPECT_TRUE(has(page, "<td>arm/order<td>two<td>reproduced<td>differs<td>2.0<td>1.0"));
-  EXPECT_TRUE(has(page, "Only in A: objective.csv."));
-}
-
-class ReportOfAFolder : public tests::InTemporaryFolder {};
-
-TEST_F(ReportOfAFolder, LeavesOutWhatMetadataNestWithoutEnd) {
-  const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
-  write_file(folder() / "t.csv", "a,b\n1,2\n3,4\n");
-  write_file(folder() / "t.json",
-             fmt::format(R"({{"command_line": ["x"], "commit": "abc", "compiler": {0}, "motions": {0}}})", deep));
-  const std::string page = report_page(read_results_folder(folder()), "");
-  EXPECT_TRUE(has(page, "<dt>Commit<dd>abc"));
-  EXPECT_FALSE(has(page, std::string(20, '[')));
-}
-
-TEST(Report, MotionsHaveRodsWhereDistancesStay) {
-  ResultsFolder results;
-  results.motions.push_back(
-      {"arm", "dmoc", Table::from_csv("t_in_s,tip_x_in_m,tip_y_in_m,load_x_in_m,load_y_in_m\n0,1,0,2,0\n1,0,1,0,5\n")});
-  const std::string page = report_page(results, "");
-  EXPECT_TRUE(has(page, R"("name":"tip","x":[1.0,0.0],"y":[0.0,1.0],"rod":true)"));
-  EXPECT_TRUE(has(page, R"("name":"load","x":[2.0,0.0],"y":[0.0,5.0],"rod":false)"));
+TEST(Report, DrawsThePathsOfAllPointsOfAMotionWithTheirTimes) {
+  const ReportedMotion motion{
+      "arm", "dmoc", Table::from_csv("t_in_s,tip_x_in_m,tip_y_in_m,load_x_in_m,load_y_in_m\n0,1,0,2,0\n1,0,1,0,5\n")};
+  const Json model = motion_model({&motion});
+  EXPECT_EQ(model["motions"][0]["paths"], (Json{"1,-0 0,-1 ", "2,-0 0,-5 "}));
+  EXPECT_EQ(model["motions"][0]["times"], "0 1 ");
+  EXPECT_EQ(model["unit"], "s");
 }
 
 TEST(Report, DrawsOneMotionOfEachMethodAndQuantitiesWhereNothingMovesInThePlane) {
@@ -358,21 +349,23 @@ TEST(Report, DrawsOneMotionOfEachMethodAndQuantitiesWhereNothingMovesInThePlane)
   const Table plane = Table::from_csv("t_[s],x,y\n0,0,0\n1,1,1\n");
   for (const char* const method : {"dmoc", "tangent", "dmoc"}) results.motions.push_back({"arm", method, plane});
   results.motions.push_back({"spring", "dmoc", Table::from_csv("t_[s],q_[m]\n0,1\n1,3\n")});
+  const Json problems = gallery_model(results)["problems"];
+  EXPECT_EQ(problems[0]["motion"]["motions"].size(), 2U);
   const std::string page = report_page(results, "");
-  EXPECT_TRUE(has(page, "<polyline class=\"path method-1\""));
-  EXPECT_FALSE(has(page, "<polyline class=\"path method-2\""));
+  EXPECT_TRUE(has(page, "<g class=\"tangent\" data-times=\"0 1 \"><polyline points=\"0,-0 1,-1 \"/></g>"));
   EXPECT_TRUE(has(page, "q [m] from 1 to 3</text>"));
 }
 
-TEST(Report, QuantitiesOverTimeHaveControlsAndALineAtTheTime) {
+TEST(Report, QuantitiesOverTimeShareTheirScalesAndHaveControls) {
   ResultsFolder results;
   results.motions.push_back({"spring", "dmoc", Table::from_csv("t_in_s,q_in_m,still\n0,1,2\n1,3,2\n")});
   results.motions.push_back({"spring", "tangent", Table::from_csv("t_in_s,q_in_m,still\n0,1,2\n2,3,2\n")});
-  const std::string page = report_page(results, "");
-  EXPECT_TRUE(has(page, "aria-label=\"Play spring\""));
-  EXPECT_TRUE(has(page, R"("cursor":{"width":320.0,"height":100.0})"));
-  EXPECT_TRUE(has(page, R"("points":[{"name":"q_in_m","x":[0.0,160.0],"y":[-96.0,-26.0],"rod":false}])"));
-  EXPECT_TRUE(has(page, R"("points":[{"name":"q_in_m","x":[0.0,320.0],"y":[-96.0,-26.0],"rod":false}])"));
+  EXPECT_TRUE(has(report_page(results, ""), "aria-label=\"Play spring\""));
+  const Json motion = gallery_model(results)["problems"][0]["motion"];
+  ASSERT_EQ(motion["strips"].size(), 1U);  // one quantity changes
+  EXPECT_EQ(motion["end"], "2");
+  EXPECT_EQ(motion["strips"][0]["curves"][0]["points"], "0,90 160,20 ");
+  EXPECT_EQ(motion["strips"][0]["curves"][1]["points"], "0,90 320,20 ");
   results.motions = {{"stone", "dmoc", Table::from_csv("t_in_s,q_in_m\n0,1\n1,1\n")}};
   EXPECT_FALSE(has(report_page(results, ""), "aria-label=\"Play stone\""));
 }
@@ -381,22 +374,35 @@ TEST(Report, TellsWhichMethodsReachTheOptimumOfAProblemAsItIsStated) {
   ResultsFolder results = folder_with(Table::from_csv(
       "problem,method,status,objective\narm,dmoc,solved,1.001\narm,dmoc,solved,2\narm,dmoc,iteration limit,1\n"
       "arm,tangent,solved,3\nleg,dmoc,solved,1\n"));
-  const std::vector<ReachedOptimum> methods = reached_optima(results, "arm", 1.0);
+  const Json methods = reached_model(results, "arm", 1.0);
   ASSERT_EQ(methods.size(), 2U);
-  EXPECT_EQ(methods[0].rows, 3U);
-  EXPECT_EQ(methods[0].solved, 2U);
-  EXPECT_EQ(methods[0].near, 1U);
-  EXPECT_NEAR(methods[0].smallest_difference.value(), 0.001, 1e-12);
-  EXPECT_EQ(methods[1].near, 0U);
-  EXPECT_EQ(lowest_cost(results, "arm").value(), 1.001);
+  EXPECT_EQ(methods[0]["rows"], 3);
+  EXPECT_EQ(methods[0]["solved"], 2);
+  EXPECT_EQ(methods[0]["near"], 1);
+  EXPECT_EQ(methods[0]["difference"], "0.001");
+  EXPECT_EQ(methods[1]["near"], 0);
+  EXPECT_FALSE(methods[1]["reaches"]);
   results.runs.front().metadata["command_line"] = {"objective", "--set", "mass=2"};
-  EXPECT_TRUE(reached_optima(results, "arm", 1.0).empty());
+  EXPECT_TRUE(reached_model(results, "arm", 1.0).empty());
+}
+
+TEST(Report, NamesTheLowestCostWhereNoOptimumIsKnown) {
+  const std::vector<std::string> names = problem_names();
+  const auto unknown =
+      std::ranges::find_if(names, [](const std::string& name) { return !make_problem(name)->card().reference; });
+  ASSERT_NE(unknown, names.end());
+  ResultsFolder results = folder_with(Table::from_csv(fmt::format(
+      "problem,method,status,objective\n{0},dmoc,solved,1.5\n{0},dmoc,solved,2\n{0},dmoc,iteration limit,1\n",
+      *unknown)));
+  results.motions.push_back({*unknown, "dmoc", Table::from_csv("t,x,y\n0,0,0\n1,1,1\n")});
+  const Json facts = gallery_model(results)["problems"][0]["facts"];
+  EXPECT_EQ(facts[0]["text"], "not known; best found by any method here: 1.5");
 }
 
 TEST(Report, StatesEveryProblemOfTheFolderNextToItsMotionAndNoOther) {
   const Table motion = Table::from_csv("t_[s],x_[m],y_[m]\n0,0,9\n1,1,8\n");
   const auto states = [](const std::string& page, const std::string& name) {
-    return has(page, "<article id=\"" + anchor("problem", name) + "\">");
+    return has(page, "<details class=\"problem\" id=\"problem-" + name + "\">");
   };
   ResultsFolder results;
   results.motions.push_back({"hang_glider", "dmoc", motion});
@@ -410,6 +416,74 @@ TEST(Report, StatesEveryProblemOfTheFolderNextToItsMotionAndNoOther) {
   }
   const std::string of_all = report_page(results, "");
   for (const std::string& name : problem_names()) EXPECT_TRUE(states(of_all, name)) << name;
+}
+
+/// Calls `take` with the JSON in which one value, at any place, has another type.
+void for_each_damage(const Json& whole, const std::function<void(const Json&)>& take) {
+  std::set<std::string> places;
+  const Json flat = whole.flatten();
+  for (const auto& [place, value] : flat.items()) {
+    for (std::string inner = place; !inner.empty(); inner.erase(inner.rfind('/'))) places.insert(inner);
+  }
+  for (const std::string& place : places) {
+    for (const Json& other : {Json(7), Json("x"), Json(true), Json(nullptr), Json::array({1}), Json{{"a", 1}}}) {
+      Json damaged = whole;
+      damaged[Json::json_pointer(place)] = other;
+      take(damaged);
+    }
+  }
+}
+
+class ReportOnDisk : public tests::InTemporaryFolder {
+ protected:
+  /// The page of a solve and of a file with this text.
+  [[nodiscard]] std::string page_with(const std::string& file, const std::string& text) const {
+    write_file(folder() / "objective.csv", "problem,method,status,intervals,objective\narm,dmoc,solved,16,0.125\n");
+    write_file(folder() / file, text);
+    return report_page(read_results_folder(folder()), "");
+  }
+};
+
+TEST_F(ReportOnDisk, StandsWhateverTypesMetadataHave) {
+  const Json whole = Json::parse(R"({"command_line": ["objective", "--out", "x"], "utc_time": "2026-01-01T00:00:00Z",
+    "wall_seconds": 1.5, "commit": "a", "complete": true, "rows": 2, "not_solved": 1, "cost_scale": {"arm": 1.0},
+    "motions": [{"nodes": "motion_arm_nodes.csv", "problem": "arm", "method": "dmoc"}],
+    "tables": {"objective.csv": {"columns": ["problem"], "schema": {"properties": {"problem": {"description": "its name"}}}}}})");
+  for_each_damage(whole, [this](const Json& metadata) {
+    EXPECT_TRUE(has(page_with("objective.json", metadata.dump()), "objective.csv")) << metadata;
+  });
+}
+
+TEST_F(ReportOnDisk, StandsWhateverTypesClaimsHave) {
+  const Json whole = Json::parse(R"({"claims": [{"claim": "arm/same", "problem": "arm", "name": "same",
+    "where": "section 3", "figure": "", "whose": "paper", "states": "equal", "verdict": "reproduced", "sure": "exact",
+    "measured": [{"text": "equal", "numbers": [{"name": "gap", "value": 1e-9, "method": "dmoc"}]}], "reasons": [],
+    "evidence": ["objective.csv"], "figures": ["f"],
+    "rows": [{"table": "objective.csv", "records": [2], "columns": ["objective"]}]}], "findings": []})");
+  EXPECT_TRUE(has(page_with("claims.json", whole.dump()), "data-records=\"2\""));
+  for_each_damage(whole, [this](const Json& claims) {
+    const std::string page = page_with("claims.json", claims.dump());
+    EXPECT_TRUE(has(page, "data-records=") || has(page, "<p class=\"warning\">claims.json")) << claims;
+  });
+}
+
+TEST_F(ReportOnDisk, LeavesOutWhatMetadataNestWithoutEnd) {
+  const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
+  const std::string page = page_with("objective.json", fmt::format(R"({{"command_line": ["x"], "commit": "abc",
+    "compiler": {0}, "motions": {0}}})",
+                                                                   deep));
+  EXPECT_TRUE(has(page, "<dt>Commit<dd>abc"));
+  EXPECT_FALSE(has(page, std::string(20, '[')));
+}
+
+TEST_F(ReportOnDisk, NamesTheFileAndTheKeyOfMetadataOfAnotherType) {
+  for (const auto& [key, metadata] :
+       {std::pair("complete", Json{{"command_line", {"x"}}, {"complete", "yes"}}),
+        std::pair("command_line", Json{{"command_line", 7}}), std::pair("command_line 1", Json{{"command_line", {7}}}),
+        std::pair("utc_time", Json{{"command_line", {"x"}}, {"utc_time", 7}})}) {
+    EXPECT_TRUE(has(page_with("objective.json", metadata.dump()), std::string("objective.json: ") + key + " is "))
+        << metadata;
+  }
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST_F(Stores, OfACopiedFolderHaveTheirTablesThere) {
   ASSERT_EQ(tables.size(), 1U);
   EXPECT_EQ(tables.front().file, folder() / "copy" / "structure_orders.csv");
   EXPECT_EQ(tables.front().table.csv(), "problem,order\narm,2\n");
-  EXPECT_EQ(tables.front().table.types().at("order").kind, FieldKind::number);
+  EXPECT_EQ(tables.front().table.facts().at("order").type.kind, FieldKind::number);
   const auto expect_refused = [&](const char* const member, const Json& value, const std::string& words) {
     Json changed = entry;
     changed["tables"][0][member] = value;
@@ -89,7 +89,7 @@ TEST_F(Stores, OfACopiedFolderHaveTheirTablesThere) {
   };
   for (const char* const name : {"/tmp/victim", "../structure", "structure/../../victim", ".bashrc", "convergence", ""})
     expect_refused("name", name, "not one of this run");
-  for (const char* const member : {"name", "csv", "meanings", "types", "key", "not_measured"})
+  for (const char* const member : {"name", "csv", "facts", "key", "not_measured"})
     expect_refused(member, nullptr, member);
 }
 

@@ -23,7 +23,6 @@ const Values& known_values() {
   static const Values values = {
       {"--constraints", {"multipliers", "embedding", "multipliers,embedding"}},
       {"--controls", {"stage", "shared"}},
-      {"--compare", {"results", "folder", "none", "file"}},
       {"--crash", {"none", "all", "boundary"}},
       {"--factorisation", {"intervals", "sparse"}},
       {"--fit", {"4:16", "8:8", "16:4", "4:"}},
