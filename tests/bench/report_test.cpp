@@ -187,7 +187,8 @@ TEST(Report, HoldsTheFieldsOfItsTablesWithTheMeaningsOfTheirColumns) {
       EXPECT_EQ(table["rows"][i][k], written.rows()[i].text(written.columns()[k]));
     }
   }
-  EXPECT_EQ(table["columns"][4]["meaning"], "[cost] of the trajectory");
+  EXPECT_EQ(table["columns"][4]["meaning"], "of the trajectory");
+  EXPECT_EQ(table["columns"][4]["unit"], "cost");
   EXPECT_EQ(table["columns"][0]["meaning"], "");
   EXPECT_TRUE(has(page, "2 rows, 6 columns, 1 rows not solved"));
   EXPECT_TRUE(has(page, "<code>objective --out x</code>"));

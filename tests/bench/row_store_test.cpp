@@ -75,7 +75,7 @@ TEST_F(Stores, GoOnWithTheEntriesOfTheSameRunThatAreKept) {
 
 TEST_F(Stores, OfACopiedFolderHaveTheirTablesThere) {
   TableFile table{.file = folder() / "structure_orders.csv", .table = Table::from_csv("problem,order\narm,2\n")};
-  table.table.declare({{"order", {FieldKind::number, true}}});
+  table.table.describe({{"order", {"h", "of the error", {FieldKind::number, true}}}});
   const Json entry = Json::parse(entry_of_stage("one", {table}).dump());  // as a file has it
   const auto tables = tables_of_stage(entry, folder() / "copy" / "structure.rows");
   ASSERT_EQ(tables.size(), 1U);
