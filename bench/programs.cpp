@@ -72,10 +72,10 @@ int run(int argc, char** argv);
 namespace solve_program {
 int run(int argc, char** argv);
 }
-namespace structure_program {
+namespace invariants_program {
 int run(int argc, char** argv);
 }
-namespace structure_advantage_program {
+namespace savings_by_solver_program {
 int run(int argc, char** argv);
 }
 namespace study_program {
@@ -125,10 +125,10 @@ constexpr std::array core_programs{
     Program{"smoothness", "Orders for nonsmooth and smooth optimal controls", smoothness_program::run},
     Program{"solve", "One or more solutions, written out as motions: nodes, stages and the quantities of a picture",
             solve_program::run},
-    Program{"structure", "The invariants of the discrete flows: momentum, symplecticity, energy",
-            structure_program::run},
-    Program{"structure_advantage", "How much of DMOC's saving is due to the method, and how much to the solver",
-            structure_advantage_program::run},
+    Program{"invariants", "The invariants of the discrete flows: momentum, symplecticity, energy",
+            invariants_program::run},
+    Program{"savings_by_solver", "How much of DMOC's saving is due to the method, and how much to the solver",
+            savings_by_solver_program::run},
     Program{"study", "Everything about one problem: motion, orders, invariants, minima, figures, and a report",
             study_program::run},
     Program{"sweep", "A study of parameters: one problem with other masses, lengths, weights or end states",

@@ -100,7 +100,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> commands_of(const 
     words.insert(words.end(), {"--problem", study.problem, "--out", out});
     for (const std::string& library : study.libraries) words.insert(words.end(), {"--library", library});
     for (const std::string& setting : study.settings) words.insert(words.end(), {"--set", setting});
-    if (name != "structure")  // which compares tableaus
+    if (name != "invariants")  // which compares tableaus
       words.insert(words.end(), {"--tableau", study.tableau, "--stages", std::to_string(study.stages)});
     words.insert(words.end(), options.begin(), options.end());
     return std::pair(name, words);
@@ -110,7 +110,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> commands_of(const 
   for (const std::string& library : study.libraries) report.insert(report.end(), {"--library", library});
   return {experiment("solve", {"--method", "dmoc", "--start", "common", "--name", "motion_" + study.problem}),
           experiment("convergence", {"--intervals", study.intervals, "--solver", "auto"}),
-          experiment("structure", {}),
+          experiment("invariants", {}),
           experiment("local_minima",
                      {"--starts", std::to_string(study.starts), "--intervals", std::to_string(second_finest(study))}),
           {"figures", {drawer(), out}},
@@ -152,7 +152,7 @@ int run_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "study",
-      "Runs solve, convergence, structure and local_minima on one problem, draws the figures and writes the "
+      "Runs solve, convergence, invariants and local_minima on one problem, draws the figures and writes the "
       "report.",
       argc, argv, run_all);
 }

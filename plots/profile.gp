@@ -1,4 +1,4 @@
-# All methods across the library of problems: performance profiles after Dolan and Moré, and the cost of accuracy on
+# All methods across the suite of problems: performance profiles after Dolan and Moré, and the cost of accuracy on
 # every problem.
 #   gnuplot -e "results='results'" plots/profile.gp
 # Reads profile.csv, profile_profiles.csv and profile_summary.csv; draws nothing if they are not there.

@@ -15,8 +15,8 @@ constexpr double more_expensive = 1.0;
 /// Hamiltonian collocation to DMOC by one quantity.
 Selection hamiltonian_ratios(const ResultTables& tables, const std::string& problem, const std::string& quantity) {
   Selection ratios =
-      midpoint(tables.rows("structure_advantage_ratios", problem), "hamiltonian").where("quantity", quantity);
-  require(!ratios.empty(), "structure_advantage_ratios.csv has no {} of {} by hamiltonian", quantity, problem);
+      midpoint(tables.rows("savings_by_solver_ratios", problem), "hamiltonian").where("quantity", quantity);
+  require(!ratios.empty(), "savings_by_solver_ratios.csv has no {} of {} by hamiltonian", quantity, problem);
   return ratios;
 }
 
@@ -40,7 +40,7 @@ using ExpenseByWay = std::function<void(TimedRatios&, const Selection&)>;
 Predicate more_expensive_by(const ExpenseByWay& add_ratios) {
   return [=](const ResultTables& tables, const std::string& problem) -> Finding {
     const Selection ipopt = hamiltonian_ratios(tables, problem, "seconds_per_iteration").where("solver", "ipopt");
-    require(!ipopt.empty(), "structure_advantage_ratios.csv has no seconds_per_iteration of {} by ipopt", problem);
+    require(!ipopt.empty(), "savings_by_solver_ratios.csv has no seconds_per_iteration of {} by ipopt", problem);
     TimedRatios ratios(more_expensive);
     add_ratios(ratios, ipopt);
     add_ratios(ratios, hamiltonian_ratios(tables, problem, "seconds_per_linear_system"));
@@ -59,7 +59,7 @@ void add_finest_grid(TimedRatios& ratios, const Selection& rows) {
 void add_coarse_grids(TimedRatios& ratios, const Selection& rows) {
   const std::string finest = rows.sorted_by("intervals").back().text("intervals");
   const Selection coarse = rows.where([&](const Row& row) { return row.text("intervals") != finest; });
-  require(!coarse.empty(), "structure_advantage_ratios.csv has only N = {}", finest);
+  require(!coarse.empty(), "savings_by_solver_ratios.csv has only N = {}", finest);
   for (const Selection& way : coarse.group_by({"solver", "factorisation"})) {
     std::vector<std::vector<double>> of_grids;
     for (const Row& row : way) of_grids.push_back(rounds_of(row));
@@ -129,11 +129,11 @@ Finding whole_solves(const ResultTables& tables, const std::string& problem) {
   const Selection counts = tables.rows("iterations_common_ratios", problem);
   append(counts.where("currency", "ipopt_iterations"), "iterations by ipopt");
   append(counts.where("currency", "sqp_major_iterations"), "major iterations by sqp");
-  const Selection times = tables.rows("structure_advantage_ratios", problem).where("quantity", "seconds");
+  const Selection times = tables.rows("savings_by_solver_ratios", problem).where("quantity", "seconds");
   for (const Selection& way : times.group_by({"solver", "factorisation"}))
     append(way, fmt::format("seconds by {}", way_of(way.front())));
   require(!words.empty(),
-          "iterations_common_ratios.csv and structure_advantage_ratios.csv have no ratio of {} at equal "
+          "iterations_common_ratios.csv and savings_by_solver_ratios.csv have no ratio of {} at equal "
           "accuracy",
           problem);
   return found(ClaimVerdict::measured, "collocation to DMOC: {}", joined(words, ", "));
@@ -143,7 +143,7 @@ Finding whole_solves(const ResultTables& tables, const std::string& problem) {
 
 /// Variables, operations, time, also at equal accuracy.
 Claims cost_claims() {
-  const std::vector<std::string> advantage{"structure_advantage_ratios.csv", "figures/{}_structure_advantage.svg"};
+  const std::vector<std::string> advantage{"savings_by_solver_ratios.csv", "figures/{}_savings_by_solver.svg"};
   const std::vector<std::string> accuracy{"convergence_equal_accuracy.csv", "figures/{}_work_precision.svg"};
   const char* const warm = "times are warm, from the common start";
   return {
@@ -174,7 +174,7 @@ Claims cost_claims() {
        .judge = whole_solves,
        .condition =
            "warm, from the common start; equal replay errors for iterations, equal errors of the cost for times",
-       .evidence = {"iterations_common_ratios.csv", "structure_advantage_ratios.csv"},
+       .evidence = {"iterations_common_ratios.csv", "savings_by_solver_ratios.csv"},
        .has_verdict = false},
       {.id = "savings_at_equal_state_error",
        .where = "section 5",

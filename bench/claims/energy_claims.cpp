@@ -28,18 +28,19 @@ Words slope_in_words(const Row& row) {
 }
 
 Finding gap_beside_tangent(const ResultTables& tables, const std::string& problem) {
-  const Selection rows = tables.rows("structure_energy_work", problem);
+  const Selection rows = tables.rows("invariants_energy_work", problem);
   const Selection dmoc = rows.where("method", "dmoc");
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
   for (const Row& row : dmoc) {
     const Selection other = rows.where("method", "tangent").matching(row, {"intervals"});
-    require(!other.empty(), "structure_energy_work.csv has no row of tangent with {} intervals", row.text("intervals"));
+    require(!other.empty(), "invariants_energy_work.csv has no row of tangent with {} intervals",
+            row.text("intervals"));
     const double ratio = quotient(other.front(), row, "largest_gap");
     least = std::min(least, ratio);
     most = std::max(most, ratio);
   }
-  require(dmoc.size() > 1, "structure_energy_work.csv has {} rows of dmoc for {}; two are needed", dmoc.size(),
+  require(dmoc.size() > 1, "invariants_energy_work.csv has {} rows of dmoc for {}; two are needed", dmoc.size(),
           problem);
   const bool is_as_stated = problem == two_link ? most < 1.0 : least > 1.0;
   return found(is_as_stated,
@@ -49,7 +50,7 @@ Finding gap_beside_tangent(const ResultTables& tables, const std::string& proble
 }
 
 Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*problem*/) {
-  const char* const table = "structure_modified_energy_slopes";
+  const char* const table = "invariants_modified_energy_slopes";
   const Selection slopes = of_truncations(tables.rows(table), "drift", table);
   const Selection structured = slopes.where([](const Row& row) { return row.text("method") != "tangent"; });
   // With a constant mass tangent-space collocation is the same rule.
@@ -66,7 +67,7 @@ Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*
 }
 
 Finding balances_modified_work(const ResultTables& tables, const std::string& problem) {
-  const char* const table = "structure_energy_work_slopes";
+  const char* const table = "invariants_energy_work_slopes";
   const Selection dmoc = tables.rows(table, problem).where("method", "dmoc");
   const Selection modified = of_truncations(dmoc, "gap_to_modified_work", table);
   const Selection plain = of_truncations(dmoc, "gap_to_work", table);
@@ -90,7 +91,7 @@ Claims energy_claims() {
        .judge = gap_beside_tangent,
        .condition = "both gaps are of order h^2 and their factors belong to the motion: on the slow transfer DMOC's is "
                     "the smaller one, on the fast manipulator the larger one",
-       .evidence = {"structure_energy_work.csv", "figures/{}_energy_work.svg"}},
+       .evidence = {"invariants_energy_work.csv", "figures/{}_energy_work.svg"}},
       {.id = "modified_energy_and_work",
        .where = in_paper,
        .states = "along optimal motions H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule change by the "
@@ -98,7 +99,7 @@ Claims energy_claims() {
        .judge = balances_modified_work,
        .condition = "the work has to be modified as well, by terms that vanish with the force: against the virtual "
                     "work alone every truncation keeps a gap of order 2",
-       .evidence = {"structure_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
+       .evidence = {"invariants_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
 }
 
 /// The modified energy without forces.
@@ -113,7 +114,7 @@ Claims modified_energy_claims() {
            .judge = drifts_by_orders_2_4_6,
            .condition = "the paper refers to backward error analysis of symplectic methods and gives no formula; the "
                         "midpoint rule's own is truncated here",
-           .evidence = {"structure_modified_energy_slopes.csv", "figures/radial_thrust_modified_energy.svg"}}};
+           .evidence = {"invariants_modified_energy_slopes.csv", "figures/radial_thrust_modified_energy.svg"}}};
 }
 
 }  // namespace dmocbench

@@ -59,9 +59,9 @@ Words defect_of_tangent(const Selection& rows) {
 }
 
 Selection simulations(const ResultTables& tables, const char* force) {
-  Selection rows = tables.rows("structure_momentum").where("force", force);
+  Selection rows = tables.rows("invariants_momentum").where("force", force);
   require(!rows.where("method", "dmoc").empty(),
-          "structure_momentum.csv has no simulation by dmoc with a force {} the group action", force);
+          "invariants_momentum.csv has no simulation by dmoc with a force {} the group action", force);
   return rows;
 }
 
@@ -106,7 +106,7 @@ Finding momentum_preserved(const ResultTables& tables, const std::string& /*prob
 }
 
 Finding symplectic(const ResultTables& tables, const std::string& /*problem*/) {
-  const Selection rows = tables.rows("structure_symplecticity");
+  const Selection rows = tables.rows("invariants_symplecticity");
   constexpr double within_rounding = 100.0;
   const auto defect = [](const Row& row) {
     require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
@@ -114,7 +114,7 @@ Finding symplectic(const ResultTables& tables, const std::string& /*problem*/) {
   };
   const auto is_tangent = [](const Row& row) { return row.text("method") == "tangent"; };
   for (const std::string& method : paper_families()) {
-    require(!rows.where("method", method).empty(), "structure_symplecticity.csv has no row of {}", method);
+    require(!rows.where("method", method).empty(), "invariants_symplecticity.csv has no row of {}", method);
   }
   const double structured = std::max(0.0, rows.where(std::not_fn(is_tangent)).max(defect));
   const double tangent = std::max(0.0, rows.where(is_tangent).max(defect));
@@ -127,11 +127,11 @@ Finding symplectic(const ResultTables& tables, const std::string& /*problem*/) {
 /// Of the continuous flow, to what its integration allows.
 Finding continuous_noether(const ResultTables& tables, const std::string& /*problem*/) {
   constexpr double within_tolerance = 1000.0;  // an integration keeps its tolerance in each of many steps
-  const Selection rows = tables.rows("structure_flow_momentum");
+  const Selection rows = tables.rows("invariants_flow_momentum");
   const Selection along = rows.where("force", "along");
   const Selection orthogonal = rows.where("force", "orthogonal");
   require(!along.empty() && !orthogonal.empty(),
-          "structure_flow_momentum.csv has {} motions with forces along the group action and {} with orthogonal ones",
+          "invariants_flow_momentum.csv has {} motions with forces along the group action and {} with orthogonal ones",
           along.size(), orthogonal.size());
   const auto miss = [](const Row& row) { return std::abs(row.needed("momentum_change") - row.needed("work")); };
   const auto in_tolerances = [&](const Row& row) {
@@ -152,7 +152,7 @@ Finding continuous_noether(const ResultTables& tables, const std::string& /*prob
 
 Finding lagrangian_form(const ResultTables& tables, const std::string& /*problem*/) {
   constexpr double within_rounding = 100.0;
-  const Selection rows = tables.rows("structure_flow_symplecticity");
+  const Selection rows = tables.rows("invariants_flow_symplecticity");
   const auto defect = [](const Row& row) {
     require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
     return row.needed("defect") / row.needed("rounding");
@@ -167,11 +167,11 @@ Finding lagrangian_form(const ResultTables& tables, const std::string& /*problem
 }
 
 Finding energy_oscillates(const ResultTables& tables, const std::string& /*problem*/) {
-  const Selection rows = tables.rows("structure_energy_behaviour").where("periods", "10000");
+  const Selection rows = tables.rows("invariants_energy_behaviour").where("periods", "10000");
   const auto is_dmoc = [](const Row& row) { return row.text("method") == "dmoc"; };
   const auto dmoc = std::ranges::count_if(rows, is_dmoc);
   require(dmoc > 0 && rows.size() >= 3 && std::cmp_less(dmoc, rows.size()),
-          "structure_energy_behaviour.csv has {} rows over 10000 periods, {} of them by dmoc; both kinds are needed",
+          "invariants_energy_behaviour.csv has {} rows over 10000 periods, {} of them by dmoc; both kinds are needed",
           rows.size(), dmoc);
   const auto is_as_stated = [&](const Row& row) {
     constexpr double bounded = 1.05;
@@ -212,21 +212,21 @@ Claims flow_claims() {
        .whose = Whose::paper,
        .states = "the momentum changes by the work of the discrete forces along the group action",
        .judge = forced_noether,
-       .evidence = {"structure_momentum.csv"}},
+       .evidence = {"invariants_momentum.csv"}},
       {.id = "momentum_preserved",
        .problems = simulated,
        .where = "section 2.2, th:discforcNoe",
        .whose = Whose::paper,
        .states = "a force orthogonal to the group action preserves the momentum",
        .judge = momentum_preserved,
-       .evidence = {"structure_momentum.csv"}},
+       .evidence = {"invariants_momentum.csv"}},
       {.id = "symplectic",
        .problems = simulated,
        .where = "sections 2.2 and 3.4, equ_L_RK",
        .whose = Whose::paper,
        .states = "the unforced discrete flow is symplectic",
        .judge = symplectic,
-       .evidence = {"structure_symplecticity.csv"}},
+       .evidence = {"invariants_symplecticity.csv"}},
       {.id = "continuous_forced_noether_theorem",
        .problems = simulated,
        .where = "section 2.1, eq:noether_force",
@@ -235,7 +235,7 @@ Claims flow_claims() {
                  "and not at all if the force is orthogonal to it",
        .judge = continuous_noether,
        .condition = "motions integrated as replays are, by an adaptive method of order 7(8)",
-       .evidence = {"structure_flow_momentum.csv"}},
+       .evidence = {"invariants_flow_momentum.csv"}},
       {.id = "lagrangian_form_preserved",
        .problems = simulated,
        .where = "section 2.1, Omega_L",
@@ -244,7 +244,7 @@ Claims flow_claims() {
        .judge = lagrangian_form,
        .condition = "with dv^dq in the second term of Omega_L, where dv^dv is printed; the derivative of the flow is "
                     "the solution of the variational equations in long double",
-       .evidence = {"structure_flow_symplecticity.csv"}},
+       .evidence = {"invariants_flow_symplecticity.csv"}},
       {.id = "energy_does_not_drift",
        .problems = simulated,
        .where = "section 3.3, Conservation of a Modified Energy",
@@ -253,7 +253,7 @@ Claims flow_claims() {
        .judge = energy_oscillates,
        .condition = "the energy and not a modified one; in Cartesian coordinates the mass matrix is constant and the "
                     "paper's three methods coincide, so that this does not concern collocation",
-       .evidence = {"structure_energy_behaviour.csv", "figures/kepler_energy.svg"}}};
+       .evidence = {"invariants_energy_behaviour.csv", "figures/kepler_energy.svg"}}};
 }
 
 }  // namespace dmocbench

@@ -88,11 +88,11 @@ Finding confirmed_more_often(const ResultTables& tables, const std::string& prob
 using Curves = std::vector<std::vector<ErrorCostPoint>>;
 
 Curves timed_curves(const ResultTables& tables, const std::string& problem, const char* method) {
-  const Selection rows = midpoint(tables.rows("structure_advantage_shooting", problem), method)
+  const Selection rows = midpoint(tables.rows("savings_by_solver_shooting", problem), method)
                              .where("solver", "ipopt")
                              .sorted_by("intervals");
   require(rows.size() > 1 && rows.are_usable(),
-          "structure_advantage_shooting.csv: {} by {} is not solved on the wanted branch on several grids", problem,
+          "savings_by_solver_shooting.csv: {} by {} is not solved on the wanted branch on several grids", problem,
           method);
   Curves curves;
   for (const Row& row : rows) {
@@ -124,7 +124,7 @@ Predicate costs_more(const char* method) {
       const auto quotient_of_times =
           ratio(cost_at_error(other[round], error, same_error), cost_at_error(dmoc[round], error, same_error));
       require(quotient_of_times.has_value(),
-              "structure_advantage_shooting.csv: {} by {} and DMOC reach no error of the cost both", problem, method);
+              "savings_by_solver_shooting.csv: {} by {} and DMOC reach no error of the cost both", problem, method);
       ratios.push_back(*quotient_of_times);
     }
     TimedRatios timed(1.0);
@@ -151,7 +151,7 @@ Claims shooting_claims() {
                  .states = states,
                  .judge = costs_more(method),
                  .condition = "warm, from the common start; all by Ipopt, rk4 with one step per interval, s = 1",
-                 .evidence = {"structure_advantage_shooting.csv"}};
+                 .evidence = {"savings_by_solver_shooting.csv"}};
   };
   return {{.id = "order_of_shooting",
            .where = where,

@@ -11,7 +11,7 @@ Finding optimal_motions_keep_momentum(const ResultTables& tables, const std::str
   // DMOC's momenta are differences of positions divided by h: their rounding is known.
   constexpr double within_rounding = 10.0;
   constexpr double beyond_rounding = 1000.0;
-  const Selection rows = tables.rows("structure_orthogonal_forces");
+  const Selection rows = tables.rows("invariants_orthogonal_forces");
   const auto deviation = [](const Row& row) {
     require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
     return row.needed("momentum_deviation") / row.needed("rounding");
@@ -19,7 +19,8 @@ Finding optimal_motions_keep_momentum(const ResultTables& tables, const std::str
   const auto is_tangent = [](const Row& row) { return row.text("method") == "tangent"; };
   const Selection tangent = rows.where(is_tangent);
   const Selection structured = rows.where(std::not_fn(is_tangent));
-  require(!tangent.empty() && !structured.empty(), "structure_orthogonal_forces.csv needs rows of dmoc and of tangent");
+  require(!tangent.empty() && !structured.empty(),
+          "invariants_orthogonal_forces.csv needs rows of dmoc and of tangent");
   const double kept = structured.max(deviation);
   double least = std::numeric_limits<double>::infinity();
   for (const Row& row : tangent) least = std::min(least, deviation(row));
@@ -34,11 +35,11 @@ Finding optimal_motions_keep_momentum(const ResultTables& tables, const std::str
 Finding balanced_about_every_axis(const ResultTables& tables, const std::string& /*problem*/) {
   constexpr double rounding_in_long_double = 1e-15;
   constexpr double does_work = 1e-4;
-  const Selection rows = tables.rows("structure_rotations");
+  const Selection rows = tables.rows("invariants_rotations");
   const auto is_structured = [](const Row& row) { return row.text("method") != "tangent"; };
   const Selection linear = rows.where("action", "linear").where(is_structured);
   for (const char* axis : {"1", "2", "3"}) {
-    require(!linear.where("axis", axis).empty(), "structure_rotations.csv has no row of axis {}", axis);
+    require(!linear.where("axis", axis).empty(), "invariants_rotations.csv has no row of axis {}", axis);
   }
   const auto is_balanced = [&](const Row& row) {
     return row.needed("defect") < rounding_in_long_double && std::abs(row.needed("work")) > does_work;
@@ -46,7 +47,8 @@ Finding balanced_about_every_axis(const ResultTables& tables, const std::string&
   const auto defect = [](const Row& row) { return row.needed("defect"); };
   const Selection polar = rows.where("action", "polar").where("method", "dmoc");
   const Selection tangent = rows.where("action", "linear").where("method", "tangent");
-  require(!polar.empty() && !tangent.empty(), "structure_rotations.csv needs rows in polar coordinates and of tangent");
+  require(!polar.empty() && !tangent.empty(),
+          "invariants_rotations.csv needs rows in polar coordinates and of tangent");
   return found(std::ranges::all_of(linear, is_balanced),
                "three axes, {} motions of 400 steps by DMOC and Hamiltonian: largest |change of J - work| {:.1e}",
                linear.group_by({"problem", "method"}).size(), Measurement{"largest defect", linear.max(defect)})
@@ -68,7 +70,7 @@ Claims optimal_momentum_claims() {
                "where the force is orthogonal to the group action, the momentum is preserved in the optimal control "
                "problem, too",
            .judge = optimal_motions_keep_momentum,
-           .evidence = {"structure_orthogonal_forces.csv"}}};
+           .evidence = {"invariants_orthogonal_forces.csv"}}};
 }
 
 /// Momentum about three axes.
@@ -83,7 +85,7 @@ Claims rotation_claims() {
            .judge = balanced_about_every_axis,
            .condition = "the discrete Lagrangian has to be invariant, as it is where rotations act linearly on the "
                         "coordinates; in polar coordinates it is about one axis alone",
-           .evidence = {"structure_rotations.csv"}}};
+           .evidence = {"invariants_rotations.csv"}}};
 }
 
 }  // namespace dmocbench

@@ -100,9 +100,9 @@ int measure_all(CommandLine& line) {
       run.add("adaptive_steps", step_columns(), tables.steps);
     });
   }
-  run.findings().show("intervals for 1e-8", run.table("adaptive"),
-                      {"problem", "method", "stages", "grid", "status", "intervals", "true_error", "estimated_error"},
-                      "adaptive.csv");
+  run.summary().show("intervals for 1e-8", run.table("adaptive"),
+                     {"problem", "method", "stages", "grid", "status", "intervals", "true_error", "estimated_error"},
+                     "adaptive.csv");
   return run.write();
 }
 

@@ -240,8 +240,8 @@ class Certify final : public ExperimentOf<Measured> {
     std::vector<Certificate> certificates;
     for (const ProblemToCertify& certified : problems_) {
       const Certificate& c = certificates.emplace_back(certificate_of(*certified.problem, table));
-      output.findings.say(fmt::format("certify: {}: {} digits agree; reference {}", c.problem,
-                                      Cell(agreeing_digits(c)).text(), reference_in_words(c.agreement.confirmed)));
+      output.summary.say(fmt::format("certify: {}: {} digits agree; reference {}", c.problem,
+                                     Cell(agreeing_digits(c)).text(), reference_in_words(c.agreement.confirmed)));
     }
     output.write("_references.csv", table_of(certificate_columns(route_names_), certificates));
   }

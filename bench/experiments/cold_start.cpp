@@ -146,7 +146,7 @@ class ColdStart final : public Experiment {
         "--starts", starts_,
         "starts per case on the paper's problems: a number for all solvers, SOLVER=NUMBER for one; indirect=NUMBER "
         "for the indirect method");
-    line.list("--library-starts", library_starts_, "the same on the other problems, without the indirect method");
+    line.list("--suite-starts", suite_starts_, "the same on the other problems, without the indirect method");
     line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
     line.number("--amplitude", amplitude_, 0.0, 10.0,
                 "of the random curves, relative to the range of each coordinate and the size of each control");
@@ -154,7 +154,7 @@ class ColdStart final : public Experiment {
   /// All methods, solvers and grids start from the same curves.
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     paper_counts_ = StartCounts("--starts", starts_);
-    library_counts_ = StartCounts("--library-starts", library_starts_);
+    suite_counts_ = StartCounts("--suite-starts", suite_starts_);
     std::vector<Case> cases = from_starts(
         chosen, [this](const Case& the_case) { return starts_of(the_case); },
         [this](const Motion& motion, const Problem& problem, std::size_t start) {
@@ -164,7 +164,7 @@ class ColdStart final : public Experiment {
       varied_[the_case.problem->name()] = varied_in_words(*the_case.problem);
       problems_[the_case.problem->name()] = the_case.problem;
     }
-    if (cases.empty()) throw Error("no case has a start; see --starts and --library-starts");
+    if (cases.empty()) throw Error("no case has a start; see --starts and --suite-starts");
     return cases;
   }
 
@@ -185,7 +185,7 @@ class ColdStart final : public Experiment {
     metadata["objective_tolerance"] = objective_tolerance;
     for (const auto& [problem, words] : varied_) metadata["varied"][problem] = words;
     const Table summary = summed_up(shares);
-    output.findings.show("shares", summary, {}, output.prefix.string() + "_shares.csv");
+    output.summary.show("shares", summary, {}, output.prefix.string() + "_shares.csv");
   }
 
  private:
@@ -194,7 +194,7 @@ class ColdStart final : public Experiment {
     return std::ranges::find(paper, problem) != paper.end();
   }
   [[nodiscard]] long long starts_of(const Case& the_case) const {
-    return (is_of_paper(the_case.problem->name()) ? paper_counts_ : library_counts_).of(the_case.solver);
+    return (is_of_paper(the_case.problem->name()) ? paper_counts_ : suite_counts_).of(the_case.solver);
   }
   /// The boundary value problem of the maximum principle from the motions of the direct methods' starts. Costates are
   /// unknown there, so that they begin at 0.
@@ -231,9 +231,9 @@ class ColdStart final : public Experiment {
   static constexpr double objective_tolerance = 0.02;
 
   std::vector<std::string> starts_{"1000"};
-  std::vector<std::string> library_starts_{"100"};
+  std::vector<std::string> suite_starts_{"100"};
   StartCounts paper_counts_;
-  StartCounts library_counts_;
+  StartCounts suite_counts_;
   std::uint64_t seed_ = 1;
   double amplitude_ = 0.3;
   std::map<std::string, std::string> varied_;  // the quantities that starts vary, by problem

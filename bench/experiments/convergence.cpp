@@ -196,10 +196,10 @@ class Convergence final : public ExperimentOf<Measured> {
       const std::vector<std::string> notes = indirect_->notes();
       orders.notes.insert(orders.notes.begin(), notes.begin(), notes.end());
     }
-    output.findings.show("orders", orders_by_curve(orders.table), {}, output.prefix.string() + "_slopes.csv");
+    output.summary.show("orders", orders_by_curve(orders.table), {}, output.prefix.string() + "_slopes.csv");
     for (const std::string& note : orders.notes) {
       metadata["notes"].push_back(note);
-      output.findings.say("convergence: " + note);
+      output.summary.say("convergence: " + note);
     }
   }
 

@@ -116,7 +116,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
       metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
     }
     for (const auto& [problem, words] : varied_) metadata["starts"]["varied"][problem] = words;
-    output.findings.show("minima", minima_found(minima, shares), {}, output.prefix.string() + "_shares.csv");
+    output.summary.show("minima", minima_found(minima, shares), {}, output.prefix.string() + "_shares.csv");
   }
 
  private:

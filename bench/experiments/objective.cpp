@@ -54,7 +54,7 @@ class Objective final : public ExperimentOf<Measured> {
     }
   }
   void finish(Table& table, FurtherOutput& output) override {
-    output.findings.show("costs", finest_costs(table), {}, output.prefix.string() + ".csv");
+    output.summary.show("costs", finest_costs(table), {}, output.prefix.string() + ".csv");
   }
 
  private:

@@ -76,8 +76,8 @@ class Profile final : public ExperimentOf<Measured> {
     write_file(output.prefix.string() + "_library.md", library_table_in_markdown(library));
     output.metadata["success"] = {{"objective_tolerance", objective_tolerance},
                                   {"most_seconds", options().most_seconds}};
-    output.findings.show("successes", summary, {"method", "tableau", "stages", "solver", "successes", "instances"},
-                         output.prefix.string() + "_summary.csv");
+    output.summary.show("successes", summary, {"method", "tableau", "stages", "solver", "successes", "instances"},
+                        output.prefix.string() + "_summary.csv");
   }
 
  private:

@@ -127,10 +127,10 @@ int run_sequences(CommandLine& line) {
       run.add("sequence_summary", sequence_summary(steps));
     });
   }
-  run.findings().show("sequences", run.table("sequence_summary"),
-                      {"problem", "method", "sequence", "steps", "solved", "median_iterations",
-                       "median_cold_iterations", "median_microseconds", "p99_microseconds"},
-                      "sequence_summary.csv");
+  run.summary().show("sequences", run.table("sequence_summary"),
+                     {"problem", "method", "sequence", "steps", "solved", "median_iterations", "median_cold_iterations",
+                      "median_microseconds", "p99_microseconds"},
+                     "sequence_summary.csv");
   return run.write();
 }
 

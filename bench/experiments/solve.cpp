@@ -139,9 +139,8 @@ class Solve final : public ExperimentOf<Measured> {
       write_motion(file, solved, output.metadata);
       if (solved.estimated_error) output.metadata["motions"].back()["estimated_error"] = *solved.estimated_error;
     }
-    if (accuracy_.is_wanted())
-      output.findings.show("grids", accuracy_.grids(), {}, "", accuracy_.grids().rows().size());
-    output.findings.show("answers", summary, {}, output.prefix.string() + ".csv");
+    if (accuracy_.is_wanted()) output.summary.show("grids", accuracy_.grids(), {}, "", accuracy_.grids().rows().size());
+    output.summary.show("answers", summary, {}, output.prefix.string() + ".csv");
     std::set<std::string> doubts;
     for (const Answer& answer : answers_) {
       const Status status = answer.solved.solution.status;
@@ -149,25 +148,25 @@ class Solve final : public ExperimentOf<Measured> {
         doubts.insert(in_words(doubt_about_units(*answer.solved.the_case.problem)));
     }
     for (const std::string& doubt : doubts) {
-      if (!doubt.empty()) output.findings.say(doubt);
+      if (!doubt.empty()) output.summary.say(doubt);
     }
     for (const Answer& answer : answers_) {
       const Solution& solution = answer.solved.solution;
       if (solution.status != Status::solved) {
-        output.findings.say(
+        output.summary.say(
             fmt::format("{}: {}: {}", answer.solved.the_case.label(), name_of(solution.status), solution.message));
       }
-      if (answer.solved.trajectory) say_found(answer.solved, output.findings);
+      if (answer.solved.trajectory) say_found(answer.solved, output.summary);
     }
   }
 
   /// Reports the values that a solve found besides the motion.
-  static void say_found(const SolvedCase& solved, Findings& findings) {
+  static void say_found(const SolvedCase& solved, RunSummary& summary) {
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& motion = *solved.trajectory;
     const std::string label = solved.the_case.label();
     const auto say_price = [&](const std::string& value, const char* limits, double price) {
-      findings.say(fmt::format("{}: {}, the price of its {} {:.6g}", label, value, limits, price));
+      summary.say(fmt::format("{}: {}, the price of its {} {:.6g}", label, value, limits, price));
     };
     // Solvers leave less than this share of the cost where no bound acts.
     const auto acts = [&](double price, double value) {
@@ -184,7 +183,7 @@ class Solve final : public ExperimentOf<Measured> {
       if (acts(price, value)) {
         say_price(found, "range", price);
       } else {
-        findings.say(fmt::format("{}: {}", label, found));
+        summary.say(fmt::format("{}: {}", label, found));
       }
     }
     const double horizon = motion.node_times[motion.intervals()];

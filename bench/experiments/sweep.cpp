@@ -84,12 +84,12 @@ class Sweep final : public ExperimentOf<Instance> {
     std::map<std::string, std::size_t> ends;
     for (const Row& row : table.rows()) ++ends[row.text("status")];
     for (const auto& [status, count] : ends)
-      output.findings.say(fmt::format("sweep: {} of {} rows: {}", count, table.rows().size(), status));
+      output.summary.say(fmt::format("sweep: {} of {} rows: {}", count, table.rows().size(), status));
     const Selection solved = Selection(table).usable().sorted_by("objective");
     if (solved.empty()) return;
-    output.findings.say(fmt::format("sweep: cost from {:.7g} (instance {}) to {:.7g} (instance {})",
-                                    solved.front().needed("objective"), solved.front().text("instance"),
-                                    solved.back().needed("objective"), solved.back().text("instance")));
+    output.summary.say(fmt::format("sweep: cost from {:.7g} (instance {}) to {:.7g} (instance {})",
+                                   solved.front().needed("objective"), solved.front().text("instance"),
+                                   solved.back().needed("objective"), solved.back().text("instance")));
   }
 
  private:

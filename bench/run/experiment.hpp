@@ -12,8 +12,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "bench/run/case_list.hpp"
-#include "bench/run/findings.hpp"
 #include "bench/run/options.hpp"
+#include "bench/run/run_summary.hpp"
 
 namespace dmocbench {
 
@@ -75,7 +75,7 @@ struct FurtherOutput {
   std::filesystem::path prefix;                           ///< folder and name of the table
   nlohmann::ordered_json& metadata;                       ///< of the run
   const KeptRows& kept;                                   ///< rows of earlier runs about other problems
-  Findings& findings;                                     ///< printed at the end
+  RunSummary& summary;                                    ///< printed at the end
   std::vector<std::filesystem::path> named_by_user = {};  ///< tables in that folder whose names are the user's
 
   /// Writes one of the card's further files, and the meanings of its columns to the metadata. Rows of a problem get its

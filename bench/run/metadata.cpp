@@ -85,7 +85,7 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
   description["cores"] = ::sysconf(_SC_NPROCESSORS_ONLN);
   description["memory_gib"] = memory_in_gibibytes();
   description["operating_system"] = operating_system();
-  description["libraries"] = {
+  description["software"] = {
       {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"Boost", BOOST_LIB_VERSION},
       {"fmt", FMT_VERSION},

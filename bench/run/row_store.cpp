@@ -99,7 +99,7 @@ StoredEntries read_store(const std::filesystem::path& file) {
 Json identity_of(const std::string& experiment, const Json& metadata, const std::map<std::string, std::string>& options,
                  const Json& parameters) {
   Json identity{{"experiment", experiment}};
-  for (const char* const key : {"dmocbench", "compiler", "flags", "instruction_set", "libraries", "solvers"}) {
+  for (const char* const key : {"dmocbench", "compiler", "flags", "instruction_set", "software", "solvers"}) {
     identity[key] = metadata.at(key);
   }
   // Not the commit: a tree that was changed has several programs under one, and one program outlives many.

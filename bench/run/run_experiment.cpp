@@ -40,17 +40,17 @@ Columns<MeasuredCase> columns_of(const ExperimentCard& card, const OwnColumns& o
 /// One run of an experiment: its plan, its rows and its files.
 class Run {
  public:
-  Run(Experiment& experiment, Findings& findings, const std::vector<std::string>& command_line,
+  Run(Experiment& experiment, RunSummary& summary, const std::vector<std::string>& command_line,
       const std::map<std::string, std::string>& options)
       : experiment_(experiment),
-        findings_(findings),
+        summary_(summary),
         options_(experiment.options()),
         plan_(experiment),
         own_columns_(experiment.own_columns()),
         columns_(columns_of(experiment.card(), own_columns_)),
         metadata_(describe_run(command_line)),
         rows_(experiment, plan_.cases().size(), names_of(columns_), store_for(options)),
-        scheduler_(experiment, plan_, columns_, own_columns_, rows_, findings.are_quiet()) {
+        scheduler_(experiment, plan_, columns_, own_columns_, rows_, summary.are_quiet()) {
     plan_.describe(metadata_);
   }
 
@@ -94,7 +94,7 @@ class Run {
       if (rows_.contain(i)) plan_.settle(i);
     }
     metadata_["resumed_rows"] = resumed;
-    if (findings_.are_for_people() && plan_.wanted_count() > 0) {
+    if (summary_.are_for_people() && plan_.wanted_count() > 0) {
       print_line(fmt::format("{}: resumes an interrupted run, which has {} of {} rows; --fresh solves all of them",
                              experiment_.card().name, resumed, resumed + plan_.wanted_count()));
     }
@@ -126,14 +126,14 @@ class Run {
     const bool lacks_motion = outcome.failures + outcome.too_coarse + outcome.violating > 0;
     const bool has_failed = wants_motions() ? lacks_motion : outcome.unusable_curves > 0;
     const int code = !complete ? 130 : has_failed ? 1 : 0;
-    if (findings_.are_for_people()) print_end(outcome, own, complete);
+    if (summary_.are_for_people()) print_end(outcome, own, complete);
     nlohmann::ordered_json end{{"experiment", experiment_.card().name},
                                {"exit_code", code},
                                {"complete", complete},
                                {"rows", own.rows().size()},
                                {"file", table_file().string()}};
     describe(outcome, end);
-    findings_.end(end);
+    summary_.end(end);
     return code;
   }
 
@@ -178,7 +178,7 @@ class Run {
   /// run incomplete.
   void write(Table& own, bool complete) {
     replace_earlier_files();
-    FurtherOutput output{.prefix = plan_.prefix(), .metadata = metadata_, .kept = kept_, .findings = findings_};
+    FurtherOutput output{.prefix = plan_.prefix(), .metadata = metadata_, .kept = kept_, .summary = summary_};
     if (complete || wants_motions()) experiment_.finish(own, output);
     const Table table = kept_.joined(table_file(), own);
     if (!own.rows().empty()) write_file(table_file(), table.csv());
@@ -208,7 +208,7 @@ class Run {
   }
 
   Experiment& experiment_;
-  Findings& findings_;
+  RunSummary& summary_;
   const ExperimentOptions& options_;
   RunPlan plan_;
   OwnColumns own_columns_;
@@ -232,8 +232,8 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     line.exit_code_1(wants_motions ? "a row is not solved, or is not a motion"
                                    : "a curve has no usable row (its rows have the reasons)");
     add_options(line, experiment.options());
-    Findings findings;
-    findings.add_to(line);
+    RunSummary summary;
+    summary.add_to(line);
     line.group("Work");
     if (card.problems_are_independent) add_jobs_option(line, experiment.options());
     if (card.compares_tolerances) add_tolerances_option(line, experiment.options());
@@ -242,7 +242,7 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     experiment.add_options(line);
     if (!wants_motions) add_part_options(line, experiment.options());
     const std::vector<std::string> command_line = parse_with_libraries(line);
-    return Run(experiment, findings, command_line, line.values_for_results()).run();
+    return Run(experiment, summary, command_line, line.values_for_results()).run();
   });
 }
 

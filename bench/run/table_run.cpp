@@ -18,10 +18,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, Findings& findings, bool* fresh) {
+std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out, RunSummary& summary, bool* fresh) {
   line.group(group_of_output);
   line.option("--out", out, "folder for the results", OptionRole::place);
-  findings.add_to(line);
+  summary.add_to(line);
   if (fresh != nullptr) {
     line.flag("--fresh", *fresh, "measure everything instead of resuming an interrupted run", OptionRole::machine);
   }
@@ -98,10 +98,10 @@ std::vector<TableFile> tables_of_stage(const Json& entry, const std::filesystem:
 
 TableRun::TableRun(std::string name, CommandLine& line, Resumes resumes)
     : name_(std::move(name)),
-      command_line_(parse(line, out_, findings_, resumes == Resumes::yes ? &fresh_ : nullptr)),
+      command_line_(parse(line, out_, summary_, resumes == Resumes::yes ? &fresh_ : nullptr)),
       folder_(out_),
       lock_(out_ / name_),
-      progress_(name_, findings_.are_quiet()),
+      progress_(name_, summary_.are_quiet()),
       scope_(interrupt_requested, 0.0) {
   require_writable(out_ / (name_ + ".json"));
   if (resumes == Resumes::no) return;
@@ -117,7 +117,7 @@ void TableRun::resume() {
     stages_.insert(entry.at("stage"));
     store_.keep(entry);
   }
-  if (!stages_.empty() && findings_.are_for_people()) {
+  if (!stages_.empty() && summary_.are_for_people()) {
     print_line(fmt::format("{}: resumes an interrupted run, which has finished {}; --fresh measures everything", name_,
                            counted(stages_.size(), "stage")));
   }
@@ -129,7 +129,7 @@ void TableRun::stage(const std::string& name, const std::function<void()>& measu
   try {
     measure();
   } catch (...) {
-    if (interrupt_requested() && !stages_.empty() && findings_.are_for_people()) {
+    if (interrupt_requested() && !stages_.empty() && summary_.are_for_people()) {
       print_line(fmt::format("{}: {} finished; the same command resumes it", name_,
                              counted(stages_.size(), "stage is", "stages are")));
     }
@@ -189,20 +189,20 @@ int TableRun::write() const {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   constexpr std::size_t few_tables = 4;
   const bool has_many = tables_.size() > few_tables;
-  if (has_many && findings_.are_for_people())
+  if (has_many && summary_.are_for_people())
     print_line(fmt::format("{}: {} tables: {}*.csv", name_, tables_.size(), (out_ / name_).string()));
   std::ptrdiff_t not_measured = 0;
   for (const TableFile& table : tables_) {
     not_measured += table.not_measured;
     files.push_back(table.file.string());
     const std::string gaps = table.not_measured > 0 ? fmt::format(", {} not measured", table.not_measured) : "";
-    if (!has_many && findings_.are_for_people()) {
+    if (!has_many && summary_.are_for_people()) {
       print_line(
           fmt::format("{}: {}{}: {}", name_, counted(table.table.rows().size(), "row"), gaps, table.file.string()));
     }
   }
   const int code = not_measured > 0 ? 1 : 0;
-  findings_.end({{"experiment", name_}, {"exit_code", code}, {"not_measured", not_measured}, {"files", files}});
+  summary_.end({{"experiment", name_}, {"exit_code", code}, {"not_measured", not_measured}, {"files", files}});
   return code;
 }
 

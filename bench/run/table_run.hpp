@@ -13,11 +13,11 @@
 
 #include "bench/run/column.hpp"
 #include "bench/run/command_line.hpp"
-#include "bench/run/findings.hpp"
 #include "bench/run/kept_rows.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/row_store.hpp"
+#include "bench/run/run_summary.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/solver.hpp"
@@ -58,8 +58,8 @@ class TableRun {
   [[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected(const ProblemOptions& asked);
   /// Shows on a terminal what is being measured. Throws `Interrupted` if a stop was requested.
   void show(const std::string& activity) const;
-  /// The findings, printed when the run ends.
-  [[nodiscard]] Findings& findings() noexcept { return findings_; }
+  /// The summary, printed when the run ends.
+  [[nodiscard]] RunSummary& summary() noexcept { return summary_; }
   /// Calls `measure`, which adds tables, unless the interrupted run that this one resumes has finished the stage; its
   /// rows are then in the tables already. A stage that is over is saved in NAME.rows.
   void stage(const std::string& name, const std::function<void()>& measure);
@@ -85,7 +85,7 @@ class TableRun {
 
   std::string name_;
   std::filesystem::path out_ = "results";
-  Findings findings_;
+  RunSummary summary_;
   bool fresh_ = false;
   std::vector<std::string> command_line_;
   OutputFolder folder_;

@@ -4,7 +4,7 @@
 
 namespace dmocbench {
 
-/// The cost of collocation relative to DMOC, solver by solver, from a table of structure_advantage.
+/// The cost of collocation relative to DMOC, solver by solver, from a table of savings_by_solver.
 ///
 /// Quantities are "seconds" of a solve, "seconds_per_iteration", the same without evaluations of the program
 /// ("linear_algebra_per_iteration"), "seconds_per_linear_system" (without finding its structure; reported only by

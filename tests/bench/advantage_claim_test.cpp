@@ -31,7 +31,7 @@ Row ratio(const std::string& factorisation, const std::string& quantity, int int
 
 ResultTables tables_of(std::initializer_list<Row> rows) {
   ResultTables tables;
-  tables.add("structure_advantage_ratios", tests::declared_table("structure_advantage_ratios", rows));
+  tables.add("savings_by_solver_ratios", tests::declared_table("savings_by_solver_ratios", rows));
   return tables;
 }
 

@@ -453,17 +453,17 @@ inline std::map<std::string, Rows> all_rows() {
     row.set("problem", two_link);
     if (row.text("intervals") == "1024") row.set("intervals", 512LL);
   }
-  rows["structure_momentum"] = momentum_rows();
-  rows["structure_symplecticity"] = symplecticity_rows();
-  rows["structure_flow_momentum"] = flow_momentum_rows();
-  rows["structure_flow_symplecticity"] = flow_symplecticity_rows();
-  rows["structure_energy_behaviour"] = energy_rows();
+  rows["invariants_momentum"] = momentum_rows();
+  rows["invariants_symplecticity"] = symplecticity_rows();
+  rows["invariants_flow_momentum"] = flow_momentum_rows();
+  rows["invariants_flow_symplecticity"] = flow_symplecticity_rows();
+  rows["invariants_energy_behaviour"] = energy_rows();
   rows["consistency_order_slopes"] = consistency_order_rows();
-  rows["structure_modified_energy_slopes"] = drift_rows();
-  rows["structure_energy_work"] = energy_work_rows();
-  rows["structure_energy_work_slopes"] = truncation_rows(orbit, {"gap_to_work", "gap_to_modified_work"}, "dmoc");
-  rows["structure_orthogonal_forces"] = orthogonal_rows();
-  rows["structure_rotations"] = rotation_rows();
+  rows["invariants_modified_energy_slopes"] = drift_rows();
+  rows["invariants_energy_work"] = energy_work_rows();
+  rows["invariants_energy_work_slopes"] = truncation_rows(orbit, {"gap_to_work", "gap_to_modified_work"}, "dmoc");
+  rows["invariants_orthogonal_forces"] = orthogonal_rows();
+  rows["invariants_rotations"] = rotation_rows();
   rows["consistency_order_transforms"] = transform_rows();
   rows["smoothness_slopes"] = smoothness_rows();
   rows["low_thrust"] = low_thrust_rows();
@@ -495,7 +495,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["convergence_indirect_jumps"] = jump_rows();
   rows["iterations_common_ratios"] = currency_rows();
   rows["coercivity"] = coercivity_rows();
-  rows["structure_advantage_ratios"] = advantage_rows();
+  rows["savings_by_solver_ratios"] = advantage_rows();
   rows["local_minima_minima"] = minima_rows();
   rows["local_minima_shares"] = share_rows();
   rows["cold_start_shares"] = cold_start_rows();
@@ -512,7 +512,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["convergence_galerkin_lobatto_slopes"] = galerkin_slope_rows("lobatto", {{"galerkin_2_1", "3", "2.02"}});
   rows["consistency_galerkin"] = galerkin_momentum_rows();
   rows["cold_start_shooting_shares"] = shooting_cold_rows();
-  rows["structure_advantage_shooting"] = shooting_cost_rows();
+  rows["savings_by_solver_shooting"] = shooting_cost_rows();
   rows["profile"] = profile_rows();
   rows["profile_three_stages"] = three_stages_rows();
   return rows;

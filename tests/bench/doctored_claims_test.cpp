@@ -192,8 +192,8 @@ struct Deciding {
 TEST_F(DoctoredClaims, SayNotJudgedAndNameTheColumn) {
   const std::vector<Deciding> all{
       {"objective", "objective", {"objective_evolution"}},
-      {"structure_momentum", "defect", {"simulations/forced_noether_theorem", "simulations/momentum_preserved"}},
-      {"structure_momentum",
+      {"invariants_momentum", "defect", {"simulations/forced_noether_theorem", "simulations/momentum_preserved"}},
+      {"invariants_momentum",
        "defect_in_long_double",
        {"simulations/forced_noether_theorem", "simulations/momentum_preserved"}},
       {"equivalence", "configuration_difference", {"equal_solutions"}},
@@ -205,8 +205,8 @@ TEST_F(DoctoredClaims, SayNotJudgedAndNameTheColumn) {
       {"equivalence", "adjoint_residual_by_plain_coefficients", {"order_of_adjoint_scheme"}},
       {"consistency", "momentum_defect_max", {"momentum_consistency"}},
       {"iterations", "minor_iterations", {"minor_iteration_ratio", "minor_iterations_saved_in_phase_1"}},
-      {"structure_advantage_ratios", "round_ratios", {"collocation_more_expensive"}},
-      {"structure_energy_behaviour", "change", {"simulations/energy_does_not_drift"}},
+      {"savings_by_solver_ratios", "round_ratios", {"collocation_more_expensive"}},
+      {"invariants_energy_behaviour", "change", {"simulations/energy_does_not_drift"}},
       {"local_minima_minima", "objective", {"examples/local_minima"}},
       {"local_minima_minima", "hamiltonian", {"examples/local_minima"}},
       {"local_minima_shares", "solved", {"examples/local_minima"}},

@@ -116,29 +116,29 @@ std::vector<Mistake> mistakes_about_flows() {
   return {
       {"an order of L_d one too low", "consistency_order_slopes", set(has("quantity", "lagrangian"), "slope", 2.0),
        on_orbit("order_of_discrete_lagrangian")},
-      {"a momentum that changes by less than the work", "structure_momentum",
+      {"a momentum that changes by less than the work", "invariants_momentum",
        set(has("force", "along"), "momentum_change", 0.5 - 1e-8), "simulations/forced_noether_theorem"},
-      {"forces along the group that do no work", "structure_momentum",
+      {"forces along the group that do no work", "invariants_momentum",
        [](Rows& rows) {
          for (const char* column : {"momentum_change", "work", "work_of_discrete_forces"})
            set(every_row, column, 0.0)(rows);
        },
        "simulations/forced_noether_theorem"},
-      {"a force along the group where it is said to be orthogonal", "structure_momentum",
+      {"a force along the group where it is said to be orthogonal", "invariants_momentum",
        [](Rows& rows) {
          for (const char* column : {"momentum_change", "work", "work_of_discrete_forces"})
            set(every_row, column, 0.1)(rows);
        },
        "simulations/momentum_preserved"},
-      {"a flow that is not symplectic", "structure_symplecticity", set(has("method", "hamiltonian"), "defect", 1e-9),
+      {"a flow that is not symplectic", "invariants_symplecticity", set(has("method", "hamiltonian"), "defect", 1e-9),
        "simulations/symplectic"},
-      {"a continuous momentum that changes by less than the work", "structure_flow_momentum",
+      {"a continuous momentum that changes by less than the work", "invariants_flow_momentum",
        set(has("force", "along"), "momentum_change", 0.5 - 1e-8), "simulations/continuous_forced_noether_theorem"},
-      {"a continuous momentum that an orthogonal force changes", "structure_flow_momentum",
+      {"a continuous momentum that an orthogonal force changes", "invariants_flow_momentum",
        set(has("force", "orthogonal"), "momentum_change", 1e-8), "simulations/continuous_forced_noether_theorem"},
-      {"a continuous flow that is not symplectic", "structure_flow_symplecticity", set(every_row, "defect", 1e-9),
+      {"a continuous flow that is not symplectic", "invariants_flow_symplecticity", set(every_row, "defect", 1e-9),
        "simulations/lagrangian_form_preserved"},
-      {"an energy that drifts", "structure_energy_behaviour", set(has("method", "dmoc"), "range", 0.5),
+      {"an energy that drifts", "invariants_energy_behaviour", set(has("method", "dmoc"), "range", 0.5),
        "simulations/energy_does_not_drift"},
   };
 }
@@ -172,15 +172,14 @@ std::vector<Mistake> mistakes_about_cost() {
        set([](const Row& row) { return row.text("quantity") == "replay" && row.text("method") == "tangent"; },
            "variables_ratio", 0.9),
        on_orbit("savings_at_equal_replay_error")},
-      {"one way to eliminate that costs no more", "structure_advantage_ratios",
+      {"one way to eliminate that costs no more", "savings_by_solver_ratios",
        set(sparse, "round_ratios", tests::rounds_around(0.9)), on_orbit("collocation_more_expensive")},
-      {"a noisy clock", "structure_advantage_ratios", set(sparse, "round_ratios", noisy_rounds(1.5)),
+      {"a noisy clock", "savings_by_solver_ratios", set(sparse, "round_ratios", noisy_rounds(1.5)),
        on_orbit("collocation_more_expensive"), ClaimVerdict::undecided},
-      {"a verdict from three rounds", "structure_advantage_ratios", set(sparse, "round_ratios", "1.5 1.5 1.5"),
+      {"a verdict from three rounds", "savings_by_solver_ratios", set(sparse, "round_ratios", "1.5 1.5 1.5"),
        on_orbit("collocation_more_expensive"), ClaimVerdict::undecided},
-      {"a verdict at the threshold", "structure_advantage_ratios",
-       set(sparse, "round_ratios", tests::rounds_around(1.0)), on_orbit("collocation_more_expensive_on_coarse_grids"),
-       ClaimVerdict::undecided},
+      {"a verdict at the threshold", "savings_by_solver_ratios", set(sparse, "round_ratios", tests::rounds_around(1.0)),
+       on_orbit("collocation_more_expensive_on_coarse_grids"), ClaimVerdict::undecided},
       {"differences that are as fast but for noise", "derivatives_quasi_newton",
        set(differences, "round_seconds", tests::rounds_around(0.01, 2.0)), on_orbit("automatic_differentiation_faster"),
        ClaimVerdict::undecided},

@@ -22,7 +22,7 @@ const Json second{{"case", 2}};
 
 class Stores : public tests::InTemporaryFolder {
  protected:
-  [[nodiscard]] std::filesystem::path file() const { return folder() / "structure.rows"; }
+  [[nodiscard]] std::filesystem::path file() const { return folder() / "invariants.rows"; }
   void write_two() const {
     RowStore store(file(), header);
     for (const Json& entry : {first, second}) store.append(entry);
@@ -52,7 +52,7 @@ TEST_F(Stores, LoseNothingButATornOrDamagedLastLine) {
     damaged[i] = static_cast<char>(damaged[i] ^ 1);
     write_file(file(), damaged);
     if (i + 1 < last) {
-      expect_error_naming({"structure.rows", "damaged"}, [&] { static_cast<void>(entries()); });
+      expect_error_naming({"invariants.rows", "damaged"}, [&] { static_cast<void>(entries()); });
     } else {
       EXPECT_EQ(entries().size(), i < last ? 0U : 1U) << "the last line break joins two lines";
     }
@@ -77,7 +77,7 @@ TEST_F(Stores, OfACopiedFolderHaveTheirTablesThere) {
   TableFile table{.file = folder() / "structure_orders.csv", .table = Table::from_csv("problem,order\narm,2\n")};
   table.table.describe({{"order", {"h", "of the error", {FieldKind::number, true}}}});
   const Json entry = Json::parse(entry_of_stage("one", {table}).dump());  // as a file has it
-  const auto tables = tables_of_stage(entry, folder() / "copy" / "structure.rows");
+  const auto tables = tables_of_stage(entry, folder() / "copy" / "invariants.rows");
   ASSERT_EQ(tables.size(), 1U);
   EXPECT_EQ(tables.front().file, folder() / "copy" / "structure_orders.csv");
   EXPECT_EQ(tables.front().table.csv(), "problem,order\narm,2\n");
@@ -85,7 +85,7 @@ TEST_F(Stores, OfACopiedFolderHaveTheirTablesThere) {
   const auto expect_refused = [&](const char* const member, const Json& value, const std::string& words) {
     Json changed = entry;
     changed["tables"][0][member] = value;
-    expect_error_naming({"structure.rows", words}, [&] { static_cast<void>(tables_of_stage(changed, file())); });
+    expect_error_naming({"invariants.rows", words}, [&] { static_cast<void>(tables_of_stage(changed, file())); });
   };
   for (const char* const name : {"/tmp/victim", "../structure", "structure/../../victim", ".bashrc", "convergence", ""})
     expect_refused("name", name, "not one of this run");

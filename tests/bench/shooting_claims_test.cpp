@@ -47,7 +47,7 @@ TEST(ShootingClaims, OnColdStartsTurnWithTheCountsAndAreUndecidedNearEqualOnes) 
 }
 
 TEST(ShootingClaims, OnCostTurnWithTheTimesAndNeedRoundsAndAnErrorThatBothReach) {
-  const char* const table = "structure_advantage_shooting";
+  const char* const table = "savings_by_solver_shooting";
   for (const auto& [claim, method] : {std::pair("multiple_shooting_slower_at_equal_error", by_nodes),
                                       std::pair("single_shooting_slower_at_equal_error", by_controls)}) {
     EXPECT_EQ(verdict_on_shooting(claim), ClaimVerdict::reproduced);
@@ -70,7 +70,7 @@ TEST(ShootingClaims, OnCostCompareTimesWhereErrorsAreEqualAndNotOnEqualGrids) {
     };
   };
   const auto verdict = [&](double seconds) {
-    return verdict_on_shooting("multiple_shooting_slower_at_equal_error", "structure_advantage_shooting", by_nodes,
+    return verdict_on_shooting("multiple_shooting_slower_at_equal_error", "savings_by_solver_shooting", by_nodes,
                                takes(seconds));
   };
   EXPECT_EQ(verdict(0.6e-4), ClaimVerdict::reproduced);  // 0.6 times DMOC's on every grid

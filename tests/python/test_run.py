@@ -63,7 +63,7 @@ class Runs(unittest.TestCase):
                 return [1.0]
 
         grid = {"intervals": [16, 32], "solver": "interior_point"}
-        for experiment, options in (("solve", grid), ("structure", {}), ("objective", grid), ("iterations", grid),
+        for experiment, options in (("solve", grid), ("invariants", {}), ("objective", grid), ("iterations", grid),
                                     ("consistency", grid), ("equivalence", grid), ("local_minima", {**grid, "starts": 3}),
                                     ("derivatives", {}), ("adaptive", {}), ("coercivity", {}), ("certify", {}),
                                     ("consistency_order", {})):

@@ -52,10 +52,10 @@ class ReadSol final : public ExperimentOf<IndependentChecks> {
   void finish(Table& /*table*/, FurtherOutput& output) override {
     const Status status = solved_->solution.status;
     if (!is_solved(status))
-      output.findings.say(fmt::format("read-sol: {}: {}", name_of(status), solved_->solution.message));
+      output.summary.say(fmt::format("read-sol: {}: {}", name_of(status), solved_->solution.message));
     if ((!is_solved(status) && !is_no_motion(status)) || !solved_->accuracy) return;
     write_motion(output.prefix, *solved_, output.metadata);
-    output.findings.say(fmt::format("read-sol: {}: {}_nodes.csv", solved_->the_case.label(), output.prefix.string()));
+    output.summary.say(fmt::format("read-sol: {}: {}_nodes.csv", solved_->the_case.label(), output.prefix.string()));
   }
 
  private:

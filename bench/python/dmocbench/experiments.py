@@ -49,7 +49,7 @@ class Table:
 class Results(Table):
     """The rows of an experiment. further: the other tables that it has written, by the ends of their names ("slopes");
     orders: the fitted orders, where there are any; files: how the names of all files begin; is_complete: whether all is
-    solved. Experiments of several tables, such as structure, have further ones only."""
+    solved. Experiments of several tables, such as invariants, have further ones only."""
 
     further: dict[str, Table]
     orders: Table | None

@@ -1,8 +1,8 @@
 # What collocation costs in multiples of DMOC, solver by solver: rem:savings, and how much of it belongs to the solver.
-#   gnuplot -e "results='results'" plots/structure_advantage.gp
+#   gnuplot -e "results='results'" plots/savings_by_solver.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
-name = "structure_advantage_ratios"
+name = "savings_by_solver_ratios"
 eval require(name, "problem,method,tableau,stages,solver,factorisation,intervals,quantity,ratio_at_equal_intervals")
 
 # Solvers in the order of the legend. Ipopt reports no time of its linear systems: it is drawn by its time per
@@ -22,10 +22,10 @@ do for [where in problems_of(name, ratio)] {
   problem = entry(where, "problem")
   conditions = where.",method=hamiltonian,tableau=gauss,stages=1"
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_structure_advantage", 660)
+    eval begin_figure(kind, problem."_savings_by_solver", 660)
     figure_title = title_text(problem_label(problem)\
         .": time of Hamiltonian collocation in multiples of DMOC",\
-        "Paper: section 3.4, the remark on savings (rem:savings). ".timed_conditions("structure_advantage").". Above the line DMOC takes less.",\
+        "Paper: section 3.4, the remark on savings (rem:savings). ".timed_conditions("savings_by_solver").". Above the line DMOC takes less.",\
         "Bars: 99 % intervals over the rounds. Ipopt reports no time of its linear systems: instead, the time of an"\
         ." iteration without evaluations.")
     eval panels(1, 2, 80, 15, 165, 95, 0)
@@ -69,6 +69,6 @@ do for [where in problems_of(name, ratio)] {
              linecolor rgb colour(number_in(word(with_bars, k))) linewidth 1.4 dashtype 1 pointtype point(number_in(word(with_bars, k))) pointsize 0.8 notitle
     }
     unset multiplot
-    eval end_figure(kind, problem."_structure_advantage")
+    eval end_figure(kind, problem."_savings_by_solver")
   }
 }

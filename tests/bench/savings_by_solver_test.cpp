@@ -1,4 +1,4 @@
-// Which rows of the experiment structure_advantage are compared.
+// Which rows of the experiment savings_by_solver are compared.
 
 #include <string>
 

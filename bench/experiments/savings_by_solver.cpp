@@ -14,7 +14,7 @@
 #include "methods/error.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
-namespace dmocbench::structure_advantage_program {
+namespace dmocbench::savings_by_solver_program {
 
 const std::vector<std::string> all_factorisations{"intervals", "sparse"};
 
@@ -42,7 +42,7 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
  public:
   StructureAdvantage()
       : ExperimentOf(
-            {.name = "structure_advantage",
+            {.name = "savings_by_solver",
              .description =
                  "Cost of collocation relative to DMOC by Ipopt and by interior_point with its linear systems solved "
                  "by intervals or as any sparse matrix: iterations, linear systems, seconds. NAME_ratios.csv has the "
@@ -120,4 +120,4 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
 
 int run(int argc, char** argv) { return run_experiment(StructureAdvantage(), argc, argv); }
 
-}  // namespace dmocbench::structure_advantage_program
+}  // namespace dmocbench::savings_by_solver_program

@@ -1,11 +1,11 @@
 # Energy of an eccentric Kepler orbit over many periods, unforced ("Conservation of a Modified Energy"): DMOC against
 # Runge-Kutta methods that are not symplectic, and DMOC's oscillation over the step.
-#   gnuplot -e "results='results'" plots/structure.gp
+#   gnuplot -e "results='results'" plots/invariants.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
-eval require("structure_energy", "problem,method,stages,order,period,energy_smallest,energy_largest")
-eval require("structure_energy_behaviour", "problem,method,stages,order,steps_per_period,oscillation,periods")
-eval require("structure_energy_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
+eval require("invariants_energy", "problem,method,stages,order,period,energy_smallest,energy_largest")
+eval require("invariants_energy_behaviour", "problem,method,stages,order,steps_per_period,oscillation,periods")
+eval require("invariants_energy_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
 
 integrator_label(where) = (entry(where, "method") eq "dmoc" ? "DMOC"\
     : entry(where, "method") eq "radau" ? "Radau IIA (implicit)"\
@@ -17,11 +17,11 @@ dashes_of(where) = is_dmoc(where) ? 1 : 2
 magnitude(low, high) = abs(low) > abs(high) ? abs(low) : abs(high)
 few = 20  # periods of the sweep over the step
 
-do for [where in problems_of("structure_energy", "energy_largest")] {
+do for [where in problems_of("invariants_energy", "energy_largest")] {
   problem = entry(where, "problem")
-  methods = distinct("structure_energy", "problem,method,stages,order", where, "")
-  dmoc = distinct("structure_energy_behaviour", "problem,method,stages,order", where.",method=dmoc", "")
-  stats rows("structure_energy", where, "") using (column("period") + 1) name 'P' nooutput
+  methods = distinct("invariants_energy", "problem,method,stages,order", where, "")
+  dmoc = distinct("invariants_energy_behaviour", "problem,method,stages,order", where.",method=dmoc", "")
+  stats rows("invariants_energy", where, "") using (column("period") + 1) name 'P' nooutput
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_energy", 600)
     figure_title = title_text(\
@@ -35,8 +35,8 @@ do for [where in problems_of("structure_energy", "energy_largest")] {
     set xlabel "period"
     set ylabel "largest |E − E_0| of a period [GM/a]" offset inwards
     set key at screen 0.02, screen upwards(120) left top font ",12" samplen 2.5
-    set title entry(distinct("structure_energy", "steps_per_period", where, ""), "steps_per_period")." steps per period"
-    plot for [method in methods] rows("structure_energy", method, "")\
+    set title entry(distinct("invariants_energy", "steps_per_period", where, ""), "steps_per_period")." steps per period"
+    plot for [method in methods] rows("invariants_energy", method, "")\
          using (column("period") + 1):(magnitude(column("energy_smallest"), column("energy_largest")))\
          with lines linecolor rgb colour(method) linewidth (is_dmoc(method) ? 2.5 : 1.5) dashtype dashes_of(method)\
          title integrator_label(method)
@@ -50,11 +50,11 @@ do for [where in problems_of("structure_energy", "energy_largest")] {
     set xrange [2 * pi / 580:2 * pi / 113]
     set yrange [*:*]
     set key at screen 0.98, screen upwards(120) right top font ",12" samplen 2.5
-    plot for [method in dmoc] rows("structure_energy_behaviour", method, "")\
+    plot for [method in dmoc] rows("invariants_energy_behaviour", method, "")\
          using (column("periods") == few ? 2 * pi / column("steps_per_period") : NaN):(column("oscillation"))\
          with linespoints linecolor rgb colour(method) linewidth 2 dashtype 1 pointtype 7 pointsize 0.7\
          title with_slope("order ".entry(method, "order"),\
-                          slope("structure_energy_slopes", method.",tableau=gauss", "oscillation"))
+                          slope("invariants_energy_slopes", method.",tableau=gauss", "oscillation"))
     unset multiplot
     eval end_figure(kind, problem."_energy")
   }

@@ -1,4 +1,4 @@
-#include "bench/run/findings.hpp"
+#include "bench/run/run_summary.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -71,18 +71,18 @@ std::vector<std::string> with_distinguishing(const std::vector<std::string>& cho
 
 }  // namespace
 
-void Findings::add_to(CommandLine& line) {
+void RunSummary::add_to(CommandLine& line) {
   line.flag("--quiet", is_quiet_, "print errors only", OptionRole::machine);
   line.flag("--json", as_json_, "print the findings as one JSON object", OptionRole::machine);
 }
 
-void Findings::say(const std::string& sentence) {
+void RunSummary::say(const std::string& sentence) {
   sentences_.push_back(sentence);
   if (are_for_people()) print_line(sentence);
 }
 
-void Findings::show(const std::string& name, const Table& table, const std::vector<std::string>& columns,
-                    const std::string& file, std::size_t most_rows) {
+void RunSummary::show(const std::string& name, const Table& table, const std::vector<std::string>& columns,
+                      const std::string& file, std::size_t most_rows) {
   Json rows = Json::array();
   const std::vector<std::string> chosen = with_distinguishing(columns.empty() ? table.columns() : columns, table);
   std::vector<std::vector<std::string>> lines{chosen};
@@ -103,7 +103,7 @@ void Findings::show(const std::string& name, const Table& table, const std::vect
   if (left > 0) print_line(fmt::format("... and {} more{}", left, file.empty() ? "" : " in " + file));
 }
 
-void Findings::end(const Json& outcome) const {
+void RunSummary::end(const Json& outcome) const {
   if (is_quiet_ || !as_json_) return;
   Json object = outcome;
   object["findings"] = sentences_;

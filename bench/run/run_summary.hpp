@@ -12,7 +12,7 @@ namespace dmocbench {
 
 /// The findings of a run: sentences and small tables on standard output, or with --json one JSON object at the end.
 /// With --quiet only errors are printed.
-class Findings {
+class RunSummary {
  public:
   /// Registers --quiet and --json.
   void add_to(CommandLine& line);

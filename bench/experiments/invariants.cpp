@@ -21,7 +21,7 @@
 #include "methods/error.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench::structure_program {
+namespace dmocbench::invariants_program {
 
 /// The energy along the unforced ellipse: of one period, or over all of them.
 template <class Energy>
@@ -128,22 +128,22 @@ Table largest_defects(const Table& symplecticity) {
 
 void add_symplecticity(TableRun& run, const std::vector<MappedStates>& systems) {
   const SymplecticityTable symplecticity = symplecticity_table(systems);
-  run.add("structure_symplecticity", symplecticity.table, symplecticity.unsolved);
+  run.add("invariants_symplecticity", symplecticity.table, symplecticity.unsolved);
 }
 
 void add_energy_against_work(TableRun& run, const std::vector<std::shared_ptr<const Problem>>& problems) {
   const EnergyWorkTables work = energy_work_tables(problems, TableRun::solver_options());
-  run.add("structure_energy_work", work.plain, work.unsolved);
-  run.add("structure_modified_work", work.modified);
-  run.add("structure_energy_work_slopes", work.orders);
+  run.add("invariants_energy_work", work.plain, work.unsolved);
+  run.add("invariants_modified_work", work.modified);
+  run.add("invariants_energy_work_slopes", work.orders);
 }
 
 void show_findings(TableRun& run) {
-  run.findings().show("defect of the symplectic form", largest_defects(run.table("structure_symplecticity")), {},
-                      "structure_symplecticity.csv", most_shown);
-  run.findings().show("orders of the gap between energy and work", run.table("structure_energy_work_slopes"),
-                      {"problem", "method", "quantity", "truncation", "slope", "standard_error"},
-                      "structure_energy_work_slopes.csv", most_shown);
+  run.summary().show("defect of the symplectic form", largest_defects(run.table("invariants_symplecticity")), {},
+                     "invariants_symplecticity.csv", most_shown);
+  run.summary().show("orders of the gap between energy and work", run.table("invariants_energy_work_slopes"),
+                     {"problem", "method", "quantity", "truncation", "slope", "standard_error"},
+                     "invariants_energy_work_slopes.csv", most_shown);
 }
 
 void add_long_time_energy(TableRun& run, const StructureOptions& options) {
@@ -154,9 +154,9 @@ void add_long_time_energy(TableRun& run, const StructureOptions& options) {
       run.show("energy over many periods: " + method.name);
       follow(method, options.steps_per_period, options.periods, true, results);
       if (method.name == "dmoc") oscillation_over_step(method, results);
-      run.add("structure_energy", period_columns, results.periods);
-      run.add("structure_energy_behaviour", behaviour_columns, results.behaviour);
-      run.add("structure_energy_slopes", order_columns, results.orders);
+      run.add("invariants_energy", period_columns, results.periods);
+      run.add("invariants_energy_behaviour", behaviour_columns, results.behaviour);
+      run.add("invariants_energy_slopes", order_columns, results.orders);
     });
   }
 }
@@ -169,19 +169,19 @@ void add_examples(TableRun& run, const StructureOptions& options) {
       measure();
     });
   };
-  stage("momentum against the work of forces", [&] { run.add("structure_momentum", noether_table(options.steps)); });
+  stage("momentum against the work of forces", [&] { run.add("invariants_momentum", noether_table(options.steps)); });
   stage("the continuous flow", [&] {
-    run.add("structure_flow_momentum", flow_momentum_table());
-    run.add("structure_flow_symplecticity", flow_symplecticity_table(example_states()));
+    run.add("invariants_flow_momentum", flow_momentum_table());
+    run.add("invariants_flow_symplecticity", flow_symplecticity_table(example_states()));
   });
   stage("momentum along motions with orthogonal forces",
-        [&] { run.add("structure_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options())); });
-  stage("rotations", [&] { run.add("structure_rotations", rotations_table(options.steps)); });
+        [&] { run.add("invariants_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options())); });
+  stage("rotations", [&] { run.add("invariants_rotations", rotations_table(options.steps)); });
   stage("the symplectic form", [&] { add_symplecticity(run, example_states()); });
   stage("modified energies", [&] {
     const ModifiedEnergyTables modified = modified_energy_tables();
-    run.add("structure_modified_energy", modified.drifts);
-    run.add("structure_modified_energy_slopes", modified.orders);
+    run.add("invariants_modified_energy", modified.drifts);
+    run.add("invariants_modified_energy_slopes", modified.orders);
   });
   stage("energies against the work of forces", [&] {
     std::vector<std::shared_ptr<const Problem>> problems;
@@ -213,7 +213,7 @@ void add_problems(TableRun& run, const std::vector<std::shared_ptr<const Problem
 int write_tables(CommandLine& line) {
   StructureOptions options;
   add_options(line, options);
-  TableRun run("structure", line, TableRun::Resumes::yes);
+  TableRun run("invariants", line, TableRun::Resumes::yes);
   if (!options.asked.problems.empty()) {
     add_problems(run, run.selected(options.asked));
   } else {
@@ -226,18 +226,18 @@ int write_tables(CommandLine& line) {
 
 int run(int argc, char** argv) {
   return run_program(
-      "structure",
-      "Invariants of the discretisation: momentum against the work of arbitrary forces (structure_momentum.csv), "
-      "the same for rotations about three axes (structure_rotations.csv), the momentum along optimal motions whose "
-      "forces are orthogonal to the symmetry (structure_orthogonal_forces.csv), the symplectic form "
-      "(structure_symplecticity.csv), both along the continuous flow (structure_flow_momentum.csv, "
-      "structure_flow_symplecticity.csv), the energy of an eccentric orbit over many periods (structure_energy.csv, "
-      "structure_energy_behaviour.csv), the modified energy of the midpoint rule along free motions "
-      "(structure_modified_energy.csv), and both against the work of the forces along the optimal motions of the "
-      "paper's problems (structure_energy_work.csv, structure_modified_work.csv). With --problem no examples, but of "
+      "invariants",
+      "Invariants of the discretisation: momentum against the work of arbitrary forces (invariants_momentum.csv), "
+      "the same for rotations about three axes (invariants_rotations.csv), the momentum along optimal motions whose "
+      "forces are orthogonal to the symmetry (invariants_orthogonal_forces.csv), the symplectic form "
+      "(invariants_symplecticity.csv), both along the continuous flow (invariants_flow_momentum.csv, "
+      "invariants_flow_symplecticity.csv), the energy of an eccentric orbit over many periods (invariants_energy.csv, "
+      "invariants_energy_behaviour.csv), the modified energy of the midpoint rule along free motions "
+      "(invariants_modified_energy.csv), and both against the work of the forces along the optimal motions of the "
+      "paper's problems (invariants_energy_work.csv, invariants_modified_work.csv). With --problem no examples, but of "
       "each of these problems the symplectic form at states of an optimal motion, and energy and modified energy "
       "against work along optimal motions.",
       argc, argv, write_tables);
 }
 
-}  // namespace dmocbench::structure_program
+}  // namespace dmocbench::invariants_program
