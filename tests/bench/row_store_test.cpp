@@ -74,12 +74,12 @@ TEST_F(Stores, GoOnWithTheEntriesOfTheSameRunThatAreKept) {
 }
 
 TEST_F(Stores, OfACopiedFolderHaveTheirTablesThere) {
-  TableFile table{.file = folder() / "structure_orders.csv", .table = Table::from_csv("problem,order\narm,2\n")};
+  TableFile table{.file = folder() / "invariants_orders.csv", .table = Table::from_csv("problem,order\narm,2\n")};
   table.table.describe({{"order", {"h", "of the error", {FieldKind::number, true}}}});
   const Json entry = Json::parse(entry_of_stage("one", {table}).dump());  // as a file has it
   const auto tables = tables_of_stage(entry, folder() / "copy" / "invariants.rows");
   ASSERT_EQ(tables.size(), 1U);
-  EXPECT_EQ(tables.front().file, folder() / "copy" / "structure_orders.csv");
+  EXPECT_EQ(tables.front().file, folder() / "copy" / "invariants_orders.csv");
   EXPECT_EQ(tables.front().table.csv(), "problem,order\narm,2\n");
   EXPECT_EQ(tables.front().table.facts().at("order").type.kind, FieldKind::number);
   const auto expect_refused = [&](const char* const member, const Json& value, const std::string& words) {
@@ -87,7 +87,7 @@ TEST_F(Stores, OfACopiedFolderHaveTheirTablesThere) {
     changed["tables"][0][member] = value;
     expect_error_naming({"invariants.rows", words}, [&] { static_cast<void>(tables_of_stage(changed, file())); });
   };
-  for (const char* const name : {"/tmp/victim", "../structure", "structure/../../victim", ".bashrc", "convergence", ""})
+  for (const char* const name : {"/tmp/victim", "../invariants", "invariants/../../victim", ".bashrc", "convergence", ""})
     expect_refused("name", name, "not one of this run");
   for (const char* const member : {"name", "csv", "facts", "key", "not_measured"})
     expect_refused(member, nullptr, member);
