@@ -30,7 +30,8 @@ void require_as_written(const nlohmann::json& metadata, const std::string& sourc
                         std::string_view content);
 
 /// Sets `metadata["tables"]` to the description of the files by `describe_tables`, with the schemas that `note_table`
-/// has noted. Columns that they do not explain are those of `rows`, a table with the columns of the run's own rows.
+/// has noted. A column that they do not explain is described as in `rows`, a table with the columns of the run's own
+/// rows.
 void describe_tables_of_run(const std::vector<std::filesystem::path>& files, const Table& rows,
                             nlohmann::ordered_json& metadata);
 

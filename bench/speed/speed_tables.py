@@ -227,7 +227,6 @@ def description(columns, rows, text):
     """The entry of a table in the metadata."""
     properties = {name: {"description": meaning, "type": [of, "null"]} for name, (of, meaning) in columns.items()}
     return {"columns": list(columns), "rows": len(rows), "crc32": f"{zlib.crc32(text.encode()):08x}",
-            "meanings": {name: meaning for name, (_, meaning) in columns.items()},
             "schema": {"$schema": "https://json-schema.org/draft/2020-12/schema", "type": "object", "properties": properties,
                        "required": list(columns), "additionalProperties": False}}
 
