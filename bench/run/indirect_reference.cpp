@@ -44,7 +44,7 @@ Eigen::MatrixXd matrix_of(const JsonPlace& place) {
 }
 
 /// Checksum of a file without the entry `checksum`. It finds damaged digits, also those that no equation uses.
-std::uint32_t checksum_of(Json file) {
+std::uint32_t checksum_without_itself(Json file) {
   file.erase("checksum");
   return crc_32(file.dump());
 }
@@ -65,7 +65,7 @@ std::string written(const Problem& problem, const IndirectSolution& solution) {
             {"nodes", columns_of(extremal.nodes)},
             {"slopes", columns_of(extremal.rates)},
             {"algebraic", columns_of(extremal.algebraic)}};
-  file["checksum"] = checksum_of(file);
+  file["checksum"] = checksum_without_itself(file);
   return file.dump() + "\n";
 }
 
@@ -95,7 +95,7 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
     const JsonPlace file(json, path.string());
     if (file.at("problem").text() != problem.name()) return std::nullopt;
     if (file.at("parameters").json() != parameters_of(problem)) return std::nullopt;
-    if (file.at("checksum").json() != checksum_of(json)) return std::nullopt;
+    if (file.at("checksum").json() != checksum_without_itself(json)) return std::nullopt;
     CollocatedExtremal extremal;
     extremal.stages = file.at("stages").count();
     extremal.horizon = file.at("horizon").number();
