@@ -14,9 +14,9 @@
 #include <unistd.h>
 
 #include "bench/run/command_line.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/problem_libraries.hpp"
-#include "bench/run/process_pool.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 

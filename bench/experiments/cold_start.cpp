@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/experiment.hpp"
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/tables/cold_starts.hpp"
 #include "bench/tables/selection.hpp"

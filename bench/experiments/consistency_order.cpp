@@ -11,8 +11,8 @@
 
 #include "bench/experiments/invariants/one_step_tableaus.hpp"
 #include "bench/run/column.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/options.hpp"
-#include "bench/run/process_pool.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/newton_correction.hpp"

@@ -10,6 +10,8 @@
 #include "bench/run/advice.hpp"
 #include "bench/run/case_batch.hpp"
 #include "bench/run/case_list.hpp"
+#include "bench/run/error_sentences.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/error.hpp"

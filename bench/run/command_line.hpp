@@ -90,9 +90,6 @@ class CommandLine {
 inline constexpr const char* group_of_problem = "Problem";
 inline constexpr const char* group_of_output = "Output";  ///< where results go
 
-/// An error message for people: our own errors verbatim; other errors by their meaning, where that is known.
-[[nodiscard]] std::string sentence_of(const std::exception& error);
-
 /// A text of any origin for one line of a terminal: blanks in the place of control characters, cut at 2000 bytes.
 [[nodiscard]] std::string one_line(std::string_view text);
 
@@ -101,9 +98,6 @@ inline constexpr const char* group_of_output = "Output";  ///< where results go
 
 /// Prints `one_line` of a text, and ends the line.
 void print_line(const std::string& text);
-
-/// True if memory was exhausted; other work may still have enough.
-[[nodiscard]] bool is_out_of_memory(const std::exception& error) noexcept;
 
 /// Runs a program: `body` declares its options, parses them and returns the exit code. Every error becomes one line on
 /// standard error, with the program's `name` in front, and exit code 2, as does standard output that cannot be written;

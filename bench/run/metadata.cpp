@@ -16,6 +16,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include "bench/run/build.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/runtime/clock.hpp"
@@ -61,16 +62,6 @@ std::string operating_system() {
 }
 
 }  // namespace
-
-std::string version() { return DMOCBENCH_VERSION; }
-
-std::string compiler() {
-#ifdef __clang__
-  return __VERSION__;  // begins with a name
-#else
-  return "g++ " __VERSION__;
-#endif
-}
 
 nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line) {
   nlohmann::ordered_json description;

@@ -8,12 +8,6 @@
 
 namespace dmocbench {
 
-/// The version of dmocbench.
-[[nodiscard]] std::string version();
-
-/// The compiler of this build, with its version.
-[[nodiscard]] std::string compiler();
-
 /// The data needed to judge or repeat a table: compiler, flags, processor, memory, versions of the libraries, libraries
 /// of problems, commit, command line, UTC time.
 [[nodiscard]] nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line);

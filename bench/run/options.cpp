@@ -13,8 +13,8 @@
 #include <fmt/ranges.h>
 
 #include "bench/run/command_line.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/problem_libraries.hpp"
-#include "bench/run/process_pool.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"

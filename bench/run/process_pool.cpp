@@ -16,21 +16,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "bench/run/command_line.hpp"
+#include "bench/run/error_sentences.hpp"
+#include "bench/run/interrupt.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-constexpr std::array interrupts{SIGINT, SIGHUP, SIGTERM};
-
-volatile std::sig_atomic_t requested = 0;
-
-extern "C" void on_signal(int signal) {
-  requested = 1;
-  std::signal(signal, SIG_DFL);  // the next one ends the program
-}
 
 /// A worker process: its number, and the pipe for its error message.
 struct Worker {
@@ -77,27 +69,6 @@ std::pair<Worker, std::string> wait_for_one(std::map<pid_t, Worker>& running) {
 }
 
 }  // namespace
-
-ListeningScope::ListeningScope() {
-  for (std::size_t i = 0; i < before_.size(); ++i) ::sigaction(interrupts[i], nullptr, &before_[i]);
-}
-
-ListeningScope::~ListeningScope() {
-  for (std::size_t i = 0; i < before_.size(); ++i) ::sigaction(interrupts[i], &before_[i], nullptr);
-  requested = 0;
-}
-
-void listen_for_interrupt() {
-  for (const int signal : interrupts) {
-    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
-  }
-}
-
-bool interrupt_requested() noexcept { return requested != 0; }
-
-void throw_if_interrupted() {
-  if (interrupt_requested()) throw Interrupted();
-}
 
 void for_each_in_processes(std::size_t count, std::size_t jobs, const std::function<void(std::size_t)>& work,
                            const std::function<void(std::size_t)>& done) {

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/described_tables.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/json_place.hpp"
-#include "bench/run/process_pool.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/uniform_01.hpp"
 #include "methods/diagnostics/accuracy.hpp"

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/described_tables.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/json_place.hpp"
 #include "bench/run/metadata.hpp"
-#include "bench/run/process_pool.hpp"
 #include "methods/runtime/counted.hpp"
 
 namespace dmocbench {

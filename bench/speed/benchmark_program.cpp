@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/command_line.hpp"
+#include "bench/run/error_sentences.hpp"
 #include "bench/run/metadata.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/error.hpp"

@@ -8,8 +8,9 @@
 #include <fmt/format.h>
 #include <valgrind/callgrind.h>
 
+#include "bench/run/build.hpp"
 #include "bench/run/command_line.hpp"
-#include "bench/run/metadata.hpp"
+#include "bench/run/error_sentences.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"

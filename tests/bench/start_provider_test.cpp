@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/mechanics/embedded_problem.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"

@@ -6,7 +6,7 @@
 
 #include "bench/experiments/invariants/example_systems.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "methods/diagnostics/exact_discrete_lagrangian.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"

@@ -10,7 +10,7 @@
 
 #include "bench/experiments/invariants/example_systems.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"

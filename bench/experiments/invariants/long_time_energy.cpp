@@ -8,7 +8,7 @@
 #include <boost/numeric/odeint.hpp>
 
 #include "bench/experiments/invariants/example_systems.hpp"
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/error.hpp"

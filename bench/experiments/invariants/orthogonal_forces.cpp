@@ -6,7 +6,7 @@
 
 #include "bench/experiments/invariants/example_systems.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/start_provider.hpp"
 #include "methods/transcription/elements/families.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "bench/experiments/invariants/example_systems.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/mechanics/legendre_transform.hpp"

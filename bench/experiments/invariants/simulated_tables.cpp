@@ -10,7 +10,7 @@
 #include "bench/experiments/invariants/example_systems.hpp"
 #include "bench/experiments/invariants/one_step_tableaus.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "bench/extensions/step_control/kepler_ellipse.hpp"
-#include "bench/run/process_pool.hpp"
+#include "bench/run/interrupt.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/extensions/step_control/step_times.hpp"
