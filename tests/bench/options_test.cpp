@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/run/command_line.hpp"
+#include "bench/run/error_sentences.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/motions/grid.hpp"
 #include "tests/support/sentence_of_error.hpp"
