@@ -87,7 +87,8 @@ TEST_F(Stores, OfACopiedFolderHaveTheirTablesThere) {
     changed["tables"][0][member] = value;
     expect_error_naming({"invariants.rows", words}, [&] { static_cast<void>(tables_of_stage(changed, file())); });
   };
-  for (const char* const name : {"/tmp/victim", "../invariants", "invariants/../../victim", ".bashrc", "convergence", ""})
+  for (const char* const name :
+       {"/tmp/victim", "../invariants", "invariants/../../victim", ".bashrc", "convergence", ""})
     expect_refused("name", name, "not one of this run");
   for (const char* const member : {"name", "csv", "facts", "key", "not_measured"})
     expect_refused(member, nullptr, member);
