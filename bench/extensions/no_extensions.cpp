@@ -1,7 +1,10 @@
 // Stands for the extensions in a build without them.
+#include <string>
+
 #include "bench/claims/claim.hpp"
 #include "bench/extensions/claims_of_extensions.hpp"
 #include "bench/programs.hpp"
+#include "methods/error.hpp"
 
 namespace dmocbench {
 
@@ -14,7 +17,8 @@ void register_extensions() {
                       .states = "",
                       .judge = [](const ResultTables& /*tables*/, const std::string& /*problem*/) -> Finding {
                         throw Error("not judged: built without extensions");
-                      }});
+                      },
+                      .evidence = {}});
   }
   add_claims(claims);
 }
