@@ -29,6 +29,7 @@ function(dmocbench_link_compiled_folders)
   foreach(folder expression runtime numerics support program kkt judgement transcription solvers)
     get_property(targets DIRECTORY tests/${folder} PROPERTY BUILDSYSTEM_TARGETS)
     list(FILTER targets INCLUDE REGEX "^tests_")
+    list(REMOVE_ITEM targets tests_counted_allocations) # objects of it have to be objects of this build
     foreach(target IN LISTS targets)
       dmocbench_link_compiled(${target} tests/${folder})
     endforeach()
