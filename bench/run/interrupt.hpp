@@ -22,7 +22,7 @@ class ListeningScope {
   ListeningScope& operator=(ListeningScope&&) = delete;
 
  private:
-  std::array<struct sigaction, 3> before_;
+  std::array<struct sigaction, 3> before_{};
 };
 
 /// True once a stop has been requested.

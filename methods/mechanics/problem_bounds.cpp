@@ -115,7 +115,8 @@ std::vector<InteriorBounds> checked_interior(std::vector<InteriorBounds> interio
   for (std::size_t j = 0; j < interior.size(); ++j) {
     InteriorBounds& at = interior[j];
     const std::string subject = fmt::format("{}[{}]", name, j);
-    if (!(at.relative_time > 0.0 && at.relative_time < 1.0)) {
+    const bool is_inside = at.relative_time > 0.0 && at.relative_time < 1.0;  // not where it is not a number
+    if (!is_inside) {
       throw Error(fmt::format("{}.relative_time is {:g}; it must lie between 0 and 1, as a share of the horizon",
                               subject, at.relative_time));
     }
