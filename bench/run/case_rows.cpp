@@ -95,15 +95,15 @@ Table CaseRows::table() const {
   return table;
 }
 
-Json CaseRows::entry_of(std::size_t number) const {
+Json CaseRows::entry_of(std::size_t number, const Row& row) const {
   Json fields = Json::array();
-  for (const std::string& column : columns_) fields.push_back(rows_[number]->text(column));
+  for (const std::string& column : columns_) fields.push_back(row.text(column));
   return {{"case", number + 1}, {"row", std::move(fields)}};
 }
 
 void CaseRows::keep(std::size_t number, Row row) {
+  Json entry = entry_of(number, row);
   rows_[number] = std::move(row);
-  Json entry = entry_of(number);
   if (experiment_.indirect() != nullptr) {
     if (Json findings = experiment_.indirect()->findings(); findings != findings_)
       entry["findings"] = findings_ = std::move(findings);
@@ -139,7 +139,7 @@ std::size_t CaseRows::resume(const std::vector<std::size_t>& groups) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!is_whole[groups[i]]) rows_[i].reset();
     if (!rows_[i]) continue;
-    store_.keep(entry_of(i));
+    store_.keep(entry_of(i, *rows_[i]));
     ++resumed;
   }
   return resumed;
@@ -148,8 +148,10 @@ std::size_t CaseRows::resume(const std::vector<std::size_t>& groups) {
 std::vector<std::size_t> CaseRows::collect(const std::filesystem::path& file) {
   std::error_code none;  // a process that was interrupted before its first row has no file
   if (!std::filesystem::exists(file, none)) return {};
-  const std::vector<std::size_t> numbers = take(read_store(file));
-  for (const std::size_t number : numbers) keep(number, *rows_[number]);
+  std::vector<std::size_t> numbers = take(read_store(file));
+  for (const std::size_t number : numbers) {
+    if (const std::optional<Row>& row = rows_[number]) keep(number, *row);
+  }
   std::filesystem::remove(file, none);
   return numbers;
 }

@@ -47,7 +47,7 @@ class CaseRows {
   void remove_store() const { store_.remove(); }
 
  private:
-  [[nodiscard]] nlohmann::ordered_json entry_of(std::size_t number) const;
+  [[nodiscard]] nlohmann::ordered_json entry_of(std::size_t number, const Row& row) const;
   std::vector<std::size_t> take(const StoredEntries& stored);
   void require_all(const RunPlan& plan, std::size_t parts) const;
 
