@@ -7,6 +7,9 @@
 // A step is inlined into its sweep so that its blocks can live in registers; CMake changes this for sanitizers.
 #ifndef DMOCBENCH_INLINE
 #define DMOCBENCH_INLINE [[gnu::always_inline]] inline
+#define DMOCBENCH_INLINED __attribute__((always_inline))  // for lambdas
+#else
+#define DMOCBENCH_INLINED
 #endif
 
 // NOLINTBEGIN(*-avoid-c-arrays,*-member-init,*-identifier-naming): in registers; names of the formulas
@@ -180,35 +183,6 @@ struct LocalSystem {
   MatrixView<const Lanes> hessian;     // Z x (Z, X, 1)
   MatrixView<const Lanes> inequality;  // inequalities x (Z, X, 1)
   MatrixView<const Lanes> compliance;
-};
-
-/// Work of one step backward for a fixed shape.
-template <class S>
-struct StepWork {
-  StepWork(const S& shape, Memory& memory)
-      : equalities(shape, memory),
-        reciprocals(shape, memory),
-        gradient(shape, memory),
-        transition(shape, memory),
-        costate(shape, memory),
-        condensed(shape, memory),
-        scaled(shape, memory),
-        line(shape, memory),
-        last_state(shape, memory) {}
-
-  /// A dependent entry of Z, which is one of the next state, as a function of (w, X, 1), column j.
-  [[nodiscard]] DMOCBENCH_INLINE Lanes& dependent(int entry, int j) { return transition(entry, j); }
-
-  LaneMatrix<S, row_count, local_column_count<S>> equalities;  // n x (Z, X, 1): factors; then dependent Z, negative
-  LaneMatrix<S, row_count, one_column> reciprocals;            // of the pivots
-  LaneMatrix<S, next_size<S>, column_count<S>> gradient;       // of the interval's own cost with respect to Z
-  LaneMatrix<S, state_size<S>, column_count<S>> transition;    // the next state as a function of (w, X, 1)
-  LaneMatrix<S, state_size<S>, column_count<S>> costate;  // derivative of the cost-to-go with respect to the next state
-  LaneMatrix<S, column_count<S>, column_count<S>>
-      condensed;                                       // quadratic form of interval and cost-to-go; lower triangle
-  LaneMatrix<S, free_size<S>, scaled_columns> scaled;  // w x (w, X, 1, ν): eliminated rows divided by pivots
-  LaneMatrix<S, column_count<S>, one_column> line;     // an inequality, weighted
-  LaneMatrix<S, column_count<S>, state_size<S>> last_state;  // (w, X, 1) x ν
 };
 
 }  // namespace DMOCBENCH_LANES

@@ -7,8 +7,9 @@
 
 #include "methods/kkt/intervals/kernel_blocks.hpp"
 
-// Products of matrices whose sizes are unknown at compile time. A tile of the result stays in registers while the
-// factors are read once, so that most operations are on registers. NOLINTBEGIN(*-avoid-c-arrays,*-member-init): arrays
+// Products of matrices for the step of a shape S (elimination_step.hpp). If sizes are known at compile time, all loops
+// are unrolled, and the sums stay in registers. Else a tile of the result stays in registers while the factors are read
+// once, so that most operations are on registers. NOLINTBEGIN(*-avoid-c-arrays,*-member-init): arrays
 // that live in registers
 namespace dmocbench::kkt {
 inline namespace DMOCBENCH_LANES {
@@ -32,15 +33,15 @@ struct StridedView {
 using Block = StridedView<Lanes>;
 using ConstBlock = StridedView<const Lanes>;
 
-inline Block block(const MatrixView<Lanes>& matrix) { return {matrix.first, 1, matrix.rows}; }
-inline ConstBlock block(const MatrixView<const Lanes>& matrix) { return {matrix.first, 1, matrix.rows}; }
+DMOCBENCH_INLINE Block block(const MatrixView<Lanes>& matrix) { return {matrix.first, 1, matrix.rows}; }
+DMOCBENCH_INLINE ConstBlock block(const MatrixView<const Lanes>& matrix) { return {matrix.first, 1, matrix.rows}; }
 template <class S, auto rows, auto columns>
-Block block(LaneMatrix<S, rows, columns, false>& matrix) {
+DMOCBENCH_INLINE Block block(LaneMatrix<S, rows, columns>& matrix) {
   return {matrix.data(), 1, matrix.height()};
 }
 /// An array as a matrix of one column.
-inline Block column(Lanes* array) { return {array, 1, 0}; }
-inline ConstBlock column(const Lanes* array) { return {array, 1, 0}; }
+DMOCBENCH_INLINE Block column(Lanes* array) { return {array, 1, 0}; }
+DMOCBENCH_INLINE ConstBlock column(const Lanes* array) { return {array, 1, 0}; }
 
 /// The entries of a product to compute: `lower` without entries above the diagonal. Entries less than `tile_columns`
 /// above it are written nevertheless.
@@ -52,6 +53,7 @@ struct ProductSizes {
   int columns;
   int depth;
   Part part = Part::all;
+  [[nodiscard]] DMOCBENCH_INLINE ProductSizes of_depth(int other) const { return {rows, columns, other, part}; }
 };
 
 /// result = left right, or the product is added to the result or subtracted from it.
@@ -137,17 +139,106 @@ inline void carry_out(const Product& product) {
   }
 }
 
-inline void set_product(const Block& result, const ConstBlock& left, const ConstBlock& right,
-                        const ProductSizes& sizes) {
-  carry_out({Product::Update::set, result, left, right, sizes});
+/// Calls `of_entry(i, j)` for the entries of a matrix, column by column.
+template <class OfEntry>
+DMOCBENCH_INLINE void for_entries(const ProductSizes& sizes, const OfEntry& of_entry) {
+  for (int j = 0; j < sizes.columns; ++j) {
+    for (int i = sizes.part == Part::lower ? j : 0; i < sizes.rows; ++i) of_entry(i, j);
+  }
 }
-inline void add_product(const Block& result, const ConstBlock& left, const ConstBlock& right,
-                        const ProductSizes& sizes) {
-  carry_out({Product::Update::add, result, left, right, sizes});
+
+/// Calls `of_tile(i, j, sizes)` for the parts of a product, which begin with entry (i, j): for every entry if sizes are
+/// known at compile time, so that an entry stays in a register until it is finished, else once for all.
+template <class S, class OfTile>
+DMOCBENCH_INLINE void for_tiles(const ProductSizes& sizes, const OfTile& of_tile) {
+  if constexpr (is_always_plain<S>) {
+    for_entries(sizes, [&](int i, int j) DMOCBENCH_INLINED {
+      of_tile(i, j, ProductSizes{1, 1, sizes.depth, sizes.part});
+    });
+  } else {
+    of_tile(0, 0, sizes);
+  }
 }
-inline void subtract_product(const Block& result, const ConstBlock& left, const ConstBlock& right,
-                             const ProductSizes& sizes) {
-  carry_out({Product::Update::subtract, result, left, right, sizes});
+/// The same for rows or columns: calls `of_range(first, count)`.
+template <class S, class OfRange>
+DMOCBENCH_INLINE void for_ranges(int size, const OfRange& of_range) {
+  if constexpr (is_always_plain<S>) {
+    for (int i = 0; i < size; ++i) of_range(i, 1);
+  } else if (size > 0) {
+    of_range(0, size);
+  }
+}
+
+/// The product, or the old value plus or minus the product. Sums begin with the old value if sizes are known, else they
+/// are added to it or subtracted from it.
+template <class S, Product::Update update>
+DMOCBENCH_INLINE void update_by_product(const Block& result, const ConstBlock& left, const ConstBlock& right,
+                                        const ProductSizes& sizes) {
+  if constexpr (is_always_plain<S>) {
+    for_entries(sizes, [&](int i, int j) DMOCBENCH_INLINED {
+      Lanes sum = update == Product::Update::set ? Lanes{} : result(i, j);
+      for (int k = 0; k < sizes.depth; ++k) {
+        if (update == Product::Update::subtract) {
+          sum -= left(i, k) * right(k, j);
+        } else {
+          sum += left(i, k) * right(k, j);
+        }
+      }
+      result(i, j) = sum;
+    });
+  } else {
+    carry_out({update, result, left, right, sizes});
+  }
+}
+template <class S>
+DMOCBENCH_INLINE void set_product(const Block& result, const ConstBlock& left, const ConstBlock& right,
+                                  const ProductSizes& sizes) {
+  update_by_product<S, Product::Update::set>(result, left, right, sizes);
+}
+template <class S>
+DMOCBENCH_INLINE void add_product(const Block& result, const ConstBlock& left, const ConstBlock& right,
+                                  const ProductSizes& sizes) {
+  update_by_product<S, Product::Update::add>(result, left, right, sizes);
+}
+template <class S>
+DMOCBENCH_INLINE void subtract_product(const Block& result, const ConstBlock& left, const ConstBlock& right,
+                                       const ProductSizes& sizes) {
+  update_by_product<S, Product::Update::subtract>(result, left, right, sizes);
+}
+
+/// Calls `put(i, j, difference)` for start values minus a product. Only known sizes leave the start values as they are:
+/// a result that is put straight to its place need not be stored twice.
+template <class S, class Put>
+DMOCBENCH_INLINE void put_difference(const Block& start, const ConstBlock& left, const ConstBlock& right,
+                                     const ProductSizes& sizes, const Put& put) {
+  if constexpr (is_always_plain<S>) {
+    for_entries(sizes, [&](int i, int j) DMOCBENCH_INLINED {
+      Lanes sum = start(i, j);
+      for (int k = 0; k < sizes.depth; ++k) sum -= left(i, k) * right(k, j);
+      put(i, j, sum);
+    });
+  } else {
+    subtract_product<S>(start, left, right, sizes);
+    for_entries(sizes, [&](int i, int j) DMOCBENCH_INLINED { put(i, j, start(i, j)); });
+  }
+}
+
+/// The product plus terms, which `add_terms(i, j, sum)` adds: before the products if sizes are known, else after them.
+/// `left` may be a function of (i, j) if sizes are known.
+template <class S, class Left, class AddTerms>
+DMOCBENCH_INLINE void set_product_and_terms(const Block& result, const Left& left, const ConstBlock& right,
+                                            const ProductSizes& sizes, const AddTerms& add_terms) {
+  if constexpr (is_always_plain<S>) {
+    for_entries(sizes, [&](int i, int j) DMOCBENCH_INLINED {
+      Lanes sum{};
+      add_terms(i, j, sum);
+      for (int k = 0; k < sizes.depth; ++k) sum += left(i, k) * right(k, j);
+      result(i, j) = sum;
+    });
+  } else {
+    carry_out({Product::Update::set, result, left, right, sizes});
+    for_entries(sizes, [&](int i, int j) DMOCBENCH_INLINED { add_terms(i, j, result(i, j)); });
+  }
 }
 
 /// Zeros where products of the lower part of a matrix write above its diagonal: these add to the old values.

@@ -3,8 +3,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "methods/kkt/intervals/any_size_step.hpp"
-#include "methods/kkt/intervals/fixed_size_step.hpp"
+#include "methods/kkt/intervals/elimination_step.hpp"
 #include "methods/kkt/intervals/kernel_blocks.hpp"
 #include "methods/kkt/intervals/kernel_gather.hpp"
 #include "methods/kkt/intervals/segment_kernel.hpp"
