@@ -17,7 +17,7 @@
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/runtime/counted.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/transcription/derivatives/back_ends.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/families.hpp"

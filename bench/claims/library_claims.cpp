@@ -6,7 +6,7 @@
 #include "bench/claims/claim.hpp"
 #include "bench/tables/profile_tables.hpp"
 #include "bench/tables/share_interval.hpp"
-#include "methods/runtime/counted.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {

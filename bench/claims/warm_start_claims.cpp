@@ -4,7 +4,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/claims/timed_ratios.hpp"
-#include "methods/runtime/counted.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

@@ -22,7 +22,7 @@
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"

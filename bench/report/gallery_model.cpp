@@ -9,7 +9,7 @@
 
 #include "bench/report/model.hpp"
 #include "bench/report/words.hpp"
-#include "methods/runtime/counted.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "problems/problem_registry.hpp"
 #include "problems/registry.hpp"
 

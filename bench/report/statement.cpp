@@ -15,7 +15,7 @@
 #include "methods/expression/vectors.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

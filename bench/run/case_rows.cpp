@@ -12,7 +12,7 @@
 #include "bench/run/json_place.hpp"
 #include "methods/error.hpp"
 #include "methods/program/status.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

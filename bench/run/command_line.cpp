@@ -26,7 +26,7 @@
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/environment.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {

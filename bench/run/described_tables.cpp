@@ -10,7 +10,7 @@
 #include "bench/run/solve_case.hpp"
 #include "methods/error.hpp"
 #include "methods/program/status.hpp"
-#include "methods/runtime/counted.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

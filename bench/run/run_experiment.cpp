@@ -21,7 +21,7 @@
 #include "bench/run/result_file.hpp"
 #include "bench/run/run_plan.hpp"
 #include "methods/error.hpp"
-#include "methods/runtime/counted.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/tables/motion_file.hpp"
 
 namespace dmocbench {

@@ -11,7 +11,7 @@
 #include "bench/run/result_file.hpp"
 #include "bench/run/row_store.hpp"
 #include "methods/error.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

@@ -10,7 +10,7 @@
 #include "bench/run/interrupt.hpp"
 #include "bench/run/json_place.hpp"
 #include "bench/run/metadata.hpp"
-#include "methods/runtime/counted.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

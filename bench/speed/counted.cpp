@@ -17,8 +17,8 @@
 #include "methods/program/counted_program.hpp"
 #include "methods/program/forwarding_program.hpp"
 #include "methods/runtime/environment.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/parallel.hpp"
-#include "methods/runtime/parsed.hpp"
 #include "methods/solvers/solver.hpp"
 #include "problems/registry.hpp"
 

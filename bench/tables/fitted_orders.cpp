@@ -13,7 +13,7 @@
 #include "bench/run/solve_case.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/numerics/median.hpp"
-#include "methods/runtime/counted.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "methods/error.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

@@ -37,7 +37,7 @@
 #include "methods/kkt/mumps_lock.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/clock.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/run_alone.hpp"
 

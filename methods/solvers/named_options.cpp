@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "methods/error.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

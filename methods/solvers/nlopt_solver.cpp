@@ -20,7 +20,7 @@
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/kkt/linearisation.hpp"
 #include "methods/program/counted_program.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/solvers/one_sided_constraints.hpp"
 
 namespace dmocbench {

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "methods/error.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/tables/read_fields.hpp"
 
 namespace dmocbench {

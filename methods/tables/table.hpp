@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

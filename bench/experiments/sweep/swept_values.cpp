@@ -13,7 +13,7 @@
 #include "bench/run/uniform_01.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

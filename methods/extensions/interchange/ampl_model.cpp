@@ -14,7 +14,7 @@
 #include "methods/expression/replay.hpp"
 #include "methods/extensions/interchange/ampl_definitions.hpp"
 #include "methods/extensions/interchange/ampl_names.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 

@@ -8,7 +8,7 @@
 
 #include "methods/error.hpp"
 #include "methods/numerics/lagrange_basis.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/transcription/elements/dmoc_element.hpp"
 
 namespace dmocbench {

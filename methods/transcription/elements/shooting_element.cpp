@@ -11,7 +11,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/linear_solve.hpp"
-#include "methods/runtime/parsed.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
