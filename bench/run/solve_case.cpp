@@ -15,7 +15,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/polish.hpp"
-#include "methods/numerics/median.hpp"
+#include "methods/numerics/quantile.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/describe_violation.hpp"

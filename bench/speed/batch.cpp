@@ -17,7 +17,7 @@
 #include "bench/run/uniform_01.hpp"
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
-#include "methods/numerics/median.hpp"
+#include "methods/numerics/quantile.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/solvers/batch/instance_program.hpp"

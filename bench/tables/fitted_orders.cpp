@@ -12,7 +12,7 @@
 #include "bench/run/column.hpp"
 #include "bench/run/solve_case.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
-#include "methods/numerics/median.hpp"
+#include "methods/numerics/quantile.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {

@@ -10,7 +10,7 @@
 
 #include "bench/run/column.hpp"
 #include "bench/run/solve_case.hpp"
-#include "methods/numerics/median.hpp"
+#include "methods/numerics/quantile.hpp"
 
 namespace dmocbench {
 

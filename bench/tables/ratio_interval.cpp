@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/numerics/median.hpp"
+#include "methods/numerics/quantile.hpp"
 
 namespace dmocbench {
 

@@ -9,7 +9,7 @@
 #include "methods/expression/linear_solve.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/numerics/dense_solve.hpp"
-#include "methods/numerics/lagrange_basis.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

@@ -11,7 +11,7 @@
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/path_constraints.hpp"
 #include "methods/numerics/dense_solve.hpp"
-#include "methods/numerics/lagrange_basis.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

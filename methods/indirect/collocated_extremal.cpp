@@ -9,7 +9,7 @@
 
 #include "methods/error.hpp"
 #include "methods/numerics/dense_solve.hpp"
-#include "methods/numerics/lagrange_basis.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

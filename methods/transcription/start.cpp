@@ -10,7 +10,7 @@
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/numerics/lagrange_basis.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 #include "methods/transcription/fitted_forces.hpp"
 
 namespace dmocbench {

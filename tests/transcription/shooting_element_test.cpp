@@ -7,7 +7,7 @@
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/numerics/lagrange_basis.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"

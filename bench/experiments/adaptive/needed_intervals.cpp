@@ -7,7 +7,7 @@
 
 #include "bench/run/solve_case.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
-#include "methods/numerics/median.hpp"
+#include "methods/numerics/quantile.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/start.hpp"

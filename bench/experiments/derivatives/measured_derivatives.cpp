@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "methods/expression/replay.hpp"
-#include "methods/numerics/median.hpp"
+#include "methods/numerics/quantile.hpp"
 #include "methods/runtime/clock.hpp"
 
 namespace dmocbench {

@@ -2,7 +2,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
-#include "methods/numerics/lagrange_basis.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 
 #include "methods/error.hpp"
-#include "methods/numerics/lagrange_basis.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 #include "methods/transcription/elements/dmoc_element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

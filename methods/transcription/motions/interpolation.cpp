@@ -7,7 +7,7 @@
 
 #include <boost/math/interpolators/cubic_hermite.hpp>
 
-#include "methods/numerics/lagrange_basis.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

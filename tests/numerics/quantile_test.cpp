@@ -1,4 +1,4 @@
-#include "methods/numerics/median.hpp"
+#include "methods/numerics/quantile.hpp"
 
 #include <cmath>
 
