@@ -6,7 +6,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
-#include "methods/expression/linear_solve.hpp"
+#include "methods/expression/vectors.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/numerics/dense_solve.hpp"
 #include "methods/transcription/elements/tableau.hpp"

@@ -5,7 +5,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
-#include "methods/expression/linear_solve.hpp"
+#include "methods/expression/vectors.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 

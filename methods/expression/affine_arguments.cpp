@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "methods/expression/definitions.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/expression/schedule.hpp"
 
 namespace dmocbench {
 

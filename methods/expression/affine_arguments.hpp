@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "methods/expression/definitions.hpp"
+#include "methods/expression/schedule.hpp"
 #include "methods/expression/vectors.hpp"
 
 namespace dmocbench {
@@ -37,5 +37,9 @@ class AffineArguments {
   ExpressionMatrix coefficients_;
   std::vector<Expression> formulas_;
 };
+
+/// The formulas with `replacements` in place of `nodes`, as many.
+[[nodiscard]] std::vector<Expression> replaced(std::span<const Expression> formulas, const ExpressionVector& nodes,
+                                               const ExpressionVector& replacements);
 
 }  // namespace dmocbench

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/expression/definitions.hpp"
+#include "methods/expression/schedule.hpp"
 #include "methods/expression/vectors.hpp"
 
 namespace dmocbench {

@@ -5,10 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "methods/expression/definitions.hpp"
 #include "methods/expression/vectors.hpp"
 
 namespace dmocbench {
+
+/// Inputs that stand for formulas: `inputs[i]` for `formulas[i]`, which reads none of the inputs.
+struct Definitions {
+  ExpressionVector inputs;    ///< read by other formulas
+  ExpressionVector formulas;  ///< their definitions, as many
+};
 
 /// The operations that given outputs need, in an order in which they can be carried out.
 ///

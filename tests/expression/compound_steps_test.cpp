@@ -1,5 +1,3 @@
-#include "methods/expression/compound_steps.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/expression/tape.hpp"
 #include "tests/expression/random_program.hpp"
 #include "tests/expression/series_table.hpp"
 

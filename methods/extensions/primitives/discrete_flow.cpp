@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "methods/expression/derivatives.hpp"
-#include "methods/expression/linear_solve.hpp"
 #include "methods/expression/vectors.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 

@@ -1,7 +1,7 @@
 #include "methods/transcription/elements/collocation_elements.hpp"
 
 #include "methods/error.hpp"
-#include "methods/expression/linear_solve.hpp"
+#include "methods/expression/vectors.hpp"
 #include "methods/transcription/elements/dmoc_element.hpp"
 
 namespace dmocbench {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/expression/linear_solve.hpp"
+#include "methods/expression/vectors.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {

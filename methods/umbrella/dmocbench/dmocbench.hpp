@@ -15,7 +15,7 @@
 #include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
-#include "methods/expression/linear_solve.hpp"
+#include "methods/expression/vectors.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/sensitivity/feedback_gains.hpp"
 #include "methods/sensitivity/sensitivities.hpp"

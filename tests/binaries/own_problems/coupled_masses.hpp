@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/expression/linear_solve.hpp"
+#include "methods/expression/vectors.hpp"
 #include "methods/mechanics/problem.hpp"
 
 namespace own {
