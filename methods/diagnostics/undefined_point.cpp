@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "methods/mechanics/formula_check.hpp"
+#include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 

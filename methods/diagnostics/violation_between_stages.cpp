@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/member_name.hpp"
-#include "methods/mechanics/path_constraints.hpp"
 #include "methods/numerics/dense_solve.hpp"
 #include "methods/transcription/elements/tableau.hpp"
 

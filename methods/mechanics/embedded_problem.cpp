@@ -13,7 +13,6 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/mechanics/call_formula.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/numerics/dense_solve.hpp"
 

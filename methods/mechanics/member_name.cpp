@@ -1,5 +1,15 @@
 #include "methods/mechanics/member_name.hpp"
 
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
+
 namespace dmocbench {
 
 namespace {
@@ -19,5 +29,23 @@ std::string member_name(std::string_view member) {
 }
 
 void spell_members(std::vector<std::pair<std::string, std::string>> names) { other_names() = std::move(names); }
+
+void rethrow_naming(const std::string& name, const char* function) {
+  try {
+    throw;
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).starts_with(name)) throw;
+    throw Error(fmt::format("{}: {}: {}", name, member_name(function), error.what()));
+  } catch (const std::exception& error) {
+    throw Error(fmt::format("{}: {} throws an exception: {}", name, member_name(function), error.what()));
+  } catch (...) {
+    throw Error(fmt::format("{}: {} throws an object that is not a std::exception; throw dmocbench::Error", name,
+                            member_name(function)));
+  }
+}
 
 }  // namespace dmocbench

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/call_formula.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/call_formula.hpp"
 #include "methods/mechanics/member_name.hpp"
 
 namespace dmocbench {

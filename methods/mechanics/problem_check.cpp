@@ -8,8 +8,8 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/vectors.hpp"
-#include "methods/mechanics/call_formula.hpp"
 #include "methods/mechanics/column_names.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 

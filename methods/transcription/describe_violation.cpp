@@ -9,7 +9,7 @@
 
 #include "methods/expression/schedule.hpp"
 #include "methods/judgement/dependent_rows.hpp"
-#include "methods/mechanics/formula_check.hpp"
+#include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/transcription/start.hpp"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/path_constraints.hpp"
+#include "methods/mechanics/formulas_along_motion.hpp"
 
 namespace dmocbench {
 

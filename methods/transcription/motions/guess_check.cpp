@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/call_formula.hpp"
-#include "methods/mechanics/formula_check.hpp"
+#include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/holonomic_constraints.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
