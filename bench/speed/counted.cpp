@@ -15,7 +15,7 @@
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/program/counted_program.hpp"
-#include "methods/program/forwarding_program.hpp"
+#include "methods/program/nonlinear_program.hpp"
 #include "methods/runtime/environment.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/parallel.hpp"

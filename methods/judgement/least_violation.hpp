@@ -8,7 +8,6 @@
 #include "methods/program/counted_program.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
-#include "methods/program/solver_options.hpp"
 
 namespace dmocbench {
 

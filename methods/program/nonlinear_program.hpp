@@ -1,14 +1,38 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Core>
 
 #include "methods/program/block_pattern.hpp"
 #include "methods/program/interval_structure.hpp"
-#include "methods/program/rounding_floors.hpp"
 
 namespace dmocbench {
+
+/// The sizes below which residuals of a program are rounding: about ε · (size of the terms of a constraint).
+///
+/// Each constraint and each variable has a floor of its own, so that a constraint whose terms are large excuses nothing
+/// elsewhere.
+struct RoundingFloors {
+  double smallest = 0.0;  ///< of all constraints and variables
+  double largest = 0.0;   ///< of all constraints and variables
+  /// One for every constraint; empty where all floors are equal.
+  Eigen::VectorXd constraints;
+  /// One for every variable, for its entry of (∂a/∂ξ)ᵀλ with |λ| = 1; empty where all floors are equal.
+  Eigen::VectorXd variables;
+
+  /// True if one floor holds for all.
+  [[nodiscard]] bool are_equal() const noexcept { return constraints.size() == 0; }
+  /// The floor of constraint i.
+  [[nodiscard]] double of_constraint(Eigen::Index i) const { return are_equal() ? largest : constraints[i]; }
+  /// The Euclidean norm of the floors of all `count` constraints.
+  [[nodiscard]] double norm_of_constraints(Eigen::Index count) const {
+    return are_equal() ? largest * std::sqrt(static_cast<double>(count)) : constraints.norm();
+  }
+  /// The floor of variable j.
+  [[nodiscard]] double of_variable(Eigen::Index j) const { return are_equal() ? largest : variables[j]; }
+};
 
 /// "No bound" on one side.
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
@@ -84,5 +108,37 @@ class NonlinearProgram {
 [[nodiscard]] inline std::size_t free_variable_count(const NonlinearProgram& program) {
   return static_cast<std::size_t>((program.variable_lower().array() != program.variable_upper().array()).count());
 }
+
+/// Forwards every call to another program, which must outlive it. Derived classes override some of them.
+class ForwardingProgram : public NonlinearProgram {
+ public:
+  [[nodiscard]] std::size_t variable_count() const override { return original_.variable_count(); }
+  [[nodiscard]] std::size_t constraint_count() const override { return original_.constraint_count(); }
+  [[nodiscard]] const Eigen::VectorXd& variable_lower() const override { return original_.variable_lower(); }
+  [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return original_.variable_upper(); }
+  [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return original_.constraint_lower(); }
+  [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return original_.constraint_upper(); }
+  [[nodiscard]] const BlockPattern& jacobian_structure() const override { return original_.jacobian_structure(); }
+  [[nodiscard]] const BlockPattern& hessian_structure() const override { return original_.hessian_structure(); }
+  [[nodiscard]] const RoundingFloors& rounding_floors() const override { return original_.rounding_floors(); }
+  [[nodiscard]] const IntervalStructure* interval_structure() const override { return original_.interval_structure(); }
+
+  [[nodiscard]] double objective(const VectorIn& x) override { return original_.objective(x); }
+  void gradient(const VectorIn& x, VectorOut result) override { original_.gradient(x, result); }
+  void constraints(const VectorIn& x, VectorOut result) override { original_.constraints(x, result); }
+  void jacobian(const VectorIn& x, VectorOut values) override { original_.jacobian(x, values); }
+  void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override {
+    original_.hessian(x, objective_factor, multipliers, values);
+  }
+
+ protected:
+  /// It must outlive this.
+  explicit ForwardingProgram(NonlinearProgram& original) : original_(original) {}
+  /// The original program.
+  [[nodiscard]] NonlinearProgram& original() const noexcept { return original_; }
+
+ private:
+  NonlinearProgram& original_;
+};
 
 }  // namespace dmocbench

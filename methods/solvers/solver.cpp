@@ -12,7 +12,7 @@
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/least_violation.hpp"
 #include "methods/program/counted_program.hpp"
-#include "methods/program/forwarding_program.hpp"
+#include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench {
 

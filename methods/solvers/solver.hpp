@@ -11,7 +11,6 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
-#include "methods/program/solver_options.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/interval_structure.hpp"
-#include "methods/program/rounding_floors.hpp"
+#include "methods/program/nonlinear_program.hpp"
 #include "methods/transcription/motions/guess_check.hpp"
 
 namespace dmocbench {

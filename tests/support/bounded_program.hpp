@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "methods/program/forwarding_program.hpp"
+#include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench::tests {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/program/forwarding_program.hpp"
+#include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench::batch {
 

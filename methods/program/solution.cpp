@@ -1,4 +1,4 @@
-#include "methods/program/solver_options.hpp"
+#include "methods/program/solution.hpp"
 
 #include <cmath>
 
