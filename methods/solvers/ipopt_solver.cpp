@@ -34,7 +34,7 @@
 
 #include "methods/error.hpp"
 #include "methods/judgement/stop_rule.hpp"
-#include "methods/kkt/mumps_lock.hpp"
+#include "methods/kkt/symmetric_factorisation.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/numbers_in_text.hpp"

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "methods/kkt/mumps_lock.hpp"
+#include "methods/kkt/symmetric_factorisation.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/solvers/solver.hpp"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/kkt/mumps_lock.hpp"
+#include "methods/kkt/symmetric_factorisation.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 #include <tl/expected.hpp>
 
-#include "methods/kkt/intervals/dense_inertia.hpp"
 #include "methods/kkt/intervals/interval_entries.hpp"
 #include "methods/kkt/intervals/segment_chain.hpp"
 #include "methods/kkt/kkt_system.hpp"
