@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "methods/expression/schedule.hpp"
-#include "methods/judgement/dependent_rows.hpp"
+#include "methods/judgement/linearised_conditions.hpp"
 #include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/transcription/start.hpp"

@@ -1,10 +1,9 @@
-#include "methods/judgement/dependent_rows.hpp"
-
 #include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>
 
+#include "methods/judgement/linearised_conditions.hpp"
 #include "tests/support/small_programs.hpp"
 
 namespace dmocbench {
