@@ -21,7 +21,7 @@
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/elements/families.hpp"
-#include "methods/transcription/motions/moved_to_ends.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 
 namespace dmocbench::python {

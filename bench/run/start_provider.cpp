@@ -24,7 +24,7 @@
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/tables/motion_file.hpp"
 #include "methods/transcription/elements/families.hpp"
-#include "methods/transcription/motions/bent_motion.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

@@ -21,7 +21,6 @@
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
-#include "methods/transcription/motions/moved_to_ends.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 #include "problems/registry.hpp"

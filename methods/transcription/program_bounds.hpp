@@ -7,9 +7,12 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/program/interval_structure.hpp"
+#include "methods/program/nonlinear_program.hpp"
 #include "methods/transcription/blocks.hpp"
 #include "methods/transcription/end_functions.hpp"
 #include "methods/transcription/motions/grid.hpp"
+#include "methods/transcription/motions/guess_check.hpp"
 
 namespace dmocbench {
 
@@ -31,5 +34,10 @@ struct ProgramBounds {
 
 /// Throws `Error` unless the same entries have bounds, and equal ones, as before: solvers are set up for that.
 void require_same_structure(const Problem& problem, const ProgramBounds& before, const ProgramBounds& now);
+
+/// The floors of a program (`Transcription::rounding_floors`) from max|q| and max|L_vv| over the ends and the guess,
+/// and the steps of the intervals.
+[[nodiscard]] RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::VectorXd& steps,
+                                                const IntervalStructure& structure);
 
 }  // namespace dmocbench

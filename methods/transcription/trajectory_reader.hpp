@@ -2,10 +2,22 @@
 
 #include <Eigen/Core>
 
+#include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/motions/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {
+
+/// Adds P_i = L_v(Q_i, Q̇_i) and the v_k with L_v(q_k, v_k) = p_k to a discrete motion that has all else; each solve
+/// starts from the velocity of a nearby stage. With holonomic constraints G v_k = 0, and p_k becomes the projected
+/// momentum L_v(q_k, v_k). Throws `Error` if L_vv is singular on the motion.
+void add_velocities(const TracedProblem& problem, Trajectory& trajectory);
+
+/// The prices of all bounds except of integrals, at an optimum with its multipliers. With ℓ = φ + λᵀa, the least
+/// cost grows by ∂ℓ/∂x with a bound on an unknown x, and by -λ with a bound on a row; both are divided by the cost
+/// scale, and at stages by h b_i. One evaluation of the program's first derivatives, none where nothing is bounded.
+[[nodiscard]] BoundMultipliers bound_multipliers(Transcription& program, const Eigen::VectorXd& primal,
+                                                 const Eigen::VectorXd& multipliers);
 
 /// The discrete motion that a vector of the program's unknowns stands for, by the same rules for every method.
 ///

@@ -13,9 +13,8 @@
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/transcription/derivatives/part_places.hpp"
-#include "methods/transcription/motions/constraint_windows.hpp"
 #include "methods/transcription/motions/guess_check.hpp"
-#include "methods/transcription/program_floors.hpp"
+#include "methods/transcription/program_bounds.hpp"
 
 namespace dmocbench {
 

@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "methods/transcription/elements/explicit_integrator.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/elements/galerkin_element.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
 
 namespace dmocbench {
 namespace {

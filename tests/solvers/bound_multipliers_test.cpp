@@ -1,6 +1,4 @@
 // What bounds cost: the prices of a motion against differences of re-solved optima.
-#include "methods/transcription/bound_multipliers.hpp"
-
 #include <cmath>
 #include <functional>
 #include <string>

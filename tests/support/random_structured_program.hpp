@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/transcription/derivatives/assembled_pattern.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 #include "tests/support/random_points.hpp"
 
 namespace dmocbench::tests {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/transcription/derivatives/assembled_pattern.hpp"
 #include "methods/transcription/derivatives/series_assembly.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"

@@ -1,8 +1,8 @@
-#include "methods/transcription/motions/bent_motion.hpp"
-
 #include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 namespace {

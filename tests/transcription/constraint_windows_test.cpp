@@ -1,7 +1,6 @@
-#include "methods/transcription/motions/constraint_windows.hpp"
-
 #include <gtest/gtest.h>
 
+#include "methods/transcription/motions/guess_check.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"

@@ -1,11 +1,10 @@
-#include "methods/transcription/motions/moved_to_ends.hpp"
-
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "methods/transcription/elements/families.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"

@@ -7,7 +7,7 @@
 #include "bench/experiments/sequence/one_interval_later.hpp"
 #include "bench/run/column.hpp"
 #include "methods/numerics/quantile.hpp"
-#include "methods/transcription/motions/moved_to_ends.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

@@ -13,8 +13,8 @@
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/derivatives/local_functions.hpp"
 #include "methods/transcription/derivatives/part_places.hpp"
-#include "methods/transcription/motions/velocities_of_momenta.hpp"
 #include "methods/transcription/program_bounds.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
 
 namespace dmocbench {
 

@@ -8,8 +8,8 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/transcription/derivatives/assembled_pattern.hpp"
 #include "methods/transcription/derivatives/program_part.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/motions/trajectory.hpp"
 

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "methods/choose.hpp"
-#include "methods/transcription/derivatives/dense_differences.hpp"
 #include "methods/transcription/derivatives/finite_differences.hpp"
 
 namespace dmocbench {

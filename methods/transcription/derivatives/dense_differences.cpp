@@ -1,5 +1,3 @@
-#include "methods/transcription/derivatives/dense_differences.hpp"
-
 #include <algorithm>
 
 #include "methods/transcription/derivatives/finite_differences.hpp"

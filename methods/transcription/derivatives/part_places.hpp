@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "methods/transcription/derivatives/assembled_pattern.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "methods/transcription/derivatives/local_functions.hpp"
 #include "methods/transcription/derivatives/series_assembly.hpp"

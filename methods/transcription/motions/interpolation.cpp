@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include <boost/math/interpolators/cubic_hermite.hpp>
@@ -138,6 +139,58 @@ Motion smooth_motion(const Trajectory& trajectory) {
     return point;
   };
   return {at, trajectory.node_times[trajectory.node_times.size() - 1], trajectory.unknowns};
+}
+
+Motion bent(const Motion& motion, const Eigen::MatrixXd& amplitudes, const Eigen::MatrixXd& of_control) {
+  const auto at = [motion, amplitudes, of_control](double t) {
+    MotionPoint point = motion.at(t);
+    for (Eigen::Index k = 0; k < amplitudes.cols(); ++k) {
+      const double frequency = static_cast<double>(k + 1) * std::numbers::pi / motion.horizon;
+      point.q += amplitudes.col(k) * std::sin(frequency * t);
+      point.v += amplitudes.col(k) * (frequency * std::cos(frequency * t));
+    }
+    for (Eigen::Index k = 0; k < of_control.cols(); ++k) {
+      point.u += of_control.col(k) * std::cos(static_cast<double>(k) * std::numbers::pi * t / motion.horizon);
+    }
+    return point;
+  };
+  return {at, motion.horizon, motion.unknowns};
+}
+
+namespace {
+
+/// The values that bounds fix minus a state's; 0 for free entries.
+Eigen::VectorXd missing(const Bounds& bounds, const Eigen::VectorXd& values) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(values.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (bounds.is_fixed(i)) result[i] = bounds.lower[i] - values[i];
+  }
+  return result;
+}
+
+/// The fixed state of an end minus a point of a motion.
+BoundaryState missing(const EndBounds& end, const MotionPoint& point) {
+  return {.q = missing(end.q, point.q), .v = missing(end.v, point.v), .y = missing(end.y, point.y)};
+}
+
+}  // namespace
+
+Motion moved_to_ends(const Motion& motion, const ProblemBounds& bounds) {
+  const double horizon = motion.horizon;
+  const BoundaryState first = missing(bounds.first, motion.at(0.0));
+  const BoundaryState last = missing(bounds.last, motion.at(horizon));
+  const auto at = [=](double t) {
+    const double s = t / horizon;
+    const double r = 1.0 - s;
+    MotionPoint point = motion.at(t);
+    point.q += r * r * ((1.0 + 2.0 * s) * first.q + s * horizon * first.v);
+    point.q += s * s * ((1.0 + 2.0 * r) * last.q - r * horizon * last.v);
+    point.v += 6.0 * s * r / horizon * (last.q - first.q);
+    point.y += r * first.y + s * last.y;
+    point.v += r * (1.0 - 3.0 * s) * first.v + s * (3.0 * s - 2.0) * last.v;
+    return point;
+  };
+  return {at, horizon, motion.unknowns};
 }
 
 }  // namespace dmocbench

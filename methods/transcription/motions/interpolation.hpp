@@ -4,6 +4,9 @@
 #include <functional>
 #include <optional>
 
+#include <Eigen/Core>
+
+#include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/state.hpp"
 #include "methods/transcription/motions/trajectory.hpp"
 
@@ -49,5 +52,20 @@ enum class Side : std::uint8_t { left, right };
 /// The motion as a smooth curve: piecewise cubic Hermite in (q, v), its derivative as velocity, `control_at` as
 /// control; first-order states linear between the nodes.
 [[nodiscard]] Motion smooth_motion(const Trajectory& trajectory);
+
+/// A motion with sines added that vanish at both ends of its horizon T: q gains Σ_k a_k sin((k + 1) π t / T), where a_k
+/// is column k = 0, 1, ... of `amplitudes` (n rows, in the units of q), and v the derivative. The control gains
+/// Σ_k b_k cos(k π t / T), with b_k the columns of `of_control` (m rows, in the units of u, or none: then it stays).
+[[nodiscard]] Motion bent(const Motion& motion, const Eigen::MatrixXd& amplitudes,
+                          const Eigen::MatrixXd& of_control = {});
+
+/// A motion moved to the states that `bounds` fix at the ends of its horizon, by the cubic polynomial in time that has
+/// the missing q and v there; free entries of an end are not moved. Controls stay.
+///
+/// The start of a program from the answer of a neighbour with other ends. Where only its end nodes are moved, the
+/// displacement δ occurs in one interval, whose mean velocity is wrong by δ/h, more than the motion itself may be
+/// fast: methods that have no velocities among their unknowns (DMOC, and Hamiltonian collocation by p = L_v) then start
+/// far from where their equations are linear.
+[[nodiscard]] Motion moved_to_ends(const Motion& motion, const ProblemBounds& bounds);
 
 }  // namespace dmocbench

@@ -25,7 +25,7 @@
 #include "methods/solvers/solver.hpp"
 #include "methods/tables/motion_file.hpp"
 #include "methods/transcription/describe_violation.hpp"
-#include "methods/transcription/motions/moved_to_ends.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"

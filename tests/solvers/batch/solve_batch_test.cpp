@@ -14,7 +14,7 @@
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/lane_transcription.hpp"
-#include "methods/transcription/motions/bent_motion.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/solvers/batch/batch_case.hpp"
