@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "methods/tables/read_fields.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "methods/tables/table_file.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

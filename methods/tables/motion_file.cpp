@@ -15,7 +15,7 @@
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/tables/table_file.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -2,16 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <ranges>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "methods/error.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
-#include "methods/tables/read_fields.hpp"
 
 namespace dmocbench {
+
+namespace {
+
+thread_local ReadFields* innermost = nullptr;  // NOLINT(misc-use-internal-linkage): is internal
+
+}  // namespace
+
+ReadFields::ReadFields() : outer_(std::exchange(innermost, this)) {}
+
+ReadFields::~ReadFields() { innermost = outer_; }
+
+void note_read_field(const std::string& place, std::string_view column, bool is_number) {
+  if (innermost == nullptr || place.empty()) return;
+  ReadFields::ReadRow& row = innermost->rows_[place];
+  row.has_number = row.has_number || is_number;
+  if (!row.columns.contains(column)) row.columns.emplace(column);
+}
 
 namespace {
 
@@ -133,5 +153,33 @@ Table Table::from_csv(std::string_view text) {
   }
   return table;
 }
+
+std::string read_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw Error(fmt::format("cannot read {}: it is a folder", path.string()));
+  }
+  if (std::filesystem::is_other(path, ignored)) {
+    throw Error(
+        fmt::format("cannot read {}: it is not a regular file and might have no end; copy it to one", path.string()));
+  }
+  try {
+    std::ifstream stream(path, std::ios::binary);
+    std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (stream) return content;
+  } catch (const std::ios_base::failure&) {  // the opened file cannot be read
+  }
+  throw Error(fmt::format("cannot read {}", path.string()));
+}
+
+Table table_in(const std::string& text, const std::filesystem::path& file) {
+  try {
+    return Table::from_csv(text);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+Table read_table(const std::filesystem::path& file) { return table_in(read_file(file), file); }
 
 }  // namespace dmocbench

@@ -2,8 +2,10 @@
 
 #include <concepts>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +15,38 @@
 #include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
+
+/// As long as it exists, records the fields that this thread reads, of rows with a place
+/// (`Table::name_places`): the data of a conclusion from tables. The innermost one records.
+class ReadFields {
+ public:
+  /// The fields read of a row.
+  struct ReadRow {
+    std::set<std::string, std::less<>> columns;  ///< their names
+    bool has_number = false;                     ///< a field was read as a number, not only to choose the row
+  };
+  /// Fields by the places of rows.
+  using ByPlace = std::map<std::string, ReadRow, std::less<>>;
+
+  /// Begins to record.
+  ReadFields();
+  ~ReadFields();
+  ReadFields(const ReadFields&) = delete;
+  ReadFields& operator=(const ReadFields&) = delete;
+  ReadFields(ReadFields&&) = delete;
+  ReadFields& operator=(ReadFields&&) = delete;
+
+  /// The fields read since it was made.
+  [[nodiscard]] const ByPlace& rows() const noexcept { return rows_; }
+
+ private:
+  friend void note_read_field(const std::string& place, std::string_view column, bool is_number);
+  ByPlace rows_;
+  ReadFields* outer_;
+};
+
+/// Records the read in this thread's innermost `ReadFields`, if there is one; rows without a place are ignored.
+void note_read_field(const std::string& place, std::string_view column, bool is_number);
 
 /// A field of a table as written to files: a number with all its digits (%.17g), a text, or empty.
 class Cell {
@@ -135,5 +169,15 @@ class Table {
   std::map<std::string, ColumnFacts> facts_;
   std::vector<std::string> key_;  ///< names of columns
 };
+
+/// The content of a regular file; others might have no end. Throws `Error` that names it if it cannot be read.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path);
+
+/// The table in a text, which stands in a file of this name. Throws `Error` that names the file if it is not a table.
+[[nodiscard]] Table table_in(const std::string& text, const std::filesystem::path& file);
+
+/// The table in a file that `Table::csv` wrote. Throws `Error` that names the file if it cannot be read or is not a
+/// table.
+[[nodiscard]] Table read_table(const std::filesystem::path& file);
 
 }  // namespace dmocbench
