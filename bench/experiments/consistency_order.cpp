@@ -1,6 +1,4 @@
 // The order of consistency of DMOC's discrete Lagrangian, forces, Legendre transforms and map: th:ordercalculation.
-#include "methods/diagnostics/consistency_order.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "bench/run/interrupt.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/table_run.hpp"
+#include "methods/diagnostics/exact_discrete_lagrangian.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "methods/diagnostics/accuracy.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
-#include "methods/diagnostics/given_distance.hpp"
 #include "methods/diagnostics/undefined_point.hpp"
 #include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/error.hpp"

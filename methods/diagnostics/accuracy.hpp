@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+
+#include "methods/mechanics/bounds.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/motions/trajectory.hpp"
@@ -39,5 +42,22 @@ inline constexpr double smallest_range = 1e-8;
 /// The largest `Accuracy::relative_jump` of an answer that is a motion. Above it the discrete program is solved, but
 /// discretisation errors dominate its answer: it is `Status::too_coarse`.
 inline constexpr double largest_jump_of_a_motion = 0.05;
+
+/// The size of the motion that a problem prescribes: the Euclidean norm, over all entries of (q, q̇), of the least
+/// distance between the largest and the smallest value of an entry that both ends and the times between them allow. 0
+/// where a motion may stay at rest.
+[[nodiscard]] double given_distance(const ProblemBounds& bounds);
+
+/// Why an answer that satisfies its program to the tolerance does not cover the given distance; empty where it does.
+///
+/// Tolerances are absolute: next to one of 1e-8 a body that stays at rest solves the program of a distance of 1e-9. So
+/// a distance below `smallest_distance`, of 1 or of the largest |q|, has to show in the motion: its jumps
+/// (`accuracy`), one per interval, and what its ends leave their bounds by must not add up to half of the distance. The
+/// velocity at an end counts times the horizon.
+[[nodiscard]] std::string lost_distance(const ProblemBounds& bounds, const Trajectory& motion,
+                                        const Accuracy& accuracy);
+
+/// See `lost_distance`.
+inline constexpr double smallest_distance = 1e-6;
 
 }  // namespace dmocbench

@@ -1,8 +1,7 @@
-#include "methods/diagnostics/consistency_order.hpp"
-
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/convergence_order.hpp"
+#include "methods/diagnostics/exact_discrete_lagrangian.hpp"
 #include "tests/support/problems_for_tests.hpp"
 
 namespace dmocbench {

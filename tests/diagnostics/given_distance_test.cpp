@@ -1,9 +1,8 @@
-#include "methods/diagnostics/given_distance.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "methods/diagnostics/accuracy.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/solving.hpp"
 
