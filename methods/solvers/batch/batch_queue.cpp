@@ -10,7 +10,7 @@
 #include "methods/judgement/confirm.hpp"
 #include "methods/program/status.hpp"
 #include "methods/runtime/stop_scope.hpp"
-#include "methods/solvers/batch/instance_program.hpp"
+#include "methods/solvers/batch/batch_source.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
 namespace dmocbench::batch {

@@ -6,7 +6,7 @@
 
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
-#include "methods/solvers/interior_point/barrier_parameter.hpp"
+#include "methods/solvers/interior_point/optimality_errors.hpp"
 
 namespace dmocbench::batch {
 

@@ -21,11 +21,11 @@
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/runtime/stop_scope.hpp"
-#include "methods/solvers/interior_point/barrier_parameter.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/constants.hpp"
 #include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
+#include "methods/solvers/interior_point/optimality_errors.hpp"
 #include "methods/solvers/named_options.hpp"
 
 namespace dmocbench {

@@ -7,7 +7,7 @@
 
 #include "methods/solvers/minor_iteration.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/solvers/sqp/quadratic/quadratic_options.hpp"
+#include "methods/solvers/sqp/quadratic/pricing.hpp"
 
 namespace dmocbench {
 

@@ -19,7 +19,6 @@
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/sensitivity/feedback_gains.hpp"
 #include "methods/sensitivity/sensitivities.hpp"
-#include "methods/solvers/batch/neighbour_starts.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/solvers/solver.hpp"

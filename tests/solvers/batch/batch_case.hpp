@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-#include "methods/solvers/batch/instance_program.hpp"
+#include "methods/solvers/batch/batch_source.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "methods/transcription/lane_transcription.hpp"

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/solvers/batch/neighbour_starts.hpp"
+#include "methods/solvers/batch/solve_batch.hpp"
 #include "tests/solvers/batch/batch_case.hpp"
 
 namespace dmocbench::batch {

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/error.hpp"
-#include "methods/solvers/batch/neighbour_starts.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/lane_transcription.hpp"

@@ -1,8 +1,8 @@
-#include "methods/solvers/interior_point/filter.hpp"
-
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "methods/solvers/interior_point/filter_line_search.hpp"
 
 namespace dmocbench::interior_point {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "methods/solvers/sqp/quadratic/ratio_test.hpp"
+#include "methods/solvers/sqp/quadratic/pricing.hpp"
 #include "methods/solvers/sqp/quadratic/reduced_hessian.hpp"
 
 namespace dmocbench::sqp {

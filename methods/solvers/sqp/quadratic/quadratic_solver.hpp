@@ -10,7 +10,6 @@
 #include "methods/solvers/minor_iteration.hpp"
 #include "methods/solvers/sqp/quadratic/iterate.hpp"
 #include "methods/solvers/sqp/quadratic/pricing.hpp"
-#include "methods/solvers/sqp/quadratic/quadratic_options.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 
 namespace dmocbench::sqp {

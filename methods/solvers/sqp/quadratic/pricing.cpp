@@ -1,4 +1,4 @@
-#include "methods/solvers/sqp/quadratic/ratio_test.hpp"
+#include "methods/solvers/sqp/quadratic/pricing.hpp"
 
 #include <algorithm>
 #include <cmath>
