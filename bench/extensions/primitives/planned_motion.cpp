@@ -9,7 +9,7 @@
 #include "bench/run/solve_case.hpp"
 #include "bench/run/start_provider.hpp"
 #include "methods/diagnostics/accuracy.hpp"
-#include "methods/extensions/primitives/concatenation.hpp"
+#include "methods/extensions/primitives/stored_roadmap.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"

@@ -10,7 +10,7 @@
 #include "bench/run/interrupt.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
-#include "methods/extensions/step_control/step_times.hpp"
+#include "methods/extensions/step_control/extended_action.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 
 namespace dmocbench {

@@ -11,9 +11,8 @@
 
 #include "methods/error.hpp"
 #include "methods/extensions/primitives/discrete_flow.hpp"
-#include "methods/extensions/primitives/motion_tree.hpp"
+#include "methods/extensions/primitives/meeting_trees.hpp"
 #include "methods/extensions/primitives/solve_primitives.hpp"
-#include "methods/extensions/primitives/without_bounds.hpp"
 #include "methods/transcription/elements/tableau.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 

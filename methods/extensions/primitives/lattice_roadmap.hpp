@@ -3,9 +3,25 @@
 #include "methods/extensions/primitives/meeting_trees.hpp"
 #include "methods/extensions/primitives/solve_primitives.hpp"
 #include "methods/extensions/primitives/stored_roadmap.hpp"
+#include "methods/mechanics/forwarding_problem.hpp"
 #include "methods/mechanics/problem.hpp"
 
 namespace dmocbench {
+
+/// A problem without its bounds on q, q̇ and u along the motion; everything else is unchanged.
+class WithoutBounds final : public ForwardingProblem {
+ public:
+  /// The problem must outlive it.
+  explicit WithoutBounds(const Problem& base) : ForwardingProblem(base) {}
+
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = original().bounds();
+    bounds.q = {};
+    bounds.v = {};
+    bounds.u = {};
+    return bounds;
+  }
+};
 
 /// A roadmap between the ends of a problem whose states lie on a lattice, one in a cell at most.
 ///

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "methods/extensions/primitives/displacement.hpp"
+#include "methods/extensions/primitives/symmetry_group.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/state.hpp"
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "methods/extensions/primitives/displacement.hpp"
 #include "methods/extensions/primitives/primitive_library.hpp"
+#include "methods/extensions/primitives/symmetry_group.hpp"
 
 namespace dmocbench {
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "methods/extensions/primitives/displacement.hpp"
 #include "methods/extensions/primitives/primitive_library.hpp"
+#include "methods/extensions/primitives/symmetry_group.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/transcription.hpp"

@@ -1,6 +1,15 @@
 #include "methods/extensions/step_control/extended_action.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
 #include "methods/transcription/elements/dmoc_element.hpp"
 
 namespace dmocbench {
@@ -51,6 +60,70 @@ Expression ExtendedAction::torque() const {
     sum += h_ * Expression(b_[static_cast<Eigen::Index>(i)]) * forces_[i].dot(symmetries_[i]);
   }
   return sum;
+}
+
+namespace {
+
+/// 1/σ at the points of a motion.
+class DensityOfSteps {
+ public:
+  DensityOfSteps(const StepFunction& sigma, const MotionPoint& like) {
+    InputCounter counter;
+    const ExpressionVector q = counter.take(like.q.size());
+    const ExpressionVector v = counter.take(like.v.size());
+    const ExpressionVector u = counter.take(like.u.size());
+    formula_ = Schedule(ExpressionVector(ExpressionVector::Constant(1, sigma({q, v, u, counter.take()}))));
+  }
+  [[nodiscard]] double at(const MotionPoint& point, double t) const {
+    std::vector<double> inputs;
+    for (const Eigen::VectorXd* part : {&point.q, &point.v, &point.u}) {
+      inputs.insert(inputs.end(), part->begin(), part->end());
+    }
+    inputs.push_back(t);
+    const double sigma = replay<double>(formula_, std::span<const double>(inputs)).front();
+    require_positive_step(sigma, t);
+    return 1.0 / sigma;
+  }
+
+ private:
+  Schedule formula_;
+};
+
+}  // namespace
+
+void require_positive_step(double sigma, double t) {
+  if (sigma > 0.0 && std::isfinite(sigma)) return;
+  throw Error(
+      fmt::format("the function that steps are proportional to is {:g} at t = {:g}; it has to be positive and finite "
+                  "along the whole motion",
+                  sigma, t));
+}
+
+StepTimes step_times(const StepFunction& sigma, const Motion& motion, Eigen::Index intervals) {
+  if (intervals < 1) throw Error("a motion is divided into at least one step");
+  const Eigen::Index parts = std::max<Eigen::Index>(4096, 8 * intervals);
+  const double width = motion.horizon / static_cast<double>(parts);
+  const DensityOfSteps density(sigma, motion.at(0.0));
+  Eigen::VectorXd passed(parts + 1);  // ∫ dt/σ from 0
+  passed[0] = 0.0;
+  double before = density.at(motion.at(0.0), 0.0);
+  for (Eigen::Index i = 1; i <= parts; ++i) {
+    const double t = width * static_cast<double>(i);
+    const double now = density.at(motion.at(t), t);
+    passed[i] = passed[i - 1] + 0.5 * width * (before + now);
+    before = now;
+  }
+  StepTimes result{.pace = passed[parts] / static_cast<double>(intervals), .times = Eigen::VectorXd(intervals + 1)};
+  Eigen::Index left = 0;
+  for (Eigen::Index k = 0; k <= intervals; ++k) {
+    const double wanted = result.pace * static_cast<double>(k);
+    while (left + 1 < parts && passed[left + 1] < wanted) ++left;
+    const double share = (wanted - passed[left]) / (passed[left + 1] - passed[left]);
+    result.times[k] = width * (static_cast<double>(left) + share);
+  }
+  result.times[0] = 0.0;
+  result.times[intervals] = motion.horizon;
+  return result;
 }
 
 }  // namespace dmocbench

@@ -4,7 +4,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
-#include "methods/extensions/step_control/step_times.hpp"
+#include "methods/extensions/step_control/extended_action.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/derivatives/local_functions.hpp"
 

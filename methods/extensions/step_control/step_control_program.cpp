@@ -9,7 +9,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/extensions/step_control/step_times.hpp"
+#include "methods/extensions/step_control/extended_action.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/derivatives/local_functions.hpp"
 #include "methods/transcription/derivatives/part_places.hpp"

@@ -1,5 +1,3 @@
-#include "methods/extensions/interchange/ampl_solution.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -7,7 +5,6 @@
 
 #include "methods/extensions/interchange/ampl_answer.hpp"
 #include "methods/extensions/interchange/ampl_model.hpp"
-#include "methods/extensions/interchange/ampl_names.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"

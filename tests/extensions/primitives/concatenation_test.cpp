@@ -1,10 +1,9 @@
-#include "methods/extensions/primitives/concatenation.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "methods/extensions/primitives/solve_primitives.hpp"
+#include "methods/extensions/primitives/stored_roadmap.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"

@@ -1,7 +1,6 @@
-#include "methods/extensions/primitives/grow_roadmap.hpp"
-
 #include <gtest/gtest.h>
 
+#include "methods/extensions/primitives/stored_roadmap.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {

@@ -8,8 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/extensions/primitives/concatenation.hpp"
-#include "methods/extensions/primitives/without_bounds.hpp"
+#include "methods/extensions/primitives/stored_roadmap.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/extensions/primitives/motion_tree.hpp"
+#include "methods/extensions/primitives/meeting_trees.hpp"
 #include "methods/extensions/primitives/solve_primitives.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/random_points.hpp"

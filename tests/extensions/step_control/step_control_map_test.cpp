@@ -6,7 +6,7 @@
 
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
-#include "methods/extensions/step_control/step_times.hpp"
+#include "methods/extensions/step_control/extended_action.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/numerics/adaptive_integration.hpp"

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/conserved_quantities.hpp"
+#include "methods/extensions/step_control/extended_action.hpp"
 #include "methods/extensions/step_control/step_control_map.hpp"
-#include "methods/extensions/step_control/step_times.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"

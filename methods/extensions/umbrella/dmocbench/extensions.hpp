@@ -7,8 +7,8 @@
 
 #include "methods/extensions/interchange/ampl_answer.hpp"
 #include "methods/extensions/interchange/ampl_model.hpp"
-#include "methods/extensions/primitives/concatenation.hpp"
 #include "methods/extensions/primitives/lattice_roadmap.hpp"
 #include "methods/extensions/primitives/primitive_library.hpp"
+#include "methods/extensions/primitives/stored_roadmap.hpp"
 #include "methods/extensions/step_control/step_control_map.hpp"
 #include "methods/extensions/step_control/step_control_program.hpp"
