@@ -13,7 +13,6 @@
 #include "bench/run/metadata.hpp"
 #include "bench/run/problem_card_json.hpp"
 #include "bench/run/problem_libraries.hpp"
-#include "bench/run/schemas.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"

@@ -17,11 +17,14 @@
 #include <unistd.h>
 
 #include "bench/run/build.hpp"
+#include "bench/run/embedded_file.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/instruction_set.hpp"
 #include "methods/solvers/solver.hpp"
+
+DMOCBENCH_EMBEDDED_FILE(metadata_schema, "bench/run/metadata.schema.json");
 
 namespace dmocbench {
 
@@ -97,5 +100,7 @@ void write_metadata(const std::filesystem::path& file, const nlohmann::ordered_j
   if (!timed.contains("parts")) timed["wall_seconds"] = seconds_since(begun_by_clock);
   write_file(file, timed.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
+
+std::string_view metadata_schema() noexcept { return dmocbench_file_metadata_schema; }
 
 }  // namespace dmocbench

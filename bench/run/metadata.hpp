@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,5 +15,8 @@ namespace dmocbench {
 
 /// Writes a description as a file; invalid UTF-8 in it is replaced.
 void write_metadata(const std::filesystem::path& file, const nlohmann::ordered_json& description);
+
+/// The JSON Schema of a run's metadata, NAME.json: the properties that every run has, including its tables' entries.
+[[nodiscard]] std::string_view metadata_schema() noexcept;
 
 }  // namespace dmocbench

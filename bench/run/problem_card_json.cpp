@@ -4,8 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/run/embedded_file.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "problems/problem_registry.hpp"
+
+DMOCBENCH_EMBEDDED_FILE(problems_schema, "bench/run/problems.schema.json");
 
 namespace dmocbench {
 
@@ -96,5 +99,7 @@ nlohmann::ordered_json problem_card_json(const Problem& problem) {
           {"cost_scale", problem.cost_scale()},
           {"optimum", optimum(card.reference)}};
 }
+
+std::string_view problem_cards_schema() noexcept { return dmocbench_file_problems_schema; }
 
 }  // namespace dmocbench
