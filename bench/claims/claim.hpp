@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "bench/claims/read_rows.hpp"
 #include "bench/claims/result_tables.hpp"
 #include "bench/claims/words.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/claims/cold_start_counts.hpp"
-#include "bench/tables/share_interval.hpp"
+#include "bench/tables/ratio_interval.hpp"
 
 namespace dmocbench {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/tables/share_interval.hpp"
+#include "bench/tables/ratio_interval.hpp"
 #include "methods/tables/table.hpp"
 
 namespace dmocbench {

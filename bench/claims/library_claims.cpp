@@ -5,7 +5,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/tables/profile_tables.hpp"
-#include "bench/tables/share_interval.hpp"
+#include "bench/tables/ratio_interval.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 #include "methods/transcription/elements/families.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "bench/run/experiment.hpp"
 #include "bench/run/indirect_reference.hpp"
-#include "bench/tables/advantage_ratios.hpp"
+#include "bench/tables/ratios.hpp"
 #include "methods/error.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/claims/read_rows.hpp"
+#include "bench/claims/result_tables.hpp"
 #include "bench/report/model.hpp"
 #include "bench/report/words.hpp"
 

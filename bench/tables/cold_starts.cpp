@@ -7,7 +7,7 @@
 
 #include "bench/run/column.hpp"
 #include "bench/run/solve_case.hpp"
-#include "bench/tables/share_interval.hpp"
+#include "bench/tables/ratio_interval.hpp"
 #include "methods/numerics/quantile.hpp"
 #include "methods/program/status.hpp"
 

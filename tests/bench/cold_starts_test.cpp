@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/tables/share_interval.hpp"
+#include "bench/tables/ratio_interval.hpp"
 
 namespace dmocbench {
 namespace {

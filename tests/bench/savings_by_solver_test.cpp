@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/tables/advantage_ratios.hpp"
+#include "bench/tables/ratios.hpp"
 
 namespace dmocbench {
 namespace {

@@ -1,8 +1,8 @@
-#include "bench/tables/share_interval.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "bench/tables/ratio_interval.hpp"
 
 namespace dmocbench {
 namespace {
