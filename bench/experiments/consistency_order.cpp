@@ -7,7 +7,6 @@
 
 #include <tl/expected.hpp>
 
-#include "bench/experiments/invariants/one_step_tableaus.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/interrupt.hpp"
 #include "bench/run/options.hpp"
@@ -15,6 +14,7 @@
 #include "methods/diagnostics/exact_discrete_lagrangian.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench::consistency_order_program {
 

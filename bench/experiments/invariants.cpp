@@ -5,12 +5,10 @@
 #include <fmt/format.h>
 
 #include "bench/experiments/invariants/continuous_flow.hpp"
-#include "bench/experiments/invariants/energy_columns.hpp"
 #include "bench/experiments/invariants/energy_tables.hpp"
 #include "bench/experiments/invariants/example_systems.hpp"
 #include "bench/experiments/invariants/long_time_energy.hpp"
-#include "bench/experiments/invariants/orthogonal_forces.hpp"
-#include "bench/experiments/invariants/rotations.hpp"
+#include "bench/experiments/invariants/momentum_tables.hpp"
 #include "bench/experiments/invariants/simulated_tables.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/options.hpp"

@@ -6,8 +6,7 @@
 
 #include "bench/experiments/invariants/energy_tables.hpp"
 #include "bench/experiments/invariants/long_time_energy.hpp"
-#include "bench/experiments/invariants/orthogonal_forces.hpp"
-#include "bench/experiments/invariants/rotations.hpp"
+#include "bench/experiments/invariants/momentum_tables.hpp"
 #include "bench/experiments/invariants/simulated_tables.hpp"
 
 namespace dmocbench {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "bench/experiments/sequence/neighbours.hpp"
-#include "bench/experiments/sequence/one_interval_later.hpp"
 #include "bench/experiments/sequence/solved_steps.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "bench/experiments/invariants/example_systems.hpp"
-#include "bench/experiments/invariants/one_step_tableaus.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/interrupt.hpp"
 #include "bench/run/table_run.hpp"
@@ -16,6 +15,7 @@
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/elements/families.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {

@@ -4,12 +4,26 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "bench/experiments/sequence/neighbours.hpp"
 #include "bench/run/solve_case.hpp"
+#include "methods/program/interval_structure.hpp"
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/tables/table.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
+
+/// The motion of a horizon that has moved on by the first interval of its grid: q(t + h), carried on beyond its end by
+/// the velocity that it has there.
+[[nodiscard]] Motion one_interval_later(const Trajectory& trajectory);
+
+/// Multipliers of a problem that has moved on by one interval of a uniform grid: values of node or interval k + 1 move
+/// to k. The last node and interval keep their values, as do places at one end and of the whole horizon. `values` has
+/// an entry per place.
+[[nodiscard]] Eigen::VectorXd shifted(const Places& places, const Eigen::VectorXd& values);
 
 /// One solve of a step.
 struct StepSolve {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiments/invariants/energy_columns.hpp"
+#include "bench/experiments/invariants/long_time_energy.hpp"
 #include "bench/extensions/step_control/controlled_steps.hpp"
 #include "bench/extensions/step_control/optimal_steps.hpp"
 #include "bench/run/column.hpp"

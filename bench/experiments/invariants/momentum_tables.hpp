@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/solvers/solver.hpp"
 #include "methods/tables/table.hpp"
 
 namespace dmocbench {
@@ -11,5 +12,10 @@ namespace dmocbench {
 /// in polar coordinates on the sphere it is invariant about the third axis alone. A row per system, method and axis;
 /// columns are declared in the source.
 [[nodiscard]] Table rotations_table(int steps);
+
+/// Optimal control problems whose forces are orthogonal to a symmetry of L ("Preservation of momentum maps", section
+/// 3.3): how far the momentum moves along the optimal motions of every method. A row per problem, method, tableau and
+/// grid; columns are declared in the source. Throws `Error` if a motion is not solved.
+[[nodiscard]] Table orthogonal_forces_table(const SolverOptions& options);
 
 }  // namespace dmocbench
