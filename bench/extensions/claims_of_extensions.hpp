@@ -3,6 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "bench/claims/claim.hpp"
+
 namespace dmocbench {
 
 /// A claim of an extension by its problem and name.
@@ -22,5 +24,9 @@ inline constexpr std::array claims_of_extensions{
     ExtensionClaim{"orbital_transfer", "low_thrust_structure_pays_beside_explicit"},
     ExtensionClaim{"orbital_transfer", "low_thrust_order_pays_more"},
 };
+
+[[nodiscard]] Claims primitives_claims();    ///< roadmaps of DMOC primitives
+[[nodiscard]] Claims step_control_claims();  ///< step sizes tied to the motion
+[[nodiscard]] Claims low_thrust_claims();    ///< many revolutions with few steps in each
 
 }  // namespace dmocbench

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "bench/extensions/extension_claims.hpp"
+#include "bench/extensions/claims_of_extensions.hpp"
 #include "bench/programs.hpp"
 
 namespace dmocbench {

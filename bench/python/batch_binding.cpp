@@ -13,7 +13,6 @@
 
 #include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
-#include "bench/python/handles.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"

@@ -7,7 +7,6 @@
 #include <pybind11/stl.h>
 
 #include "bench/python/bindings.hpp"
-#include "bench/python/traced_numbers.hpp"
 #include "methods/error.hpp"
 #include "methods/expression/schedule.hpp"
 #include "methods/expression/smooth.hpp"

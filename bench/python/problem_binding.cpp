@@ -9,7 +9,6 @@
 
 #include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
-#include "bench/python/handles.hpp"
 #include "bench/python/python_problem.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "methods/expression/schedule.hpp"

@@ -8,8 +8,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
-#include "bench/python/traced_numbers.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/runtime/stop_scope.hpp"

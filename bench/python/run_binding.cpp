@@ -10,7 +10,6 @@
 #include "bench/programs.hpp"
 #include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
-#include "bench/python/handles.hpp"
 #include "bench/run/command_line.hpp"
 #include "bench/run/interrupt.hpp"
 #include "bench/run/problem_libraries.hpp"

@@ -12,7 +12,6 @@
 #include "bench/experiments/solve/wanted_accuracy.hpp"
 #include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
-#include "bench/python/handles.hpp"
 #include "bench/run/advice.hpp"
 #include "bench/run/solve_case.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"

@@ -9,7 +9,6 @@
 
 #include "bench/extensions/primitives/planned_motion.hpp"
 #include "bench/extensions/primitives/roadmap_file.hpp"
-#include "bench/extensions/primitives/roadmap_picture.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/table_run.hpp"

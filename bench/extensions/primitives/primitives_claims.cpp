@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/claims/claim.hpp"
-#include "bench/extensions/extension_claims.hpp"
+#include "bench/extensions/claims_of_extensions.hpp"
 
 namespace dmocbench {
 

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "bench/extensions/primitives/roadmap_systems.hpp"
-#include "bench/extensions/primitives/trim_library.hpp"
 #include "methods/error.hpp"
 #include "methods/extensions/primitives/stored_roadmap.hpp"
 #include "methods/extensions/primitives/symmetry_group.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "bench/claims/claim.hpp"
-#include "bench/extensions/extension_claims.hpp"
+#include "bench/extensions/claims_of_extensions.hpp"
 
 namespace dmocbench {
 
