@@ -10,7 +10,7 @@
 #include "tests/expression/operations.hpp"
 #include "tests/expression/random_program.hpp"
 #include "tests/expression/series_table.hpp"
-#include "tests/support/environment_variable.hpp"
+#include "tests/support/restored_settings.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {

@@ -8,7 +8,6 @@
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"

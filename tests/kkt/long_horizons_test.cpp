@@ -19,10 +19,10 @@
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/dense_kkt.hpp"
 #include "tests/support/restated_problems.hpp"
-#include "tests/support/shifted_system.hpp"
+#include "tests/support/restored_settings.hpp"
 #include "tests/support/solving.hpp"
-#include "tests/support/threads.hpp"
 
 namespace dmocbench::kkt {
 namespace {

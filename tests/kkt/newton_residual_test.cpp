@@ -11,8 +11,8 @@
 #include "methods/kkt/matrix_product.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/orbital_transfer.hpp"
+#include "tests/support/restored_settings.hpp"
 #include "tests/support/system_choice.hpp"
-#include "tests/support/threads.hpp"
 
 namespace dmocbench::kkt {
 namespace {

@@ -8,8 +8,8 @@
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/dense_kkt.hpp"
 #include "tests/support/restated_problems.hpp"
-#include "tests/support/shifted_system.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench::kkt {

@@ -8,7 +8,6 @@
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
-#include "tests/support/singular_mass.hpp"
 
 namespace dmocbench {
 namespace {

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/column_names.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 

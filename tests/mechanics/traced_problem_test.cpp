@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/expression/replay.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"

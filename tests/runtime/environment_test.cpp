@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/environment_variable.hpp"
+#include "tests/support/restored_settings.hpp"
 
 namespace dmocbench {
 namespace {

@@ -20,8 +20,8 @@
 #include <unistd.h>
 
 #include "methods/error.hpp"
+#include "tests/support/restored_settings.hpp"
 #include "tests/support/sentence_of_error.hpp"
-#include "tests/support/threads.hpp"
 
 namespace dmocbench {
 namespace {

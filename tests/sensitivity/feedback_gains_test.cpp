@@ -13,7 +13,6 @@
 #include "methods/transcription/elements/families.hpp"
 #include "problems/brachistochrone.hpp"
 #include "problems/two_link_manipulator.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/solving.hpp"

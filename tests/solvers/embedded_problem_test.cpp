@@ -11,7 +11,6 @@
 #include "problems/link_chain_maximal.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
 #include "problems/two_link_maximal.hpp"
-#include "tests/solvers/confirmed_answer.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 

@@ -18,7 +18,6 @@
 #include "problems/control_rate.hpp"
 #include "problems/orbital_transfer_with_mass.hpp"
 #include "problems/two_link_with_motors.hpp"
-#include "tests/solvers/confirmed_answer.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 

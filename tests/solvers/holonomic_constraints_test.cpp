@@ -21,7 +21,6 @@
 #include "methods/transcription/trajectory_reader.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
-#include "tests/solvers/confirmed_answer.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 

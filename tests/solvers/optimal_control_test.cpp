@@ -6,7 +6,6 @@
 #include "methods/judgement/confirm.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/elements/families.hpp"
-#include "tests/support/grid_with_a_narrow_interval.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
 

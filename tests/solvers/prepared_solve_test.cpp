@@ -13,7 +13,6 @@
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/grid_with_a_narrow_interval.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 

@@ -11,7 +11,7 @@
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/environment_variable.hpp"
+#include "tests/support/restored_settings.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/solving.hpp"
 

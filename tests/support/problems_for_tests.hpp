@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "methods/mechanics/forwarding_problem.hpp"
+#include "problems/registry.hpp"
 
 namespace dmocbench::tests {
 
@@ -173,6 +175,36 @@ class WithEnds : public ForwardingProblem {
  private:
   BoundaryState first_;
   BoundaryState last_;
+};
+
+/// The paper's two problems, and two that have what these lack: L that depends on t, L that is not quadratic in v.
+inline std::vector<std::unique_ptr<Problem>> problems() {
+  std::vector<std::unique_ptr<Problem>> all;
+  for (const std::string& name : paper_problem_names()) all.push_back(make_problem(name));
+  all.push_back(std::make_unique<MovingFrame>());
+  all.push_back(std::make_unique<RelativisticSpring>());
+  return all;
+}
+
+/// A registered problem or one of those two.
+inline std::unique_ptr<Problem> problem_named(const std::string& name) {
+  if (name == "moving_frame") return std::make_unique<MovingFrame>();
+  if (name == "relativistic_spring") return std::make_unique<RelativisticSpring>();
+  return make_problem(name);
+}
+
+/// L_vv = [1 1; 1 1] has no empty row, but no inverse either.
+class SingularMass final : public SmallProblem {
+ public:
+  SingularMass()
+      : SmallProblem("singular_mass", {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()},
+                     {Eigen::Vector2d::Ones(), Eigen::Vector2d::Zero()}, 1.0, 2) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const Expression sum = x.v[0] + x.v[1];
+    return 0.5 * sum * sum;
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
 }  // namespace dmocbench::tests

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/judgement/polish.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/transcription/motions/grid.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
@@ -60,5 +62,36 @@ Grid graded_grid(Eigen::Index intervals);
 
 /// Largest magnitude of rows minus their bounds: the residual of a program whose rows are equalities.
 double row_residual(Transcription& transcription, const Eigen::VectorXd& x);
+
+/// Sixteen even intervals and one between them that is a ten-millionth of the horizon.
+inline Grid grid_with_a_narrow_interval() {
+  Eigen::VectorXd nodes(18);
+  nodes.head(9) = Eigen::VectorXd::LinSpaced(9, 0.0, 0.5);
+  nodes.tail(9) = Eigen::VectorXd::LinSpaced(9, 0.5, 1.0);
+  nodes[9] += 1e-7;
+  return Grid::from_nodes(nodes);
+}
+
+/// A program with its answer.
+struct Answer {
+  std::unique_ptr<Transcription> program;
+  Solution solution;
+  Trajectory motion;
+};
+
+/// Solves to a tolerance and then to rounding; the test fails where the answer is not confirmed.
+inline Answer confirmed(const Problem& problem, const Scheme& scheme, Eigen::Index intervals, const Motion& start,
+                        double tolerance, const std::string& solver = "interior_point") {
+  Answer answer{transcribe(problem, scheme, Grid::uniform(intervals)), {}, {}};
+  SolverOptions options;
+  options.tolerance = tolerance;
+  answer.solution = make_solver(solver, options)->solve(*answer.program, sample(*answer.program, start));
+  settle(*answer.program, options.tolerance, answer.solution);
+  polish(*answer.program, answer.solution);
+  EXPECT_TRUE(is_solved(answer.solution.status))
+      << problem.name() << ", " << scheme.label() << ", N = " << intervals << ": " << answer.solution.message;
+  answer.motion = read_trajectory(*answer.program, answer.solution.primal, answer.solution.multipliers);
+  return answer;
+}
 
 }  // namespace dmocbench::tests

@@ -9,7 +9,6 @@
 
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/elements/families.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
 

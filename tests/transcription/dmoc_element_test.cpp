@@ -6,7 +6,6 @@
 
 #include "methods/expression/replay.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"

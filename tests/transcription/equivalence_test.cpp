@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "problems/registry.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"

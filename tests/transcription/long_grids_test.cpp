@@ -15,8 +15,8 @@
 #include "problems/registry.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/restated_problems.hpp"
+#include "tests/support/restored_settings.hpp"
 #include "tests/support/solving.hpp"
-#include "tests/support/threads.hpp"
 
 namespace dmocbench {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "methods/error.hpp"
 #include "methods/transcription/start.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
-#include "tests/support/singular_mass.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench {

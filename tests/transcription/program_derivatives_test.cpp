@@ -9,7 +9,6 @@
 
 #include "methods/expression/replay.hpp"
 #include "methods/transcription/elements/families.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/hyper_dual.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"

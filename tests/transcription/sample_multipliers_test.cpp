@@ -11,7 +11,6 @@
 #include "problems/container_crane.hpp"
 #include "problems/two_link_manipulator.hpp"
 #include "problems/two_link_with_motors.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/solving.hpp"

@@ -9,7 +9,6 @@
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/transcription/elements/tableau.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"

@@ -6,7 +6,7 @@
 
 #include "methods/judgement/kkt_residual.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/all_problems.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"

@@ -4,7 +4,6 @@
 
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"

@@ -6,7 +6,6 @@
 
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/grid_with_a_narrow_interval.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
