@@ -15,7 +15,7 @@
 
 #include "bench/run/command_line.hpp"
 #include "tests/binaries/fuzzer/grammar.hpp"
-#include "tests/binaries/fuzzer/judgement.hpp"
+#include "tests/binaries/fuzzer/watched_process.hpp"
 
 namespace dmocbench::tests {
 namespace {
