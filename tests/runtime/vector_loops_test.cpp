@@ -57,10 +57,6 @@ TEST(VectorLoops, FindWhatIsNotANumberWhereverItStands) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 TEST(LargePages, ChangeNothingThatAProgramCanSee) {
   // Around the sizes that are asked for, where the first and the last page are not whole.
   constexpr Eigen::Index numbers_per_large_page = 262144;

@@ -175,10 +175,6 @@ TEST(Tableau, RefusesUnknownFamiliesAndStagesNamingWhatThereIs) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 const Eigen::VectorXd nodes = (Eigen::VectorXd(4) << -0.5, 0.1, 0.4, 1.0).finished();
 
 TEST(LagrangeBasis, IsOneAtItsOwnNodeAndZeroAtTheOthers) {

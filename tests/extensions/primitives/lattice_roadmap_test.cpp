@@ -118,10 +118,6 @@ TEST(LatticeRoadmap, RefusesSizesThatDoNotFit) {
   tests::expect_error_naming({"9", "8"}, [&] { static_cast<void>(lattice_roadmap(cart_pole(), options)); });
 }
 
-}  // namespace
-
-namespace {
-
 // Lattices of states whose sizes come from a first motion.
 
 /// One configuration and several, with bounds and without.

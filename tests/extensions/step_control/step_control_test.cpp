@@ -56,10 +56,6 @@ TEST(ControlledSteps, RefuseAFunctionThatVanishes) {
   tests::expect_error_naming({"positive"}, [&] { static_cast<void>(ControlledSteps(0.8, choice, 64, 1000.0)); });
 }
 
-}  // namespace
-
-namespace {
-
 TEST(ReferenceTransfer, IsTheCertifiedOptimumOfThePaperAndOfTenRevolutions) {
   for (const int revolutions : {2, 10}) {
     const ReferenceTransfer reference("orbital_transfer", revolutions, SolverOptions{});

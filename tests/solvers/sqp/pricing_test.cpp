@@ -29,10 +29,6 @@ TEST(Pricing, AtRandomRepeatsWithItsSeedAndReachesAll) {
   EXPECT_EQ(reached.size(), candidates.size());
 }
 
-}  // namespace
-
-namespace {
-
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-9;
 
