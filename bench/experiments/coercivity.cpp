@@ -2,7 +2,7 @@
 #include <memory>
 #include <utility>
 
-#include "bench/experiments/coercivity/smallest_curvature.hpp"
+#include "bench/experiments/kkt_eigenvalues.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/restated_problem.hpp"

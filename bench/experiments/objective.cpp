@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiments/shooting/program_condition.hpp"
+#include "bench/experiments/kkt_eigenvalues.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/tables/selection.hpp"
 

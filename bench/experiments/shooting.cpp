@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/shooting/program_condition.hpp"
+#include "bench/experiments/kkt_eigenvalues.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/table_run.hpp"

@@ -1,7 +1,6 @@
-#include "bench/experiments/shooting/program_condition.hpp"
-
 #include <gtest/gtest.h>
 
+#include "bench/experiments/kkt_eigenvalues.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/value_of.hpp"

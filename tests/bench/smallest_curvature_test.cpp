@@ -1,7 +1,6 @@
-#include "bench/experiments/coercivity/smallest_curvature.hpp"
-
 #include <gtest/gtest.h>
 
+#include "bench/experiments/kkt_eigenvalues.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
