@@ -9,7 +9,6 @@
 #include "tests/support/random_points.hpp"
 
 namespace dmocbench {
-
 namespace {
 
 /// Sizes with and without a rest behind the last eight numbers.
@@ -75,5 +74,4 @@ TEST(LargePages, ChangeNothingThatAProgramCanSee) {
 }
 
 }  // namespace
-
 }  // namespace dmocbench

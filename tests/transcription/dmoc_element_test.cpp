@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/expression/replay.hpp"
+#include "methods/transcription/interval_functions.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
@@ -249,6 +250,30 @@ TEST_F(MidpointByHand, GivesTheForcedDiscreteLegendreTransforms) {
     EXPECT_LT((trajectory.p.row(k).transpose() + interval(k).d1).norm(), 1e-13);
   }
   EXPECT_LT((trajectory.p.row(intervals).transpose() - interval(intervals - 1).d2).norm(), 1e-13);
+}
+
+// Sharing and folding decide what derivatives cost: the Hessian of the Lagrangian of one interval has few operations.
+
+std::size_t hessian_operations(const char* name, int stages) {
+  const auto problem = make_problem(name);
+  const TracedProblem traced(*problem);
+  return trace_interval(traced, *make_element("dmoc"), make_tableau("gauss", stages),
+                        {.cost_scale = problem->cost_scale()})
+      .hessian.schedule.operation_count();
+}
+
+TEST(OperationCount, MidpointHessianOfTheOrbitNeedsAtMostFifty) {
+  EXPECT_LE(hessian_operations("orbital_transfer", 1), 50U);
+}
+
+TEST(OperationCount, MidpointHessianOfTheTwoLinkNeedsAtMostOneHundredAndThirty) {
+  EXPECT_LE(hessian_operations("two_link_manipulator", 1), 130U);
+}
+
+TEST(OperationCount, StagesShareNothingThatGrowsFasterThanTheirPairs) {
+  // Every entry of the Hessian sums over the stages; there are O(s^2) entries.
+  const std::size_t one = hessian_operations("two_link_manipulator", 1);
+  EXPECT_LT(hessian_operations("two_link_manipulator", 3), 27 * one);
 }
 
 }  // namespace

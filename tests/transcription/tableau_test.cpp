@@ -8,7 +8,6 @@
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {
-
 namespace {
 
 constexpr double rounding = 4e-16;
@@ -191,5 +190,4 @@ TEST(LagrangeBasis, ReproducesCubicPolynomials) {
 }
 
 }  // namespace
-
 }  // namespace dmocbench

@@ -20,7 +20,6 @@
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {
-
 namespace {
 
 LatticeOptions small_lattice() {
@@ -142,5 +141,4 @@ TEST(RoadmapAlongAMotion, NeedsFixedEndsAndHorizon) {
 }
 
 }  // namespace
-
 }  // namespace dmocbench

@@ -10,7 +10,6 @@
 #include "tests/support/value_of.hpp"
 
 namespace dmocbench {
-
 namespace {
 
 constexpr double exponent = 1.5;
@@ -68,5 +67,4 @@ TEST(ReferenceTransfer, IsTheCertifiedOptimumOfThePaperAndOfTenRevolutions) {
 }
 
 }  // namespace
-
 }  // namespace dmocbench

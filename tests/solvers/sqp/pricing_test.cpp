@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 namespace dmocbench::sqp {
-
 namespace {
 
 const std::vector<PricedColumn> candidates{{2, -1.0}, {5, 4.0}, {7, -6.0}, {9, 3.0}};
@@ -72,5 +71,4 @@ TEST(RatioTest, NeverLetsAColumnPassItsBoundByMoreThanTheTolerance) {
 }
 
 }  // namespace
-
 }  // namespace dmocbench::sqp
