@@ -150,7 +150,8 @@ PrimalDualStep step_to_optimum(const Transcription& program, const LinearisedCon
     return system.solve(kkt_matrix_of(at), {gradient, constraints}, {step.primal, step.multipliers}) ==
            kkt::FactorisationStatus::solved;
   };
-  if (solves(*kkt_system_of(program)) || solves(*kkt_system_of_any_point(program))) return step;
+  const auto by_intervals = kkt_system_by_intervals(program);
+  if ((by_intervals && solves(*by_intervals)) || solves(*kkt_system_of_any_point(program))) return step;
   throw Error("the error of the answer cannot be estimated: the matrix of its conditions is singular");
 }
 

@@ -84,11 +84,18 @@ std::optional<Confirmation::StepLengths> Confirmation::newton_step(const Solutio
   return step_by(pivoting);
 }
 
+void Confirmation::look_for_curvature(Solution& solution) {
+  if (!corrections_->may_be_saddle()) return;
+  curvature_ = dmocbench::negative_curvature(program_, corrections_->conditions());
+  if (curvature_) solution.curvature = curvature_->share;
+}
+
 /// Takes "solved" back from an answer that a Newton step would move.
 void Confirmation::require_settled(Solution& solution) {
   std::optional<StepLengths> step;
   try {
     step = newton_step(solution);
+    look_for_curvature(solution);
   } catch (const Stopped&) {
     return tell_of_stop(solution);
   }
@@ -125,6 +132,8 @@ void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton)
     return;
   }
   judge_residuals(solution);
+  solution.curvature.reset();
+  curvature_.reset();
   const bool claims_success = solution.status == Status::solved || solution.status == Status::acceptable;
   if (!claims_success) return;
   solution.status = confirmed_status(solution.status, scaled_residual(tolerance, solution));

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "methods/judgement/kkt_residual.hpp"
+#include "methods/judgement/negative_curvature.hpp"
 #include "methods/judgement/newton_correction.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
@@ -38,7 +39,8 @@ class Confirmation {
   ///
   /// "Solved" requires a settled answer too: a Newton step from it moves no unknown by more than `settled` of its
   /// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are, or, where
-  /// controls alone would move, "solved, control not determined"; `settle` may settle it. Where the step cannot be
+  /// controls alone would move, "solved, control not determined"; `settle` may settle it. Negative curvature there is
+  /// measured (`Solution::curvature`), and left to `leave_saddle` to decide about. Where the step cannot be
   /// computed the residuals alone decide, and where `asks_newton` is false. Where the `StopScope` of the thread ends
   /// its computation, see `tell_of_stop`.
   void judge(double tolerance, Solution& solution, bool asks_newton = true);
@@ -48,6 +50,9 @@ class Confirmation {
   /// over the free variables, at the answer and at the start, reaches `confirmation_factor` times the tolerance: then λ
   /// = 0 passes everywhere. 1 too where all of them vanish: a program without a cost only needs feasibility.
   [[nodiscard]] double factor_of_cost(double tolerance, const Eigen::VectorXd& start, const Solution& solution);
+
+  /// The negative curvature at the answer judged last, if `Solution::curvature` reports one.
+  [[nodiscard]] const std::optional<NegativeCurvature>& negative_curvature() const noexcept { return curvature_; }
 
  private:
   void judge_residuals(Solution& solution);
@@ -59,6 +64,7 @@ class Confirmation {
   };
   [[nodiscard]] std::optional<StepLengths> newton_step(const Solution& solution);
   void require_settled(Solution& solution);
+  void look_for_curvature(Solution& solution);
 
   friend void judge_residuals(NonlinearProgram& program, Solution& solution);
   friend double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution);
@@ -67,6 +73,7 @@ class Confirmation {
   KktMemory memory_;
   KktEntries entries_;
   std::optional<NewtonCorrections> corrections_;  // made when it is first needed
+  std::optional<NegativeCurvature> curvature_;
 };
 
 /// `Confirmation::judge`, once.

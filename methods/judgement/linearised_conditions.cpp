@@ -72,12 +72,12 @@ void LinearisedConditions::linearise_constraint(Eigen::Index i, double multiplie
   if (compliance[i] == no_part) constraints[i] = 0.0;
 }
 
-std::unique_ptr<kkt::KktSystem> kkt_system_of(const NonlinearProgram& program) {
+std::unique_ptr<kkt::KktSystem> kkt_system_by_intervals(const NonlinearProgram& program) {
   if (auto by_intervals = kkt::IntervalKkt::make(program)) return std::move(*by_intervals);
-  return kkt_system_of_any_point(program);
+  return nullptr;
 }
 
-std::unique_ptr<kkt::KktSystem> kkt_system_of_any_point(const NonlinearProgram& program) {
+std::unique_ptr<kkt::SparseKkt> kkt_system_of_any_point(const NonlinearProgram& program) {
   return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::found, kkt::SparseKkt::Inertia::any);
 }
 

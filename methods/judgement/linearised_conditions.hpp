@@ -8,6 +8,7 @@
 
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/kkt/kkt_system.hpp"
+#include "methods/kkt/sparse_kkt.hpp"
 #include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench {
@@ -50,11 +51,11 @@ struct LinearisedConditions {
   return {at.hessian, at.jacobian, at.diagonal, at.compliance};
 }
 
-/// A way to solve with such a matrix: by intervals where the program's structure allows it, since that takes time
-/// linear in their number, otherwise as below.
-[[nodiscard]] std::unique_ptr<kkt::KktSystem> kkt_system_of(const NonlinearProgram& program);
+/// A way to solve with such a matrix by intervals, in time linear in their number; null where the program's structure
+/// does not allow it.
+[[nodiscard]] std::unique_ptr<kkt::KktSystem> kkt_system_by_intervals(const NonlinearProgram& program);
 /// A sparse factorisation that accepts any point: rounding of the multipliers may hide that it is a minimum.
-[[nodiscard]] std::unique_ptr<kkt::KktSystem> kkt_system_of_any_point(const NonlinearProgram& program);
+[[nodiscard]] std::unique_ptr<kkt::SparseKkt> kkt_system_of_any_point(const NonlinearProgram& program);
 
 /// Whether a value is at a finite bound, up to 1e-6 of its size.
 [[nodiscard]] bool is_held(double value, double bound);

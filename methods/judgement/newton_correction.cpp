@@ -19,8 +19,7 @@ double largest(const Eigen::VectorXd& x) { return x.size() > 0 ? x.lpNorm<Eigen:
 
 NewtonCorrections::NewtonCorrections(NonlinearProgram& program, Factorisation factorisation)
     : program_(program),
-      factorisation_(factorisation),
-      system_(factorisation == Factorisation::sparse ? kkt_system_of_any_point(program) : kkt_system_of(program)) {}
+      by_intervals_(factorisation == Factorisation::sparse ? nullptr : kkt_system_by_intervals(program)) {}
 NewtonCorrections::~NewtonCorrections() = default;
 
 std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
@@ -29,25 +28,25 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
   step_.primal.setZero(primal.size());
   step_.multipliers.setZero(multipliers.size());
   if (!conditions_.is_finite()) return unbounded;
-  const auto solve = [&] {
-    system_->begin_solve();
-    return system_->solve(kkt_matrix_of(conditions_), {conditions_.gradient, conditions_.constraints},
-                          {step_.primal, step_.multipliers});
-  };
-  const auto solved_or_failed = [&] {
+  const auto solved_or_failed = [&](kkt::KktSystem& system) {
     try {
-      return solve();
+      system.begin_solve();
+      return system.solve(kkt_matrix_of(conditions_), {conditions_.gradient, conditions_.constraints},
+                          {step_.primal, step_.multipliers});
     } catch (const Stopped&) {
       throw;
     } catch (const std::exception&) {  // the factorisation is out of memory, or fails otherwise
       return FactorisationStatus::singular;
     }
   };
-  FactorisationStatus status = solved_or_failed();
-  if (status != FactorisationStatus::solved && factorisation_ != Factorisation::sparse) {
-    factorisation_ = Factorisation::sparse;
-    system_ = kkt_system_of_any_point(program_);
-    status = solved_or_failed();
+  FactorisationStatus status = FactorisationStatus::untrusted;
+  if (by_intervals_) status = solved_or_failed(*by_intervals_);
+  may_be_saddle_ = false;
+  if (status != FactorisationStatus::solved) {
+    by_intervals_.reset();
+    if (!pivoting_) pivoting_ = kkt_system_of_any_point(program_);
+    status = solved_or_failed(*pivoting_);
+    may_be_saddle_ = status == FactorisationStatus::solved && !pivoting_->has_minimum();
   }
   if (status != FactorisationStatus::solved) return std::nullopt;
   measure_step(primal, memory.gradient_of_cost);

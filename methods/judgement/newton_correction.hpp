@@ -61,6 +61,12 @@ class NewtonCorrections {
   /// `Stopped` where the `StopScope` of the thread ends that.
   [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
 
+  /// True where the matrix of the last step is not positive definite along the equalities; rounding may be the reason
+  /// (`negative_curvature` of `conditions()` decides).
+  [[nodiscard]] bool may_be_saddle() const noexcept { return may_be_saddle_; }
+  /// The linearised conditions at the last point.
+  [[nodiscard]] const LinearisedConditions& conditions() const noexcept { return conditions_; }
+
   /// `NewtonCorrection::length_of_state` of the last step.
   [[nodiscard]] double length_of_state() const noexcept { return step_.length_of_state; }
 
@@ -71,8 +77,9 @@ class NewtonCorrections {
   void measure_step(const Eigen::VectorXd& primal, const Eigen::VectorXd& gradient);
 
   NonlinearProgram& program_;
-  Factorisation factorisation_;
-  std::unique_ptr<kkt::KktSystem> system_;
+  std::unique_ptr<kkt::KktSystem> by_intervals_;  // until it fails once
+  std::unique_ptr<kkt::SparseKkt> pivoting_;      // made when it is first needed
+  bool may_be_saddle_ = false;
   LinearisedConditions conditions_;
   NewtonCorrection step_;  // the last one
 };

@@ -83,8 +83,8 @@ FactorisationStatus SparseKkt::solve(const KktMatrix& matrix, const KktRightHand
   const auto& [gradient, constraints] = right_hand_side;
   if (!is_finite(matrix.hessian) || !is_finite(matrix.jacobian)) return FactorisationStatus::singular;
   if (!factorisation_.factorise(lower_triangle(matrix))) return FactorisationStatus::singular;
-  const bool is_minimum = factorisation_.negative_eigenvalues() == constraints.size();
-  if (!is_minimum && inertia_ == Inertia::minimum) return FactorisationStatus::wrong_inertia;
+  has_minimum_ = factorisation_.negative_eigenvalues() == constraints.size();
+  if (!has_minimum_ && inertia_ == Inertia::minimum) return FactorisationStatus::wrong_inertia;
   Eigen::VectorXd negated(gradient.size() + constraints.size());
   negated << -gradient, -constraints;
   for (Eigen::Index i = 0; i < gradient.size(); ++i) {

@@ -38,6 +38,9 @@ class SparseKkt final : public KktSystem {
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;
 
+  /// True if the matrix factorised last leads to a minimum along the constraints, whatever `Inertia` accepts.
+  [[nodiscard]] bool has_minimum() const noexcept { return has_minimum_; }
+
  private:
   [[nodiscard]] Eigen::SparseMatrix<double> lower_triangle(const KktMatrix& matrix) const;
 
@@ -45,6 +48,7 @@ class SparseKkt final : public KktSystem {
   Inertia inertia_;
   std::vector<bool> is_free_;
   SymmetricFactorisation factorisation_;
+  bool has_minimum_ = false;
 };
 
 }  // namespace dmocbench::kkt

@@ -64,6 +64,9 @@ struct Solution {
   /// The distance by which a Newton step from here would move the answer (`NewtonCorrection::length`); none if not
   /// computed.
   std::optional<double> correction;
+  /// The curvature of the Lagrangian along a direction that meets the linearised constraints, as a share of the largest
+  /// entry of its Hessian, where there is a negative one (`negative_curvature`): the point may be a saddle.
+  std::optional<double> curvature;
   /// μ that an interior-point method ended with, the start of a neighbour's; none where the program has neither bounds
   /// nor inequalities, or the solver does not report it.
   std::optional<double> barrier_parameter;

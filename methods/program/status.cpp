@@ -38,6 +38,8 @@ constexpr auto entries = std::to_array<Entry>({
      "The discrete program is solved, but its motion leaves a bound or path constraint between the stages."},
     {Status::control_not_determined, "solved, control not determined",
      "Cost and state are confirmed, but the control is not determined: they hardly depend on it."},
+    {Status::stationary, "stationary, not a minimum",
+     "The answer is a stationary point of the program, but not a minimum."},
     {Status::not_confirmed, "not confirmed",
      "The solver reports success, but the residual computed from our derivatives does not confirm it."},
 });

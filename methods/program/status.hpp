@@ -24,6 +24,7 @@ enum class Status : std::uint8_t {
   too_coarse,               ///< solved, but the answer is not a motion: its intervals do not join (`accuracy`)
   violates_between_stages,  ///< solved, but the motion leaves its bounds between stages (`violation_between_stages`)
   control_not_determined,   ///< solved, but a Newton step would move a control: cost and state hardly depend on it
+  stationary,               ///< a stationary point next to which the constraints hold at a lower cost: not a minimum
   not_confirmed,            ///< the solver reports success, but our residual does not confirm it
 };
 

@@ -28,11 +28,12 @@ const Solution& PreparedSolve::solve(const Eigen::VectorXd& start, const Eigen::
   solution_.kkt_residual.reset();
   solution_.constraint_violation.reset();
   solution_.correction.reset();
+  solution_.curvature.reset();
   solution_.evaluations.reset();
   counted_.restart(solver_->seconds_allowed());
   const StopScope limits = solver_->scope(counted_);
-  run_->run(start, multipliers, barrier_parameter, solution_);
-  static_cast<void>(solver_->complete(counted_, start, confirmation_, judgement_ == Judgement::confirmed, solution_));
+  static_cast<void>(solver_->run_and_judge(counted_, *run_, {start, multipliers, barrier_parameter}, confirmation_,
+                                           judgement_ == Judgement::confirmed, solution_));
   return solution_;
 }
 

@@ -13,6 +13,7 @@
 #include "methods/judgement/least_violation.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/leave_saddle.hpp"
 
 namespace dmocbench {
 
@@ -123,6 +124,21 @@ double Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, C
   return factor;
 }
 
+double Solver::run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
+                             Confirmation& confirmation, bool asks_newton, Solution& solution) const {
+  run.run(start.primal, start.multipliers, start.barrier_parameter, solution);
+  const double factor = complete(counted, start.primal, confirmation, asks_newton, solution);
+  if (factor != 1.0 || !is_solved(solution.status) || !confirmation.negative_curvature()) return factor;
+  const auto solve_from = [&](const Eigen::VectorXd& moved) {
+    Solution next;
+    run.run(moved, {}, std::nullopt, next);
+    static_cast<void>(complete(counted, moved, confirmation, asks_newton, next));
+    return next;
+  };
+  leave_saddle(counted, options_.tolerance, confirmation, solve_from, solution);
+  return factor;
+}
+
 Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
                        std::optional<double> barrier_parameter) const {
   check(program, start, multipliers, barrier_parameter);
@@ -130,8 +146,8 @@ Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, 
   CountedProgram counted(program, seconds_allowed());
   const StopScope limits = scope(counted);
   Solution solution;
-  prepare(counted)->run(start, multipliers, barrier_parameter, solution);
-  const double factor = complete(counted, start, confirmation, true, solution);
+  const double factor =
+      run_and_judge(counted, *prepare(counted), {start, multipliers, barrier_parameter}, confirmation, true, solution);
   if (factor == 1.0) return solution;
 
   ScaledCost scaled(program, factor);
@@ -139,8 +155,9 @@ Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, 
   CountedProgram counted_again(scaled, std::max(counted.seconds_left(), shortest_limit));
   solution = {};
   if (barrier_parameter) *barrier_parameter *= factor;
-  prepare(counted_again)->run(start, factor * multipliers, barrier_parameter, solution);
-  static_cast<void>(complete(counted_again, start, of_scaled, true, solution));
+  const Eigen::VectorXd scaled_multipliers = factor * multipliers;
+  static_cast<void>(run_and_judge(counted_again, *prepare(counted_again),
+                                  {start, scaled_multipliers, barrier_parameter}, of_scaled, true, solution));
   state_without_factor(program, factor, solution);
   return solution;
 }

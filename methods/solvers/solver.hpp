@@ -69,6 +69,8 @@ class Solver {
   /// `PreparedRun::run`, judges its answer (`judge_infeasibility`, `Confirmation`) and reports the outcome in a
   /// sentence.
   ///
+  /// A stationary point that is not a minimum is left along a direction of negative curvature (`leave_saddle`).
+  ///
   /// Where the cost is so small that the tolerance does not constrain it (`Confirmation::factor_of_cost`), it is solved
   /// again with the cost times that factor, and the message reports it. Counts and times belong to the second
   /// solve, the limit of time holds for both.
@@ -89,6 +91,12 @@ class Solver {
 
  private:
   friend class PreparedSolve;
+  /// Arguments of `solve`.
+  struct WarmStart {
+    const Eigen::VectorXd& primal;
+    const Eigen::VectorXd& multipliers;
+    std::optional<double> barrier_parameter;
+  };
   /// The limit of time of a solve that begins now: the smaller of the options' and the innermost `StopScope`'s.
   [[nodiscard]] double seconds_allowed() const;
   /// Applies the limits of the solve to computations outside its iterations.
@@ -100,6 +108,9 @@ class Solver {
   /// `Confirmation::factor_of_cost`; where that is not 1, the answer is not confirmed.
   double complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation, bool asks_newton,
                   Solution& solution) const;
+  /// Runs the method, completes its answer and continues from a saddle point (`leave_saddle`). Returns as `complete`.
+  double run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start, Confirmation& confirmation,
+                       bool asks_newton, Solution& solution) const;
 
   SolverOptions options_;
 };

@@ -109,7 +109,7 @@ void LaneKkt::rescale_weights(const NewtonArrays& arrays, const Mask& wanted) {
     const TerminalWeights::Diagonal& diagonal = free_diagonals_[i];
     const auto numbers = [&](const LocalEntry& entry) { return arrays.of(entry.source) + entry.first * lane_count; };
     lane_loops().sum_of_reciprocals(diagonal.hessian ? numbers(*diagonal.hessian) : nullptr, numbers(diagonal.added),
-                                    TerminalWeights::smallest_curvature, entries_.intervals,
+                                    TerminalWeights::negligible_curvature, entries_.intervals,
                                     &compliances_[i * lane_count]);
   }
   std::vector<double> of_lane(free_diagonals_.size());

@@ -70,7 +70,7 @@ double TerminalWeights::compliance_of(const Diagonal& diagonal, const NewtonArra
   return sum_of_stretches(intervals_, [&](Eigen::Index begin, Eigen::Index length) {
     double sum = 0.0;
     for (Eigen::Index k = begin; k < begin + length; ++k) {
-      sum += 1.0 / (std::abs((hessian != nullptr ? hessian[k] : 0.0) + added[k]) + smallest_curvature);
+      sum += 1.0 / (std::abs((hessian != nullptr ? hessian[k] : 0.0) + added[k]) + negligible_curvature);
     }
     return sum;
   });

@@ -32,13 +32,13 @@ class TerminalWeights {
   void rescale(const std::vector<double>& compliances);
 
   /// The diagonal entry of the matrix that a moving unknown of the intervals has: `added` (of d) and, where it has one,
-  /// the Hessian's. Their sum c, interval by interval, makes its compliance Σ 1/(|c| + smallest_curvature).
+  /// the Hessian's. Their sum c, interval by interval, makes its compliance Σ 1/(|c| + negligible_curvature).
   struct Diagonal {
     LocalEntry added{};
     std::optional<LocalEntry> hessian;
     bool is_free = true;
   };
-  static constexpr double smallest_curvature = 1e-12;
+  static constexpr double negligible_curvature = 1e-12;
   /// The diagonal entries of unknowns that the order of elimination leaves free.
   [[nodiscard]] std::vector<Diagonal> free_diagonals() const;
   /// Chooses the multiple to try after a failure: the next larger one, and after the largest the smallest. A multiple

@@ -78,19 +78,21 @@ Solution SharedBatch::solve_alone(const BatchInstance& instance) {
 
 void SharedBatch::confirm(const BatchInstance& instance, Solution& solution) {
   double factor = 1.0;
+  bool may_be_saddle = false;
   {
     const std::lock_guard lock(program_use_);
     const StopScope scope([this] { return options_.stop_requested && options_.stop_requested(); }, 0.0);
     factor = with_instance(instance, [&](NonlinearProgram& alone) {
       Confirmation confirmation(alone);
       confirmation.judge(options_.tolerance, solution);
+      may_be_saddle = confirmation.negative_curvature().has_value();
       return confirmation.factor_of_cost(options_.tolerance, instance.start, solution);
     });
   }
-  if (factor == 1.0) return;
+  if (factor == 1.0 && !may_be_saddle) return;
   if (options_.falls_back) {
     solution = solve_alone(instance);
-  } else {
+  } else if (factor != 1.0) {
     refuse_small_cost(factor, solution);
   }
 }
