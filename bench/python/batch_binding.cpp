@@ -48,6 +48,17 @@ struct Answers {
   Rows u;  ///< stage by stage
 };
 
+/// As long as nothing is solved. Without a limit of time that is over, all instances have their turn.
+Answers no_answers(std::size_t instances) {
+  const auto count = static_cast<Eigen::Index>(instances);
+  return {.cost = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN()),
+          .status = std::vector<std::string>(instances, std::string(name_of(Status::time_limit))),
+          .is_solved = std::vector<bool>(instances, false),
+          .iterations = Eigen::VectorXi::Zero(count),
+          .q = {},
+          .u = {}};
+}
+
 struct BatchAsked {
   std::string method = "dmoc";
   std::string tableau = "gauss";
@@ -55,6 +66,7 @@ struct BatchAsked {
   long long intervals = 64;
   double tolerance = BatchOptions{}.tolerance;
   int most_iterations = BatchOptions{}.most_iterations;
+  double most_seconds = 0.0;
   std::size_t threads = 0;
   bool motions = false;
 };
@@ -82,11 +94,6 @@ class Batch {
     require_rows(instances.values, instances.count, std::ssize(instances.parameters), "parameters");
     require_rows(instances.first, instances.count, 2 * n, "start");
     require_rows(instances.last, instances.count, 2 * n, "end");
-    const auto count = static_cast<Eigen::Index>(instances.count);
-    answers_.cost = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN());
-    answers_.status.assign(instances.count, std::string(name_of(Status::not_run)));
-    answers_.is_solved.assign(instances.count, false);
-    answers_.iterations = Eigen::VectorXi::Zero(count);
   }
 
   Answers solve(Call& call) {
@@ -102,7 +109,7 @@ class Batch {
     // Instances with parameters of their own are prepared by the program, which a running batch needs itself.
     constexpr std::size_t most_prepared = 4096;
     const std::size_t step = has_parameters ? most_prepared : std::max<std::size_t>(instances_.count, 1);
-    for (std::size_t first = 0; first < instances_.count && !is_stopped; first += step) {
+    for (std::size_t first = 0; first < instances_.count && !is_stopped && !must_stop(); first += step) {
       solve_some(first, std::min(first + step, instances_.count), options);
     }
     return std::move(answers_);
@@ -112,13 +119,14 @@ class Batch {
   void solve_some(std::size_t begin, std::size_t end, const BatchOptions& options) {
     std::vector<BatchInstance> prepared;
     if (!instances_.parameters.empty()) {
-      for (std::size_t i = begin; i < end; ++i) prepared.push_back(with_parameters(i));
+      for (std::size_t i = begin; i < end && !must_stop(); ++i) prepared.push_back(with_parameters(i));
+      end = begin + prepared.size();
       program_.set_parameters(parameter_values(problem_));
     }
     ClampedEnds ends(program_);
     const auto next = [&](std::size_t index, BatchInstance& instance) {
       if (index >= end - begin) return false;
-      if (prepared.empty()) {
+      if (instances_.parameters.empty()) {
         write(begin + index, ends, instance);
       } else {
         instance = prepared[index];
@@ -194,7 +202,7 @@ class Batch {
   Eigen::VectorXd start_;
   BoundaryState first_ = problem_.initial_state();
   BoundaryState last_ = problem_.final_state();
-  Answers answers_;
+  Answers answers_ = no_answers(instances_.count);
   std::vector<std::pair<std::size_t, Eigen::VectorXd>> points_;  // of instances whose motions are still to be read
 };
 
@@ -209,6 +217,7 @@ void bind_batch(py::module_& module) {
       .def_readwrite("intervals", &BatchAsked::intervals)
       .def_readwrite("tolerance", &BatchAsked::tolerance)
       .def_readwrite("most_iterations", &BatchAsked::most_iterations)
+      .def_readwrite("most_seconds", &BatchAsked::most_seconds)
       .def_readwrite("threads", &BatchAsked::threads)
       .def_readwrite("motions", &BatchAsked::motions);
   module.def(
@@ -217,8 +226,12 @@ void bind_batch(py::module_& module) {
          const std::vector<std::string>& parameters, const Rows& values, const Rows& first, const Rows& last) {
         const Instances instances{count, parameters, values, first, last};
         Answers answers = without_gil([&](Call& call) {
-          const StopScope scope([&call] { return call.is_interrupted(); }, 0.0);
-          return Batch(*handle.problem, asked, instances).solve(call);
+          const StopScope scope([&call] { return call.is_interrupted(); }, asked.most_seconds);
+          try {
+            return Batch(*handle.problem, asked, instances).solve(call);
+          } catch (const Stopped&) {  // while it was set up
+            return no_answers(count);
+          }
         });
         py::dict result;
         result["cost"] = std::move(answers.cost);

@@ -281,7 +281,8 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them");
   line.option("--tolerance", options.tolerance, "tolerance for the KKT residual of the scaled program");
   line.option("--iterations", options.most_iterations, "largest number of iterations of a solver");
-  line.number("--seconds", options.most_seconds, 0.0, 1e6, "time limit of a solve; 0: no limit");
+  line.number("--seconds", options.most_seconds, 0.0, 1e6,
+              "time limit of a case, its set-up and all of its grids; 0: no limit");
   line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
   line.option("--repeats", options.repeats, "solves per row; times are medians");
   line.flag("--verbose", options.verbose, "show the solver's own output", OptionRole::machine);

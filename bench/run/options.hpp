@@ -36,7 +36,7 @@ struct ExperimentOptions {
   double tolerance = SolverOptions{}.tolerance;         ///< for the KKT residual of the scaled program
   std::vector<std::string> tolerances = {};  ///< several, where an experiment compares them; empty: `tolerance` alone
   int most_iterations = SolverOptions{}.most_iterations;  ///< of a solver
-  double most_seconds = 0.0;                              ///< of a solve, and of its set-up; 0 for no limit
+  double most_seconds = 0.0;                              ///< of a case with its set-up and all grids; 0 for no limit
   double start_seconds = 30.0;                            ///< of the search of a problem's common start
   int jobs = 1;          ///< problems worked on at the same time, where an experiment allows it
   bool batch = false;    ///< cases of one program are solved side by side, where an experiment allows it

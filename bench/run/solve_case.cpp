@@ -61,10 +61,13 @@ Solution solve_once(const SolvedCase& solved, const Start& start, const Solver& 
 /// Solves again from the same start; the times become medians of all.
 void repeat(SolvedCase& solved, const Start& start, const Solver& solver, const Solution& first, int repeats) {
   std::vector<Solution> solutions{first};
-  for (int i = 1; i < repeats && is_solved(first.status); ++i) {
-    const Solution again = solve_once(solved, start, solver);
-    if (!is_solved(again.status)) break;
-    solutions.push_back(again);
+  try {
+    for (int i = 1; i < repeats && is_solved(first.status); ++i) {
+      const Solution again = solve_once(solved, start, solver);
+      if (!is_solved(again.status)) break;
+      solutions.push_back(again);
+    }
+  } catch (const Stopped&) {  // outside of the solver; there are the times so far
   }
   set_times(solved, solutions);
 }
@@ -201,9 +204,14 @@ void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& ti
   if (solved.trajectory && is_solved(solution.status)) judge_in_time(solved, *solved.trajectory, time);
   if (!solved.solution.failed_before.empty()) solved.note(solved.solution.failed_before);
   tell_start(solved, start);
-  const Failure failure = failure_of(*solved.the_case.problem, program, solution, solved.tolerance);
-  solved.solution.formula_undefined = failure.formula_undefined;
-  if (!failure.words.empty()) solved.note(failure.words);
+  try {
+    const StopScope scope = time.scope();
+    const Failure failure = failure_of(*solved.the_case.problem, program, solution, solved.tolerance);
+    solved.solution.formula_undefined = failure.formula_undefined;
+    if (!failure.words.empty()) solved.note(failure.words);
+  } catch (const Stopped&) {
+    solved.note("Where it failed was not looked for: the time was up.");
+  }
 }
 
 bool is_wanted_branch(const std::string& branch) { return branch == "same" || branch.empty(); }
@@ -283,16 +291,21 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
   result.start = sample(program, start.motion);
   Solution& solution = result.solution;
   Solution first;
-  {
+  try {
     const StopScope scope = time.scope();
     first = solve_once(result, start, solver);
     solution = first;
     const int settling_steps = settle_exactly(the_case, program, tolerance, solution);
     if (polishes) result.polish_steps = settling_steps + polish(program, solution);
+  } catch (const Stopped&) {  // outside of a solver, as where multipliers of the start are computed
+    solution.status = time.reason();
+    solution.message = sentence_of(solution.status);
+    if (solution.primal.size() == 0) solution.primal = result.start;
   }
 
   read_and_judge(result, start, time);
   result.seconds_left = time.left();
+  const StopScope scope = time.scope();
   repeat(result, start, solver, first, repeats);
   return result;
 }

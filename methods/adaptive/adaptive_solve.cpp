@@ -65,7 +65,18 @@ class AdaptiveRun {
     solver_options_.tolerance = options.solver_tolerance(solver_options_.tolerance);
   }
 
+  /// Where a limit of time or an interrupt ends it, the answer is the last one that was found.
   AdaptiveAnswer run(const std::function<void(const GridAttempt&)>& on_grid) {
+    const StopScope scope(solver_options_.stop_requested, solver_options_.most_seconds);
+    try {
+      return refine(on_grid);
+    } catch (const Stopped&) {
+      return end_stopped();
+    }
+  }
+
+ private:
+  AdaptiveAnswer refine(const std::function<void(const GridAttempt&)>& on_grid) {
     for (int number = 0; number < options_.most_grids; ++number) {
       const bool is_solved_here = attempt();
       if (on_grid) on_grid(answer_.grids.back());
@@ -87,24 +98,42 @@ class AdaptiveRun {
                            answer_.estimate.relative, options_.accuracy));
   }
 
- private:
   AdaptiveAnswer end(AdaptiveOutcome outcome, std::string message) {
     answer_.outcome = outcome;
     answer_.message = std::move(message);
     return std::move(answer_);
   }
 
-  /// Solves on the present grid and estimates the error. False if it was not solved.
+  AdaptiveAnswer end_stopped() {
+    Solution& solution = answer_.solution;
+    std::string words = "The first grid was not solved.";
+    if (is_solved(solution.status)) {
+      const double error = is_estimated_ ? answer_.estimate.relative : std::numeric_limits<double>::infinity();
+      words =
+          fmt::format("The answer is the one on {} intervals, whose {}.", answer_.program->grid().intervals(),
+                      std::isfinite(error) ? fmt::format("estimated error is {:.1e}", error) : "error is not known");
+    }
+    solution.status = seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
+    return end(AdaptiveOutcome::stopped, fmt::format("{} {}", sentence_of(solution.status), words));
+  }
+
+  /// Solves on the present grid and estimates the error. False if it was not solved. Where a limit ends the solve, the
+  /// answer before stays, and its solution gets the work.
   bool attempt() {
     const auto begin = Clock::now();
-    answer_.program =
-        std::make_unique<Transcription>(*task_.problem, *element_, make_tableau(task_.tableau, stages_), grid_);
-    Transcription& program = *answer_.program;
-    grid_ = program.grid();  // with nodes at the times of bounds, which later grids share
-    Solution solved_here = solve(program);
+    auto made = std::make_unique<Transcription>(*task_.problem, *element_, make_tableau(task_.tableau, stages_), grid_);
+    grid_ = made->grid();  // with nodes at the times of bounds, which later grids share
+    Solution solved_here = solve(*made);
     const int iterations = solved_here.major_iterations.value_or(0);
+    if (must_stop() && !is_solved(solved_here.status) && answer_.program) {
+      add_work(solved_here, answer_.solution);
+      stop_if_requested();
+    }
     add_work(answer_.solution, solved_here);
+    answer_.program = std::move(made);
     answer_.solution = std::move(solved_here);
+    is_estimated_ = false;
+    Transcription& program = *answer_.program;
     const Solution& solution = answer_.solution;
     const Eigen::VectorXd steps = program.guessed_horizon() * grid_.relative_widths();
     GridAttempt record{.intervals = steps.size(),
@@ -121,6 +150,7 @@ class AdaptiveRun {
       between_ = violation_between_stages(*task_.problem, program.traced_problem(), answer_.trajectory);
       if (between_.is_motion()) {
         answer_.estimate = estimated(program, earlier);
+        is_estimated_ = true;
         record.relative = answer_.estimate.relative;
         record.floor = answer_.estimate.floor;
       } else {
@@ -129,6 +159,7 @@ class AdaptiveRun {
     }
     record.seconds = seconds_since(begin);
     answer_.grids.push_back(record);
+    if (!is_solved(solution.status)) stop_if_requested();
     return is_solved(solution.status);
   }
 
@@ -275,6 +306,7 @@ class AdaptiveRun {
   std::string reason_to_compare_;      // why `estimator_` gives no estimate; empty if it does
   bool is_finer_than_before_ = false;  // every interval of the grid before was halved, or has more stages
   int slow_grids_ = 0;                 // in turn whose error hardly fell
+  bool is_estimated_ = false;          // of the last solution: a limit may come before its estimate
   ViolationBetweenStages between_;     // of the last grid
   AdaptiveAnswer answer_;
 };

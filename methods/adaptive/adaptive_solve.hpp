@@ -35,8 +35,9 @@ struct AdaptiveOptions {
   int most_grids = 20;                    ///< after which it ends as `too_many`
   Eigen::Index most_intervals = 1 << 20;  ///< of a grid
   std::string solver = "interior_point";  ///< as `make_solver` takes it
-  SolverOptions solver_options;           ///< of every solve, except the tolerance
-  NamedOptions named_options;             ///< the solver's, by name
+  /// Of every solve, except the tolerance; `most_seconds` is the limit of all grids together.
+  SolverOptions solver_options;
+  NamedOptions named_options;  ///< the solver's, by name
 
   /// The tolerance of the solves: `tolerance`, or a hundredth of `accuracy` if that is less, but not below 1e-12.
   [[nodiscard]] double solver_tolerance(double tolerance) const;
@@ -68,9 +69,11 @@ enum class AdaptiveOutcome : std::uint8_t {
   not_solved,  ///< a program was not solved
   rounding,    ///< rounding keeps doubles from being that accurate
   too_many,    ///< that accuracy would take more grids or intervals than allowed
+  stopped,     ///< the limit of time, or a request, ended it: the status of the solution says which
 };
 
-/// The answer on the last grid, and the grids before it.
+/// The answer on the last grid, and the grids before it. Where it was stopped, the last grid that was solved, or the
+/// first; without a program if not even that was set up.
 struct AdaptiveAnswer {
   AdaptiveOutcome outcome = AdaptiveOutcome::not_solved;  ///< how it ended
   std::string message;                                    ///< a sentence
@@ -109,8 +112,8 @@ struct AdaptiveTask {
 /// requested accuracy: the next grid is four times as fine where it leaves them farthest, and the same elsewhere.
 ///
 /// It ends as `rounding` where the floor of an estimate is above the accuracy, or the next grid's would be. It stops
-/// where a program is not solved (`solution` has the reason). `on_grid` is called for every grid. Throws `Stopped`
-/// where a `StopScope` requires it outside of a solve, and `Error` as `Transcription` does.
+/// where a program is not solved (`solution` has the reason), and as `stopped` where the time is up. `on_grid` is
+/// called for every grid. Throws `Error` as `Transcription` does.
 [[nodiscard]] AdaptiveAnswer solve_adaptively(const AdaptiveTask& task, const AdaptiveOptions& options,
                                               const std::function<void(const GridAttempt&)>& on_grid = {});
 

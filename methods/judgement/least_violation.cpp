@@ -208,18 +208,19 @@ namespace {
 
 constexpr int most_steps = 200;
 
+/// A descent that is cut short has shown nothing.
+void require_time(const CountedProgram& program, const SolverOptions& options) {
+  if ((options.stop_requested && options.stop_requested()) || program.is_out_of_time()) {
+    throw Stopped("the descent on the violation was stopped, or took longer than the time given");
+  }
+}
+
 /// Descends from the solution's point; whether that ends at a point of least violation.
 bool moves_to_least_violation(const CountedProgram& program, const SolverOptions& options, Solution& solution) {
   ViolationDescent descent(program.uncounted(), solution.primal);
   for (int i = 0; i < most_steps; ++i) {
-    if (options.stop_requested && options.stop_requested()) return false;
-    if (program.is_out_of_time()) return false;
-    bool is_over = false;
-    try {
-      is_over = !descent.step();
-    } catch (const Stopped&) {
-      return false;
-    }
+    require_time(program, options);
+    const bool is_over = !descent.step();
     if (descent.violation() <= options.tolerance) return false;
     if (descent.is_at_least_violation()) {
       solution.primal = descent.point();
@@ -235,8 +236,8 @@ Eigen::VectorXd feasible_point_from(const CountedProgram& program, const SolverO
                                     const Eigen::VectorXd& start) {
   ViolationDescent descent(program.uncounted(), start);
   for (int i = 0; i < most_steps && descent.violation() > options.tolerance; ++i) {
-    const bool must_end = (options.stop_requested && options.stop_requested()) || program.is_out_of_time();
-    if (must_end || !descent.step()) break;
+    require_time(program, options);
+    if (!descent.step()) break;
   }
   return descent.violation() <= options.tolerance ? descent.point() : Eigen::VectorXd();
 }

@@ -68,8 +68,8 @@ class ViolationDescent {
 };
 
 /// A point that meets the constraints within the tolerance of the options: where descent on the violation alone ends,
-/// from `start` or, if that fails, from half way between the bounds. Empty if neither does, or if the solve must end.
-/// It counts no evaluation.
+/// from `start` or, if that fails, from half way between the bounds. Empty if neither does. It counts no evaluation.
+/// Throws `Stopped` where the solve must end.
 [[nodiscard]] Eigen::VectorXd feasible_point(const CountedProgram& program, const SolverOptions& options,
                                              const Eigen::VectorXd& start);
 
@@ -78,7 +78,8 @@ class ViolationDescent {
 /// `solution.primal` then moves; "step failed" if the solver reports infeasible and neither holds. For a `solution`
 /// that is reported infeasible, whose step failed or whose iterations ran out; the latter is judged at its last point,
 /// without descent. "Infeasible" is not reported either where descent from `start`, where the solve began, or from half
-/// way between the bounds meets the constraints. It ends with the time of the solve, and counts no evaluation.
+/// way between the bounds meets the constraints. It counts no evaluation. Throws `Stopped` where the solve
+/// must end.
 void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start,
                          Solution& solution);
 

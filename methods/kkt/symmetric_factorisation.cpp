@@ -101,6 +101,13 @@ struct SymmetricFactorisation::Mumps {
     }
   }
 
+  /// Throws `Stopped` where the time left is too short to choose an order: MUMPS cannot be stopped meanwhile.
+  void require_time_to_analyse() const {
+    constexpr double seconds_per_entry = 2e-6;
+    if (!positions.empty() || !(seconds_left() < seconds_per_entry * static_cast<double>(values.size()))) return;
+    throw Stopped("the time left is too short to choose an order of elimination");
+  }
+
   /// True if the pattern differs from the one analysed.
   bool read(const Eigen::SparseMatrix<double>& lower) {
     std::vector<MUMPS_INT> new_rows;
@@ -138,6 +145,7 @@ bool SymmetricFactorisation::factorise(const Eigen::SparseMatrix<double>& lower)
     // finds pivots that are mere rounding in a matrix that is regular.
     bool analyses = mumps_->read(lower);
     while (true) {
+      if (analyses) mumps_->require_time_to_analyse();
       if (analyses) mumps_->analysed = mumps_->run(job_analyse);
       if (analyses && !mumps_->analysed) return false;
       if (mumps_->run(job_factorise) && mumps_->data.infog[control(28)] == 0) return true;

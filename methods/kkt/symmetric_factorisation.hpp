@@ -20,7 +20,8 @@ namespace dmocbench {
 
 /// Factors L D Lᵀ of a sparse symmetric, possibly indefinite matrix, with its inertia (by MUMPS). Threads may have one
 /// each: calls of MUMPS wait for each other, and for solves by `ipopt` and `sqp` (`lock_mumps`). They end with the
-/// `StopScope` of their thread, while they wait and while they work.
+/// `StopScope` of their thread, while they wait and while they work. MUMPS cannot be stopped while it chooses an order
+/// of elimination; it does not begin where the time left is too short for that.
 class SymmetricFactorisation {
  public:
   /// Eliminates in a given order, which is kept: `positions` gives for every row of the matrix when it is eliminated,

@@ -31,7 +31,6 @@ const Solution& PreparedSolve::solve(const Eigen::VectorXd& start, const Eigen::
   solution_.curvature.reset();
   solution_.evaluations.reset();
   counted_.restart(solver_->seconds_allowed());
-  const StopScope limits = solver_->scope(counted_);
   static_cast<void>(solver_->run_and_judge(counted_, *run_, {start, multipliers, barrier_parameter}, confirmation_,
                                            judgement_ == Judgement::confirmed, solution_));
   return solution_;

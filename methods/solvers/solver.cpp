@@ -124,15 +124,29 @@ double Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, C
   return factor;
 }
 
+double Solver::run_within_limits(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
+                                 Confirmation& confirmation, bool asks_newton, Solution& solution) const {
+  const StopScope limits = scope(counted);
+  try {
+    run.run(start.primal, start.multipliers, start.barrier_parameter, solution);
+    return complete(counted, start.primal, confirmation, asks_newton, solution);
+  } catch (const Stopped&) {
+    solution.status = limits.seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
+    solution.message.clear();
+    if (solution.primal.size() != start.primal.size()) solution.primal = start.primal;
+    return complete(counted, start.primal, confirmation, asks_newton, solution);
+  }
+}
+
 double Solver::run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
                              Confirmation& confirmation, bool asks_newton, Solution& solution) const {
-  run.run(start.primal, start.multipliers, start.barrier_parameter, solution);
-  const double factor = complete(counted, start.primal, confirmation, asks_newton, solution);
+  const double factor = run_within_limits(counted, run, start, confirmation, asks_newton, solution);
   if (factor != 1.0 || !is_solved(solution.status) || !confirmation.negative_curvature()) return factor;
+  const Eigen::VectorXd no_multipliers;
   const auto solve_from = [&](const Eigen::VectorXd& moved) {
     Solution next;
-    run.run(moved, {}, std::nullopt, next);
-    static_cast<void>(complete(counted, moved, confirmation, asks_newton, next));
+    static_cast<void>(
+        run_within_limits(counted, run, {moved, no_multipliers, std::nullopt}, confirmation, asks_newton, next));
     return next;
   };
   leave_saddle(counted, options_.tolerance, confirmation, solve_from, solution);
@@ -144,7 +158,6 @@ Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, 
   check(program, start, multipliers, barrier_parameter);
   Confirmation confirmation(program);  // before the clock begins
   CountedProgram counted(program, seconds_allowed());
-  const StopScope limits = scope(counted);
   Solution solution;
   const double factor =
       run_and_judge(counted, *prepare(counted), {start, multipliers, barrier_parameter}, confirmation, true, solution);

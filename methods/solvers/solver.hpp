@@ -104,11 +104,15 @@ class Solver {
   /// Throws `Error` that names the argument that does not fit the program.
   static void check(const NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
                     std::optional<double> barrier_parameter);
+  /// A run and its judgement (`complete`). Where the scope ends work outside of iterations, such as the descent on the
+  /// violation, the answer is the last point, or the start, with the status "time limit" or "interrupted".
+  double run_within_limits(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
+                           Confirmation& confirmation, bool asks_newton, Solution& solution) const;
   /// Adds the measurements, judges the answer (`Confirmation::judge`) and sets the message. Returns
   /// `Confirmation::factor_of_cost`; where that is not 1, the answer is not confirmed.
   double complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation, bool asks_newton,
                   Solution& solution) const;
-  /// Runs the method, completes its answer and continues from a saddle point (`leave_saddle`). Returns as `complete`.
+  /// The same, continued from a saddle point (`leave_saddle`). Returns as `complete`.
   double run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start, Confirmation& confirmation,
                        bool asks_newton, Solution& solution) const;
 

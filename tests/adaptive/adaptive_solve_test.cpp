@@ -148,6 +148,38 @@ TEST(AdaptiveSolve, EndsWhereAGridIsNotSolvedAndSaysWhich) {
   EXPECT_NE(answer.message.find("Grid 1, 16 intervals"), std::string::npos) << answer.message;
 }
 
+TEST(AdaptiveSolve, KeepsTheLastAnswerWhereItIsStopped) {
+  const auto problem = make_problem("brachistochrone");
+  std::size_t grids = 0;
+  bool must_stop = false;
+  AdaptiveOptions options;
+  options.accuracy = 1e-9;
+  options.solver_options.stop_requested = [&] { return must_stop; };
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 16), options,
+                                                 [&](const GridAttempt&) { must_stop = ++grids == 3; });
+  EXPECT_EQ(answer.outcome, AdaptiveOutcome::stopped);
+  EXPECT_EQ(answer.solution.status, Status::interrupted);
+  ASSERT_EQ(answer.grids.size(), 3U);
+  EXPECT_EQ(answer.program->grid().intervals(), 64U);
+  EXPECT_EQ(answer.trajectory.intervals(), 64);
+  EXPECT_EQ(static_cast<std::size_t>(answer.solution.primal.size()), answer.program->variable_count());
+  EXPECT_NE(answer.message.find("64 intervals"), std::string::npos) << answer.message;
+  EXPECT_NE(answer.message.find("estimated error"), std::string::npos) << answer.message;
+}
+
+/// All grids together, which take more than a minute.
+TEST(AdaptiveSolve, EndsWithTheTimeOfAllGridsTogether) {
+  const auto problem = make_problem("robot_arm");
+  for (const double seconds : {1e-9, 0.5}) {
+    AdaptiveOptions options;
+    options.accuracy = 1e-10;
+    options.solver_options.most_seconds = seconds;
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "tangent", 1, 256), options);
+    EXPECT_EQ(answer.outcome, AdaptiveOutcome::stopped) << answer.message;
+    EXPECT_EQ(answer.solution.status, Status::time_limit);
+  }
+}
+
 TEST(AdaptiveSolve, RefusesAccuraciesThatAreNone) {
   const auto problem = make_problem("forced_oscillator");
   for (const double accuracy : {0.0, -1.0, 1e-30, 0.5, std::numeric_limits<double>::quiet_NaN()}) {

@@ -1,5 +1,6 @@
 """Batches from and to numpy arrays have the answers of single solves."""
 
+import time
 import unittest
 
 import numpy as np
@@ -32,6 +33,17 @@ class Batches(unittest.TestCase):
         start = np.column_stack([np.linspace(-0.2, 0.2, 40), np.zeros(40)])
         one, two = (db.solve_batch(PendulumSwingUp(), start=start, intervals=32, threads=threads) for threads in (1, 2))
         self.assertTrue(np.array_equal(one.cost, two.cost))
+
+    def test_end_with_the_time_of_the_call(self):
+        start = np.column_stack([np.linspace(-0.2, 0.2, 2000), np.zeros(2000)])
+        began = time.monotonic()
+        batch = db.solve_batch(PendulumSwingUp(), start=start, intervals=4096, most_seconds=1)
+        self.assertLess(time.monotonic() - began, 5)
+        self.assertEqual(set(batch.status) - {"solved"}, {"time limit"})
+        length = np.linspace(0.8, 1.2, 20)
+        batch = db.solve_batch(PendulumSwingUp(), parameters={"length": length}, intervals=64, most_seconds=1e-6)
+        self.assertEqual(set(batch.status), {"time limit"})
+        self.assertTrue(np.isnan(batch.cost).all())
 
     def test_take_built_in_problems(self):
         batch = db.solve_batch("cart_pole", parameters={"length": [0.45, 0.5, 0.55]}, intervals=48)

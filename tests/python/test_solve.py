@@ -4,6 +4,7 @@ import math
 import os
 import sys
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -76,6 +77,14 @@ class Pendulum(unittest.TestCase):
 
     def test_advises_after_a_failure_in_words_of_python(self):
         self.assertIn("Try solver=\"auto\"", repr(db.solve(PendulumSwingUp(), solver="ipopt", most_iterations=2)))
+
+    def test_ends_with_the_time_of_the_call(self):
+        # Each takes more than ten seconds without a limit, and about one with it; machines may be busy.
+        for given in ({"accuracy": 1e-10}, {"accuracy": 1e-10, "solver": "sqp"}, {"solver": "sqp"}):
+            began = time.monotonic()
+            solution = db.solve("robot_arm", "tangent", intervals=256, most_seconds=1, **given)
+            self.assertLess(time.monotonic() - began, 5, given)
+            self.assertEqual(solution.status, "time limit", given)
 
     def test_reaches_an_accuracy(self):
         solution = db.solve(PendulumSwingUp(), accuracy=1e-6, refinement="hp", intervals=16)

@@ -6,6 +6,7 @@
 #include "bench/run/solve_case.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/diagnostics/accuracy.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
@@ -90,8 +91,9 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
                                                   .first = Grid::uniform(32),
                                                   .start = smooth_motion(certified.motion())},
                                                  adaptive);
+  stop_if_requested();
   row.grid = "adapted";
-  row.intervals = answer.grids.back().intervals;
+  if (answer.program) row.intervals = static_cast<Eigen::Index>(answer.program->grid().intervals());
   row.status = name_of(answer.solution.status);
   if (answer.outcome == AdaptiveOutcome::reached) {
     append_rows(certified, row, answer.trajectory, answer.estimate, rows);

@@ -9,6 +9,7 @@
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/numerics/quantile.hpp"
 #include "methods/runtime/clock.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
@@ -68,6 +69,7 @@ NeededGrid needed_adapted(const CertifiedProblem& certified, const Scheme& schem
   NeededGrid found{.scheme = scheme, .grid = "adapted", .accuracy = accuracy};
   found.order = make_tableau(scheme.tableau, task.stages).order;
   const AdaptiveAnswer answer = solve_adaptively(task, adaptive);
+  stop_if_requested();
   found.grids = answer.grids.size();
   found.status = name_of(answer.solution.status);
   if (answer.outcome != AdaptiveOutcome::reached) {

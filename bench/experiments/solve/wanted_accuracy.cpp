@@ -8,7 +8,6 @@
 #include "bench/run/start_provider.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
-#include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/start.hpp"
 
 namespace dmocbench {
@@ -23,10 +22,16 @@ SolvedCase solve_accurately(Case the_case, const Start& start, const AdaptiveOpt
                                             .first = the_case.grid,
                                             .start = start.motion},
                                            options, on_grid);
-  the_case.grid = answer.program->grid();
-  the_case.stages = static_cast<int>(answer.program->tableau().stages());
+  if (answer.program) {
+    the_case.grid = answer.program->grid();
+    the_case.stages = static_cast<int>(answer.program->tableau().stages());
+  }
   SolvedCase solved{.the_case = std::move(the_case), .program = std::move(answer.program)};
   solved.solution = std::move(answer.solution);
+  if (!solved.program) {  // the time was up before
+    solved.solution.message = answer.message;
+    return solved;
+  }
   const bool has_motion = answer.trajectory.node_times.size() > 0;
   solved.start = sample(*solved.program, has_motion ? smooth_motion(answer.trajectory) : start.motion);
   SolverOptions solver_options = options.solver_options;
@@ -42,7 +47,7 @@ SolvedCase solve_accurately(Case the_case, const Start& start, const AdaptiveOpt
     solved.note(answer.message);
   } else {
     if (is_solved(solved.solution.status)) solved.solution.status = Status::not_confirmed;
-    solved.solution.message = answer.message;
+    solved.solution.message = std::move(answer.message);
   }
   return solved;
 }
@@ -99,19 +104,13 @@ SolvedCase WantedAccuracy::solve(SolveTask task) {
   options.solver = the_case.solver;
   options.solver_options = task.options;
   options.named_options = task.named_options;
-  const StopScope scope(task.options.stop_requested, task.options.most_seconds);
   ProgressLine progress("solve");
   const auto on_grid = [&](const GridAttempt& grid) {
     note(grid, the_case);
     const std::string& error = grids_.rows().back().text("estimated error");
     if (progress.is_shown()) progress.show(fmt::format("N = {}, estimated error {}", grid.intervals, error));
   };
-  try {
-    return solve_accurately(the_case, task.start, options, on_grid);
-  } catch (const Stopped&) {
-    const bool interrupted = task.options.stop_requested && task.options.stop_requested();
-    throw NoStart("The time was up between two grids.", interrupted ? Status::interrupted : Status::time_limit);
-  }
+  return solve_accurately(the_case, task.start, options, on_grid);
 }
 
 }  // namespace dmocbench

@@ -25,7 +25,7 @@ class WantedAccuracy {
   [[nodiscard]] bool is_wanted() const noexcept { return !accuracy_.empty(); }
   /// Reads the options. Throws `Error` if they do not fit each other or the cases.
   void check(const std::vector<Case>& cases);
-  /// Solves the case accurately (`solve_accurately`). Throws `NoStart` if the time is up between two grids.
+  /// Solves the case accurately (`solve_accurately`).
   [[nodiscard]] SolvedCase solve(SolveTask task);
   /// A row for every grid of that solve.
   [[nodiscard]] const Table& grids() const noexcept { return grids_; }

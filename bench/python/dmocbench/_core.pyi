@@ -112,6 +112,7 @@ class BatchAsked:
     intervals: int
     tolerance: float
     most_iterations: int
+    most_seconds: float
     threads: int
     motions: bool
 

@@ -268,8 +268,9 @@ def solve(problem: AnyProblem, method: str = "dmoc", *, intervals: int = 128, ta
     problem: an instance of a class derived from Problem, or the name of a built-in problem. method: one of `methods()`.
     intervals: N of a uniform grid; nodes: relative node times from 0 to 1 instead. start: a Solution to begin with,
     else the guess of the problem. accuracy: refines the grid ("h"), or also the number of stages ("hp"), until the
-    estimated relative error is at most that; iterations and seconds are then of all grids together. options: the
-    solver's, by name. Throws Error on misuse.
+    estimated relative error is at most that; iterations and seconds are then of all grids together. most_seconds: of the
+    call, its set-up and all grids together, 0 for no limit; then the status is "time limit", and the answer the last one.
+    options: the solver's, by name. Throws Error on misuse.
     """
     if start is not None and not isinstance(start, Solution):
         raise Error(f"start= takes a Solution, not {type(start).__name__}; state a guess in the problem")
@@ -311,13 +312,14 @@ class Batch:
 
 def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = None, start: Any = None, end: Any = None,
                 method: str = "dmoc", intervals: int = 64, tableau: str = "gauss", stages: int = 1,
-                tolerance: float | None = None, most_iterations: int | None = None, threads: int = 0,
-                motions: bool = False) -> Batch:
+                tolerance: float | None = None, most_iterations: int | None = None, most_seconds: float = 0.0,
+                threads: int = 0, motions: bool = False) -> Batch:
     """Solves many instances of one problem, eight side by side in vector registers, on all processors.
 
     parameters: a dict of names to arrays, one number per instance; start, end: arrays of states (q, v), a row of 2n
-    numbers per instance. Missing values are the problem's. Both ends and the horizon must be fixed. Returns a
-    `Batch`. Throws Error on misuse.
+    numbers per instance. Missing values are the problem's. Both ends and the horizon must be fixed. most_seconds: of the
+    whole batch, 0 for no limit; instances that are not solved by then are a "time limit". Returns a `Batch`. Throws Error
+    on misuse.
     """
     handle = handle_of(problem)
     n, m = len(handle.coordinates), len(handle.controls)
@@ -334,7 +336,7 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
     count = counts.pop()
     values = np.column_stack(list(columns.values())) if columns else np.zeros((0, 0))
     given = {"method": method, "intervals": intervals, "tableau": tableau, "stages": stages, "threads": threads,
-             "motions": motions}
+             "motions": motions, "most_seconds": most_seconds}
     given.update({name: value for name, value in (("tolerance", tolerance), ("most_iterations", most_iterations))
                   if value is not None})
     asked = _fill(_core.BatchAsked(), given)

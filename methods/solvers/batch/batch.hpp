@@ -34,6 +34,9 @@ struct BatchOptions {
   /// Called once per iteration; true ends the batch: instances that are not finished are "interrupted", and no others
   /// are fetched.
   std::function<bool()> stop_requested = {};
+  /// Wall clock for the batch, 0 for no limit; the time of the caller's `StopScope` is a limit too. Then it ends alike,
+  /// with the status "time limit".
+  double most_seconds = 0.0;
   /// Gives the program that evaluates single solves the parameters of an instance; needed where there are any.
   std::function<void(const Eigen::VectorXd& parameters)> set_parameters = {};
 };

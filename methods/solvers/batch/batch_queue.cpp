@@ -1,5 +1,6 @@
 #include "methods/solvers/batch/batch_queue.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -14,6 +15,9 @@
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
 namespace dmocbench::batch {
+
+SharedBatch::SharedBatch(NonlinearProgram& program, BatchSource& source, const BatchOptions& options)
+    : program_(program), source_(source), options_(options), limits_(nullptr, options.most_seconds) {}
 
 void SharedBatch::begin_generation() noexcept {
   is_exhausted_ = false;
@@ -41,6 +45,11 @@ std::size_t SharedBatch::hand_out(std::span<Assignment> group) {
   return count;
 }
 
+double SharedBatch::seconds_of_a_scope() const {
+  constexpr double moment = 1e-9;  // 0 would mean no limit
+  return std::max(limits_.seconds_left(), moment);
+}
+
 void SharedBatch::take(std::span<const Answer> answers) {
   const std::lock_guard lock(taking_);
   for (const Answer& answer : answers) {
@@ -62,6 +71,7 @@ Solution SharedBatch::solve_alone(const BatchInstance& instance) {
   single.tolerance = options_.tolerance;
   single.most_iterations = options_.most_iterations;
   single.stop_requested = options_.stop_requested;
+  const StopScope scope(nullptr, seconds_of_a_scope());
   const InteriorPointSolver solver(std::move(single));
   const std::lock_guard lock(program_use_);
   ++summary_.solved_one_by_one;
@@ -81,7 +91,8 @@ void SharedBatch::confirm(const BatchInstance& instance, Solution& solution) {
   bool may_be_saddle = false;
   {
     const std::lock_guard lock(program_use_);
-    const StopScope scope([this] { return options_.stop_requested && options_.stop_requested(); }, 0.0);
+    const StopScope scope([this] { return options_.stop_requested && options_.stop_requested(); },
+                          seconds_of_a_scope());
     factor = with_instance(instance, [&](NonlinearProgram& alone) {
       Confirmation confirmation(alone);
       confirmation.judge(options_.tolerance, solution);
@@ -99,6 +110,7 @@ void SharedBatch::confirm(const BatchInstance& instance, Solution& solution) {
 
 void SharedBatch::count_round() {
   ++rounds_;
+  if (limits_.seconds_left() < 0.0) is_stopped_ = true;
   if (!options_.stop_requested) return;
   const std::lock_guard lock(handing_out_);
   if (options_.stop_requested()) is_stopped_ = true;
@@ -155,7 +167,7 @@ void BatchQueue::end_generation(const BatchSeconds& seconds) {
   deliver_answers();
   for (; fetched_ < handed_out_; ++fetched_) {  // where the batch was stopped
     Solution solution;
-    solution.status = Status::interrupted;
+    solution.status = batch_.status_of_stop();
     solution.message = sentence_of(solution.status);
     solution.solver = "batch";
     solution.primal = group_[fetched_].instance.start;

@@ -11,6 +11,7 @@
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/runtime/lane_loops.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/batch.hpp"
 #include "methods/solvers/batch/batch_source.hpp"
 
@@ -43,14 +44,18 @@ struct Answer {
 /// The state that all threads of a batch share: the source, the program that evaluates single solves, and how it went.
 class SharedBatch {
  public:
-  SharedBatch(NonlinearProgram& program, BatchSource& source, const BatchOptions& options)
-      : program_(program), source_(source), options_(options) {}
+  /// In the thread of the caller, whose `StopScope` counts. The time begins.
+  SharedBatch(NonlinearProgram& program, BatchSource& source, const BatchOptions& options);
 
   /// While no thread works.
   void begin_generation() noexcept;
   /// Whether all generations have ended.
   [[nodiscard]] bool has_ended() const { return has_ended_; }
   [[nodiscard]] bool is_stopped() const { return is_stopped_; }
+  /// "time limit" or "interrupted": of instances that are not finished where the batch was stopped.
+  [[nodiscard]] Status status_of_stop() const {
+    return limits_.seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
+  }
 
   /// Fills a group of instances, as far as there are any; returns how many. Threads wait for each other where the
   /// source hands out instances, but not where it searches.
@@ -81,10 +86,13 @@ class SharedBatch {
   template <class Use>
   auto with_instance(const BatchInstance& instance, const Use& use);
   void fail(std::exception_ptr error) noexcept;
+  /// The rest of the time, for the scope of a thread.
+  [[nodiscard]] double seconds_of_a_scope() const;
 
   NonlinearProgram& program_;
   BatchSource& source_;
   const BatchOptions& options_;
+  StopScope limits_;        // of the caller's thread; others ask it
   KnownLock handing_out_;   // `source_` except `search` and `take`; `handed_out_`
   std::mutex taking_;       // `BatchSource::take`, `error_`, seconds
   std::mutex program_use_;  // `program_`
@@ -115,6 +123,7 @@ class BatchQueue {
   /// confirmed.
   void confirm(const Assignment& assignment, Solution& solution) { batch_.confirm(assignment.instance, solution); }
   [[nodiscard]] bool is_stopped() const { return batch_.is_stopped(); }
+  [[nodiscard]] Status status_of_stop() const { return batch_.status_of_stop(); }
   void count_round() { batch_.count_round(); }
   /// Call when all lanes are idle: delivers the remaining answers and adds the seconds.
   void end_generation(const BatchSeconds& seconds);

@@ -258,7 +258,7 @@ const LaneVector& LaneRun::with_bounds() const {
 void LaneRun::judge(std::size_t number) {
   Lane& lane = lanes_[number];
   if (lane.waits) {
-    if (queue_.is_stopped()) finish(number, Status::interrupted);
+    if (queue_.is_stopped()) finish(number, queue_.status_of_stop());
     return;
   }
   if (lane.moves || lane.phase == LanePhase::fresh) {
@@ -267,7 +267,7 @@ void LaneRun::judge(std::size_t number) {
   }
   if (!std::isfinite(size_of_gradient_[index_of(number)])) return give_up(number);
   if (lane.phase == LanePhase::restoring) {
-    if (queue_.is_stopped()) return finish(number, Status::interrupted);
+    if (queue_.is_stopped()) return finish(number, queue_.status_of_stop());
     if (lane.iterations >= options_.most_iterations) return finish(number, Status::iteration_limit);
     ++lane.iterations;
     if (is_restored(number)) lane.phase = LanePhase::estimating;
@@ -286,7 +286,7 @@ void LaneRun::judge(std::size_t number) {
   }
   lane.phase = LanePhase::newton;
   if (is_solved(number)) return finish(number, Status::solved);
-  if (queue_.is_stopped()) return finish(number, Status::interrupted);
+  if (queue_.is_stopped()) return finish(number, queue_.status_of_stop());
   if (lane.iterations >= options_.most_iterations) return finish(number, Status::iteration_limit);
   update_barrier_parameter(number);
   ++lane.iterations;

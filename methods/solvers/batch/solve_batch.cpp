@@ -69,6 +69,7 @@ BatchSummary solve_batch_of(BatchSource& source, NonlinearProgram& program, cons
   SolverOptions single;
   single.tolerance = options.tolerance;
   single.most_iterations = options.most_iterations;
+  single.most_seconds = options.most_seconds;
   single.validate();
   const std::size_t threads = options.threads > 0 ? options.threads : thread_count();
   const Eigen::VectorXd jacobian = usual_jacobian(program, usual);

@@ -101,5 +101,26 @@ TEST(AutoSolver, StartsAgainFromAMotionThatMeetsTheConstraintsWhereBothFail) {
             tests::value_of(first.major_iterations) + tests::value_of(second.major_iterations));
 }
 
+/// Its three attempts, the descents on the violation and the judgement ask at many places whether they must stop.
+TEST(AutoSolver, EndsWithAStatusWhereverItIsStopped) {
+  const MountainCar problem;
+  Transcription program(problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(32));
+  const Eigen::VectorXd start = sample(program, guessed_motion(problem));
+  long long questions = 0;
+  SolverOptions options;
+  options.most_iterations = 20;
+  options.stop_requested = [&] { return ++questions < 0; };
+  static_cast<void>(AutoSolver(options).solve(program, start));
+  const long long all = questions;
+  ASSERT_GT(all, 100);
+  for (long long share = 1; share < 24; ++share) {
+    questions = 0;
+    options.stop_requested = [&] { return ++questions >= share * all / 24; };
+    const Solution solution = AutoSolver(options).solve(program, start);
+    EXPECT_EQ(solution.status, Status::interrupted) << share << " of 24: " << solution.message;
+    EXPECT_EQ(solution.primal.size(), start.size());
+  }
+}
+
 }  // namespace
 }  // namespace dmocbench

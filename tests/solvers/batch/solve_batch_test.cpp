@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/lane_transcription.hpp"
@@ -278,6 +279,26 @@ TEST(SolveBatch, EndsWhenAskedToAndPassesOnWhatIsThrown) {
     return true;
   };
   EXPECT_THROW(solve_batch(*orbit.program, lanes_of(*orbit.program), orbit.start, next, fails), Error);
+}
+
+TEST(SolveBatch, EndsWithItsTimeOrTheCallersAndSaysSo) {
+  for (const bool is_of_caller : {false, true}) {
+    Case orbit("orbital_transfer", "dmoc", 1, 8);
+    const std::vector<BatchInstance> instances = orbit.instances(64, 0.02);
+    constexpr double moment = 1e-9;
+    const StopScope scope(nullptr, is_of_caller ? moment : 0.0);
+    BatchOptions options{.threads = 2};
+    options.most_seconds = is_of_caller ? 0.0 : moment;
+    const std::vector<Solution> solutions = orbit.solve(instances, options);
+    EXPECT_LT(orbit.summary.instances, instances.size());
+    std::size_t begun = 0;
+    for (const Solution& solution : solutions) {
+      if (solution.status == Status::not_run) continue;
+      ++begun;
+      EXPECT_EQ(solution.status, Status::time_limit);
+    }
+    EXPECT_EQ(begun, orbit.summary.instances);
+  }
 }
 
 TEST(SolveBatch, RefusesEndsThatAreNotGivenInASentence) {
