@@ -20,7 +20,7 @@
 
 namespace dmocbench::convergence_program {
 
-/// The value of --reference: N, 0 for the finest grid of each curve, or `exact_reference`.
+/// The value of --reference: N, 0 for the finest solved grid of each curve, or `exact_reference`.
 long long parse_reference(const std::string& text) {
   if (text.empty()) return 0;
   if (text == "indirect") return exact_reference;
@@ -114,10 +114,11 @@ class Convergence final : public ExperimentOf<Measured> {
     return measured + columns_through<Measured>(&Measured::round_seconds, round_columns());
   }
   void add_options(CommandLine& line) override {
-    line.option("--reference", reference_text_,
-                "reference of the errors: N of a grid of the same method (default: the finest one of each "
-                "curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
-                "kept in the output folder");
+    line.option(
+        "--reference", reference_text_,
+        "reference of the errors: N of a grid of the same method (default: the finest solved one of "
+        "each curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
+        "kept in the output folder");
     line.flag("--polish,!--no-polish", card_.polishes,
               "tighten answers by Newton steps, so that errors are due to the method and not to the solver");
     line.option(
@@ -168,7 +169,7 @@ class Convergence final : public ExperimentOf<Measured> {
     try {
       if (indirect_) {
         reference_trajectory_ = indirect_->near(problem, trajectory).sampled_like(trajectory);
-      } else if (is_reference) {
+      } else if (is_reference || (reference_ == 0 && !reference_trajectory_)) {
         if (is_usable(solved)) reference_trajectory_ = trajectory;
         return;
       }
@@ -188,7 +189,7 @@ class Convergence final : public ExperimentOf<Measured> {
     output.write("_equal_accuracy.csv", equal_accuracy(table));
     metadata["reference"] = reference_ == exact_reference ? "the indirect solution"
                             : reference_ > 0              ? fmt::format("N = {} of the same method", reference_)
-                                                          : "the finest grid of the same method";
+                                                          : "the finest solved grid of the same method";
     if (indirect_) {
       output.write("_reference.csv", indirect_->table());
       output.write("_jumps.csv", fit_jumps(table));
@@ -205,7 +206,7 @@ class Convergence final : public ExperimentOf<Measured> {
 
  private:
   std::string reference_text_;
-  long long reference_ = 0;  // N, 0 for the finest grid of each curve, or exact_reference
+  long long reference_ = 0;  // N, 0 for the finest solved grid of each curve, or exact_reference
   std::string fit_;
   std::optional<FitRange> fit_range_;
   std::optional<Trajectory> reference_trajectory_;  // of the curve that is being measured

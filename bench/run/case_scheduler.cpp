@@ -76,9 +76,13 @@ void CaseScheduler::solve_batches(const CaseSpan& span) {
 
 void CaseScheduler::solve_curve(const std::vector<Case>& curve, std::size_t first) {
   const std::size_t solved_first = reference_of(curve);
+  // From the finest grid on, if that is the reference: the next one replaces it where it is not solved.
+  const bool from_finest = curve[solved_first].is_reference && solved_first + 1 == curve.size();
   for (std::size_t i = 0; i < curve.size(); ++i) {
     if (interrupt_requested()) return;
-    const std::size_t position = i == 0 ? solved_first : i - (i <= solved_first ? 1 : 0);
+    const std::size_t position = from_finest ? solved_first - i
+                                 : i == 0    ? solved_first
+                                             : i - (i <= solved_first ? 1 : 0);
     if (!plan_.wanted()[first + position]) continue;
     SolvedCase solved = solve(first + position, options_.repeats);
     // It was not solved to its end; a motion keeps its last iterate.

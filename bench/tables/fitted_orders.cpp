@@ -183,11 +183,33 @@ void append_fit(std::vector<FittedCurve>& curves, const std::string& quantity, c
   if (fit.verdict == "slope") fitted.order = fit_order(errors_of(fit.grids, column), fit.reference);
 }
 
-/// The step of the grid that a curve's errors are measured against.
-double step_of_reference(const Selection& curve, long long reference) {
-  const Selection grids = curve.sorted_by("intervals");
+/// The row of the grid that a curve's errors should be measured against: the one named, or the finest.
+Row reference_meant(const Selection& curve, long long reference) {
   const Selection named = curve.where("intervals", std::to_string(reference));
-  return (named.empty() ? grids.back() : named.front()).number("step", 0.0);
+  return named.empty() ? curve.sorted_by("intervals").back() : named.front();
+}
+
+/// The row of the grid that they are measured against; none where there is no answer.
+std::optional<Row> reference_used(const Selection& curve, long long reference) {
+  const Row meant = reference_meant(curve, reference);
+  if (is_usable(meant)) return meant;
+  const Selection usable = curve.usable().sorted_by("intervals");
+  return reference != 0 || usable.empty() ? std::nullopt : std::optional(usable.back());
+}
+
+/// Where a curve's reference is another than the one meant, or there is none: what happened to that one.
+std::optional<std::string> note_on_reference(const Selection& curve, long long reference) {
+  const Row meant = reference_meant(curve, reference);
+  if (is_usable(meant)) return std::nullopt;
+  const std::optional<Row> used = reference_used(curve, reference);
+  const std::string status = meant.text("status");
+  return fmt::format(
+      "{} {} {} {}: the reference should be N = {}, which {}; {}", meant.text("problem"), meant.text("method"),
+      meant.text("tableau"), meant.text("stages"), meant.text("intervals"),
+      has_solved_status(meant) ? "is on another branch than the common start" : "has the status \"" + status + "\"",
+      used ? fmt::format("errors are measured against N = {}, the finest grid that is solved", used->text("intervals"))
+      : reference != 0 ? "there are no errors: choose a --reference that is solved"
+                       : "no grid is solved, so that there are no errors");
 }
 
 /// Why a curve has no order at all, if it has errors that one could be fitted to.
@@ -253,9 +275,13 @@ Columns<JumpsOfCurve> jump_columns() {
 FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range, long long reference) {
   std::vector<FittedCurve> curves;
   std::vector<std::string> notes;
+  bool has_order_everywhere = true;
   for (const Selection& curve : convergence.group_by(curve_columns)) {
     const auto of_the_method = convergence.matching(curve.front(), {"problem", "method"}).group_by(curve_columns);
-    const double step = reference == exact_reference ? 0.0 : step_of_reference(curve, reference);
+    const bool has_exact = reference == exact_reference;
+    const std::optional<Row> used = has_exact ? std::nullopt : reference_used(curve, reference);
+    const double step = used ? used->number("step", 0.0) : 0.0;
+    if (const auto note = has_exact ? std::nullopt : note_on_reference(curve, reference)) notes.push_back(*note);
     const std::size_t fits_before = curves.size();
     for (const std::string quantity : fitted_quantities) {
       const std::string column = quantity + "_error";
@@ -264,14 +290,17 @@ FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRan
       fit.reference = step;
       append_fit(curves, quantity, column, fit, curve);
     }
-    if (const auto note = note_on_missing_orders(std::span(curves).subspan(fits_before))) notes.push_back(*note);
+    if (const auto note = note_on_missing_orders(std::span(curves).subspan(fits_before))) {
+      notes.push_back(*note);
+      has_order_everywhere = false;
+    }
   }
   std::vector<std::string> unsteady;
   for (const FittedCurve& curve : curves) {
     if (curve.fit.verdict == "unsteady" && std::ranges::count(unsteady, curve.quantity) == 0)
       unsteady.push_back(curve.quantity);
   }
-  if (notes.empty() && !unsteady.empty()) {
+  if (has_order_everywhere && !unsteady.empty()) {
     notes.push_back(fmt::format("unsteady ({}): no four neighbouring grids have the same order; try finer grids",
                                 fmt::join(unsteady, ", ")));
   }

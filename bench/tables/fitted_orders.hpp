@@ -32,7 +32,8 @@ struct FittedOrders {
 /// 1/2 on the whole; the smallest floor among the curves of a problem and method holds for all of them. With a
 /// range of the user's every error in it is used, at least three, except for those at the level of rounding.
 ///
-/// `reference` is the number of intervals of the reference, 0 for the finest grid of a curve, or `exact_reference`.
+/// `reference` is the number of intervals of the reference, 0 for the finest usable grid of a curve, or
+/// `exact_reference`. A note states where the grid that was meant is not usable, and why.
 /// Against a grid of step r an error of order p is proportional to h^p - r^p, which the fit takes into account.
 [[nodiscard]] FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range,
                                       long long reference);

@@ -63,6 +63,21 @@ TEST(FittedOrders, AgainstAFinerGridAreThoseOfTheDifference) {
   }
 }
 
+TEST(FittedOrders, AreAgainstTheFinestGridThatIsSolvedAndSayWhyNotTheFinest) {
+  const Table all = convergence_of({{.error = against_step(7.0, 2.0, 1.0 / 512)}}, sixteen_to_1024);
+  const Table failed = with_field(all, 1024, "status", "time limit");
+  const FittedOrders fits = fit_orders(failed, std::nullopt, 0);
+  EXPECT_NEAR(slope_of(fits, "state").needed("slope"), 2.0, 1e-6);
+  ASSERT_EQ(fits.notes.size(), 1U);
+  for (const char* word : {"N = 1024", "time limit", "N = 512"}) {
+    EXPECT_NE(fits.notes.front().find(word), std::string::npos) << fits.notes.front();
+  }
+  const FittedOrders named = fit_orders(failed, std::nullopt, 1024);
+  ASSERT_FALSE(named.notes.empty());
+  EXPECT_NE(named.notes.front().find("choose a --reference"), std::string::npos) << named.notes.front();
+  EXPECT_TRUE(fit_orders(all, std::nullopt, 0).notes.empty());
+}
+
 TEST(FittedOrders, UseStatesButNoControlsOfAnswersWhoseControlIsNotDetermined) {
   const Table all = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
   const FittedOrders fits =
