@@ -187,10 +187,10 @@ int print_schema(const std::string& name) {
                   name));
 }
 
-int print_cards(const std::vector<std::shared_ptr<const Problem>>& problems) {
+void print_cards(const std::vector<std::shared_ptr<const Problem>>& problems) {
   nlohmann::ordered_json cards = nlohmann::ordered_json::array();
   for (const auto& problem : problems) cards.push_back(problem_card_json(*problem));
-  return print_json({{"dmocbench", describe_run({})["dmocbench"]}, {"problems", cards}});
+  print_json({{"dmocbench", describe_run({})["dmocbench"]}, {"problems", cards}});
 }
 
 /// The families as gnuplot code, which plots/style.gp reads.
@@ -211,7 +211,7 @@ int print_families() {
 }
 
 /// Titles and units of the suite's problems as a table, which plots/style.gp reads.
-int print_titles(const std::vector<std::shared_ptr<const Problem>>& problems) {
+void print_titles(const std::vector<std::shared_ptr<const Problem>>& problems) {
   fmt::print("problem,label,time_unit,state_unit,control_unit,momentum_unit,cost_unit,energy_unit\n");
   for (const auto& problem : problems) {
     const ProblemCard card = problem->card();
@@ -219,7 +219,6 @@ int print_titles(const std::vector<std::shared_ptr<const Problem>>& problems) {
     fmt::print("{},{},{},{},{},{},{},{}\n", problem->name(), card.title, card.time_unit.name, units.state,
                units.control, units.momentum, units.cost, units.energy);
   }
-  return 0;
 }
 
 /// One line per problem: the name and the description in its card.
@@ -268,13 +267,16 @@ int print_all(CommandLine& line) {
   if (!kind.empty()) return print_names(kind);
   if (as_gnuplot) return print_families();
   if (!schema.empty()) return print_schema(schema);
-  const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
-                                          settings);  // throws before anything is printed
-  if (as_json) return print_cards(problems);
-  if (as_titles) return print_titles(problems);
+  std::vector<std::string> faults;
+  const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names, settings, &faults);
+  for (const std::string& fault : faults) fmt::print(stderr, "list: {}\n", one_line(fault));
+  const int code = faults.empty() ? 0 : 2;
+  if (as_json) print_cards(problems);
+  if (as_titles) print_titles(problems);
+  if (as_json || as_titles) return code;
   if (!names.empty()) {
     for (const auto& problem : problems) print_problem(*problem);
-    return 0;
+    return code;
   }
   fmt::print("Problems (--problem); list --problem NAME shows all of one\n\n");
   print_briefly(problems);
@@ -292,7 +294,7 @@ int print_all(CommandLine& line) {
   for (const std::string& name : derivative_back_end_names()) {
     fmt::print("{:<20} {}\n", name, derivative_back_end_description(name));
   }
-  return 0;
+  return code;
 }
 
 int run(int argc, char** argv) {

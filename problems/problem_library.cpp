@@ -113,7 +113,7 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
   const std::filesystem::path path = std::filesystem::canonical(file);
   require_whole(path, content);
   require_same_build(path.string(), tag_in(path, content));
-  Registry problems;
+  Registry problems(Registry::Faults::kept);
   try {
     entry_of(path)(problems);
   } catch (const std::exception& error) {
@@ -122,8 +122,12 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
     throw Error(
         fmt::format("a problem of {} cannot be made: it throws an object that is not a std::exception", path.string()));
   }
-  if (problems.names().empty()) throw Error(fmt::format("{} adds no problems", path.string()));
+  const std::size_t known = registry.names().size();
+  const std::size_t refused = registry.refused().size();
   registry.add_all(problems, path.string());
+  if (registry.names().size() > known) return;
+  if (registry.refused().size() > refused) throw Error(registry.refused()[refused].reason);
+  throw Error(fmt::format("{} adds no problems", path.string()));
 }
 
 }  // namespace dmocbench

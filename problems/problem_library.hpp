@@ -8,10 +8,10 @@
 
 namespace dmocbench {
 
-/// Loads a shared library that `dmocbench_add_problems` made and adds its problems to `registry`, all or none; they
-/// come from its absolute path. It stays loaded. Throws `Error` if the file cannot be read, is not such a library, was
-/// made by another build of dmocbench (which is detected before any of its code runs), has no problem, or one whose
-/// name is already in `registry`.
+/// Loads a shared library that `dmocbench_add_problems` made and adds its problems to `registry`, except those that
+/// cannot be made or whose names are there already (`Registry::refused`); they come from its absolute path. It stays
+/// loaded. Throws `Error` if the file cannot be read, is not such a library, was made by another build of dmocbench
+/// (which is detected before any of its code runs), or if none of its problems is added.
 ///
 /// Its formulas are traced by the functions of this program, which has to offer them: ENABLE_EXPORTS in CMake. The
 /// symbols of a module that a program has loaded, as Python does, are made global for it.

@@ -5,6 +5,7 @@
 
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/class_name.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "problems/acrobot.hpp"
 #include "problems/beam.hpp"
@@ -109,22 +110,41 @@ Registry problems_of_the_suite() {
 
 }  // namespace
 
-void Registry::add(Maker maker) {
-  const std::string name = name_made_by(maker);
-  require_new(name, "");
-  entries_.push_back({name, std::move(maker), ""});
+void Registry::add(Maker maker, const std::type_info& type) {
+  std::string name;
+  const auto refuse = [&](const char* reason) {
+    refused_.push_back({name, "the problem of class " + class_name(type) + " cannot be used: " + reason});
+  };
+  try {
+    name = name_made_by(maker);
+    require_new(name, "");
+    entries_.push_back({name, std::move(maker), "", class_name(type)});
+  } catch (const std::exception& error) {
+    if (faults_ == Faults::thrown) throw;
+    refuse(error.what());
+  } catch (...) {
+    if (faults_ == Faults::thrown) throw;
+    refuse("it throws an object that is not a std::exception");
+  }
 }
 
 void Registry::put(Maker maker, const std::string& origin) {
   const std::string name = name_made_by(maker);
   std::erase_if(entries_, [&](const Entry& entry) { return entry.name == name && entry.origin == origin; });
   require_new(name, origin);
-  entries_.push_back({name, std::move(maker), origin});
+  entries_.push_back({name, std::move(maker), origin, name});
 }
 
 void Registry::add_all(const Registry& others, const std::string& origin) {
-  for (const Entry& other : others.entries_) require_new(other.name, origin);
-  for (const Entry& other : others.entries_) entries_.push_back({other.name, other.make, origin});
+  for (const Refusal& other : others.refused_) refused_.push_back({other.name, other.reason + in_brackets(origin)});
+  for (const Entry& other : others.entries_) {
+    try {
+      require_new(other.name, origin);
+      entries_.push_back({other.name, other.make, origin, other.type});
+    } catch (const Error& error) {
+      refused_.push_back({other.name, "the problem of class " + other.type + " cannot be used: " + error.what()});
+    }
+  }
 }
 
 std::vector<std::string> Registry::names() const { return names_of(entries_, &Entry::name); }

@@ -11,10 +11,12 @@
 #include "bench/python/calls.hpp"
 #include "bench/python/python_problem.hpp"
 #include "bench/run/problem_libraries.hpp"
+#include "methods/choose.hpp"
 #include "methods/expression/schedule.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "problems/problem_registry.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::python {
@@ -86,7 +88,16 @@ void bind_problems(py::module_& module) {
       .def("operation_count", &operation_count, "Operations of the formulas and their derivatives.");
   module.def("problem_names", &problem_names, "Names of all problems that are built in or loaded.");
   module.def("spell_members", &spell_members, py::arg("names"), "Sets the names of members of Problem in messages.");
-  module.def("load_problem_libraries", &load_problem_libraries, py::arg("files"));
+  module.def(
+      "load_problem_libraries",
+      [](const std::vector<std::string>& files) {
+        const std::size_t refused_before = known_problems().refused().size();
+        load_problem_libraries(files);
+        std::vector<std::string> refused = names_of(known_problems().refused(), &Registry::Refusal::reason);
+        refused.erase(refused.begin(), refused.begin() + static_cast<std::ptrdiff_t>(refused_before));
+        return refused;
+      },
+      py::arg("files"), "Sentences about problems of the libraries that cannot be used.");
   module.def(
       "check_parameter",
       [](const std::string& name, double value, double lower, double upper, bool whole) {

@@ -26,6 +26,7 @@
 #include "methods/transcription/elements/galerkin_element.hpp"
 #include "methods/transcription/elements/shooting_element.hpp"
 #include "methods/transcription/elements/tableau.hpp"
+#include "problems/problem_registry.hpp"
 
 namespace dmocbench {
 
@@ -352,9 +353,15 @@ std::vector<double> chosen_tolerances(const ExperimentOptions& options) {
 }
 
 std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<std::string>& names,
-                                                              const std::vector<std::string>& settings) {
+                                                              const std::vector<std::string>& settings,
+                                                              std::vector<std::string>* faults) {
   std::vector<std::shared_ptr<Problem>> problems;
   const bool all = names == std::vector<std::string>{"all"};
+  for (const Registry::Refusal& refusal : known_problems().refused()) {
+    const bool is_chosen = all ? faults == nullptr : std::ranges::count(names, refusal.name) > 0;
+    if (is_chosen) throw Error(refusal.reason);
+    if (all) faults->push_back(refusal.reason);
+  }
   const std::vector<std::string> chosen = all ? problem_names() : in_order("problem", names, problem_names());
   problems.reserve(chosen.size());
   for (const std::string& name : chosen) problems.push_back(make_unchecked_problem(name));
@@ -368,7 +375,18 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
     for (const auto& problem : problems | std::views::filter(has_parameter)) problem->set_parameter(name, value);
   }
   // Not before: defaults may need a setting, and settings move bounds and ends.
-  for (const auto& problem : problems) check_problem(*problem);
+  const auto can_be_used = [faults](const std::shared_ptr<Problem>& problem) {
+    try {
+      check_problem(*problem);
+      return true;
+    } catch (const Error& error) {
+      if (faults == nullptr) throw;
+      faults->push_back(fmt::format("the problem of class {} cannot be used: {}",
+                                    known_problems().class_of(problem->name()), error.what()));
+      return false;
+    }
+  };
+  std::erase_if(problems, std::not_fn(can_be_used));
   return {problems.begin(), problems.end()};
 }
 

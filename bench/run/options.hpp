@@ -75,9 +75,11 @@ void add_batch_option(CommandLine& line, ExperimentOptions& options);
 [[nodiscard]] std::vector<Case> expand_cases(const ExperimentOptions& options);
 
 /// Problems with the settings applied, in the order of the registry; the name "all" stands for every one. A setting
-/// must belong to at least one of them.
+/// must belong to at least one of them. Throws `Error` if one of them cannot be used, or is one of two libraries that
+/// have the name; with `faults`, problems that cannot be used are left out and described there instead.
 [[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<std::string>& names,
-                                                                            const std::vector<std::string>& settings);
+                                                                            const std::vector<std::string>& settings,
+                                                                            std::vector<std::string>* faults = nullptr);
 
 /// The options --problem, --set and --library of an experiment that takes problems by their names.
 struct ProblemOptions {

@@ -3,31 +3,20 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <typeinfo>
 #include <utility>
 
-#include <cxxabi.h>
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/class_name.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-/// The name of a problem's class, without namespaces and arguments of templates.
-std::string class_of(const Problem& problem) {
-  int status = 0;
-  const std::unique_ptr<char, decltype(&std::free)> text(  // NOLINT(cppcoreguidelines-no-malloc): as the ABI has it
-      abi::__cxa_demangle(typeid(problem).name(), nullptr, nullptr, &status), &std::free);
-  std::string name = status == 0 ? text.get() : "problem";
-  name.resize(std::min(name.find('<'), name.size()));
-  return name.substr(name.rfind(':') + 1);  // npos + 1 is 0
-}
 
 /// ∫ |C| dt + |Φ| along the guess; empty if its parts have the wrong size, which is reported elsewhere.
 std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
@@ -65,7 +54,7 @@ std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
 }  // namespace
 
 std::string Problem::name() const {
-  const std::string type = class_of(*this);
+  const std::string type = class_name(typeid(*this));
   std::string name;
   for (const char letter : type) {
     const bool is_capital = std::isupper(static_cast<unsigned char>(letter)) != 0;
@@ -76,7 +65,7 @@ std::string Problem::name() const {
 }
 
 std::unique_ptr<Problem> Problem::clone() const {
-  const std::string type = class_of(*this);
+  const std::string type = class_name(typeid(*this));
   throw Error(fmt::format(
       "{} cannot be copied without knowing its class; give {} the line \"std::unique_ptr<Problem> clone() const "
       "override {{ return copy_of(*this); }}\"",

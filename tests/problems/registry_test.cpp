@@ -41,14 +41,27 @@ TEST(Registry, KeepsTheOrderInWhichProblemsWereAddedAndWhereTheyComeFrom) {
   tests::expect_error_naming({"\"moon\"", "cart_pole", "acrobot"}, [&] { static_cast<void>(registry.make("moon")); });
 }
 
-TEST(Registry, AddsNothingWhereOneNameIsThereAlready) {
-  Registry others;
-  others.add<Acrobot>();
+/// A problem that cannot be made.
+struct Broken final : Acrobot {
+  Broken() { throw Error("no such rod"); }
+};
+
+TEST(Registry, RefusesOnlyTheProblemsWhoseNamesAreThereAlreadyOrThatCannotBeMade) {
+  Registry others(Registry::Faults::kept);
   others.add<Beam>();
+  others.add<Broken>();
+  others.add<Acrobot>();
+  EXPECT_EQ(others.names(), (std::vector<std::string>{"beam", "acrobot"}));
   Registry registry;
   registry.add<Beam>();
-  tests::expect_error_naming({"beam", "/a/library.so"}, [&] { registry.add_all(others, "/a/library.so"); });
-  EXPECT_EQ(registry.names(), std::vector<std::string>{"beam"});
+  registry.add_all(others, "/a/library.so");
+  EXPECT_EQ(registry.names(), (std::vector<std::string>{"beam", "acrobot"}));
+  EXPECT_EQ(registry.origin("beam"), "");
+  EXPECT_EQ(registry.class_of("acrobot"), "Acrobot");
+  ASSERT_EQ(registry.refused().size(), 2U);
+  EXPECT_EQ(registry.refused()[0].reason, "the problem of class Broken cannot be used: no such rod (/a/library.so)");
+  EXPECT_EQ(registry.refused()[1].name, "beam");
+  EXPECT_NE(registry.refused()[1].reason.find("class Beam"), std::string::npos);
   tests::expect_error_naming({"beam"}, [&] { registry.add<Beam>(); });
 }
 

@@ -7,6 +7,7 @@ import inspect
 import json
 import os
 import sys
+import warnings
 from typing import Any, Iterator, Sequence
 
 from . import _core
@@ -87,8 +88,10 @@ def read_table(file: str | os.PathLike[str], problems: Sequence[str] | None = No
 
 
 def load_library(*files: str | os.PathLike[str]) -> None:
-    """Loads libraries of problems that dmocbench_add_problems has made in CMake; their problems are then known by name."""
-    _core.load_problem_libraries([os.fspath(file) for file in files])
+    """Loads libraries of problems that dmocbench_add_problems has made in CMake; their problems are then known by name.
+    Problems that cannot be used are warned of and left out."""
+    for reason in _core.load_problem_libraries([os.fspath(file) for file in files]):
+        warnings.warn(reason, stacklevel=2)
 
 
 def register(problem: AnyProblem) -> _core.ProblemHandle:
