@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -170,8 +171,8 @@ Eigen::VectorXd gradient_of_violation(Transcription& transcription, const Eigen:
   return gradient;
 }
 
-/// The bound on q against which the violation presses most, if it presses hardly less against any other: without that
-/// bound the rows would be met better.
+/// The bound on q or y against which the violation presses most, if it presses hardly less against any other: without
+/// that bound the rows would be met better.
 std::string pressed_bound(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x,
                           const Eigen::VectorXd& rows) {
   constexpr double near = 1e-2;   // a descent within the bounds stops before them
@@ -189,8 +190,9 @@ std::string pressed_bound(const Problem& problem, Transcription& transcription, 
       continue;
     hardest = std::max(hardest, pressure);
     const auto number = static_cast<std::size_t>(i);
-    const bool is_configuration = blocks.block_of_unknown(number).kind == Quantity::configuration;
-    if (is_configuration && pressure > pressed.amount) pressed = {number, pressure};
+    const Quantity kind = blocks.block_of_unknown(number).kind;
+    const bool is_state = kind == Quantity::configuration || kind == Quantity::first_order;
+    if (is_state && pressure > pressed.amount) pressed = {number, pressure};
   }
   if (pressed.amount == 0.0 || pressed.amount < share * hardest) return "";
   const auto i = static_cast<Eigen::Index>(pressed.entry);
@@ -280,20 +282,36 @@ std::string held_horizon(const Problem& problem, const Transcription& transcript
   return "";
 }
 
-/// A sentence if there are controls, but no force reads one.
+/// Which of the inputs 0 .. read.size() - 1 some formulas read, added to `read`.
+void add_inputs(const Schedule& formulas, std::vector<bool>& read) {
+  for (const Schedule::Step& step : formulas.steps()) {
+    if (step.operation == Operation::input && step.input_index < read.size()) read[step.input_index] = true;
+  }
+}
+
+/// A sentence if there are controls, but none acts on q: neither do force and Lagrangian read one, nor the rate of a
+/// first-order state that they read, directly or through others.
 std::string idle_controls(const Problem& problem) {
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index m = problem.control_size();
+  const Eigen::Index l = problem.first_order_size();
   if (m == 0) return "";
   InputCounter inputs;
   const ExpressionVector u = inputs.take(m);
-  ControlledState x{inputs.take(n), inputs.take(n), u, inputs.take()};
-  x.y = inputs.take(problem.first_order_size());
-  const Schedule force(problem.force(x));
-  const bool is_read = std::ranges::any_of(force.steps(), [m](const Schedule::Step& step) {
-    return step.operation == Operation::input && step.input_index < static_cast<std::size_t>(m);
-  });
-  return is_read ? "" : " No entry of force reads a control, so that nothing steers this motion.";
+  const ExpressionVector y = inputs.take(l);
+  const ControlledState x{inputs.take(n), inputs.take(n), u, inputs.take(), y};
+  const ExpressionVector rates = problem.first_order_rates(x);
+  std::vector<bool> acts(static_cast<std::size_t>(m + l));
+  add_inputs(Schedule(problem.force(x)), acts);
+  add_inputs(Schedule(ExpressionVector{{problem.lagrangian({x.q, x.v, x.t, x.y})}}), acts);
+  for (Eigen::Index round = 0; round < l; ++round) {
+    for (Eigen::Index i = 0; i < l; ++i) {
+      if (acts[static_cast<std::size_t>(m + i)]) add_inputs(Schedule(ExpressionVector{{rates[i]}}), acts);
+    }
+  }
+  if (std::any_of(acts.begin(), acts.begin() + m, std::identity{})) return "";
+  return fmt::format(" No entry of force reads a control{}, so that no control steers this motion.",
+                     l > 0 ? ", nor a first-order state that one acts on" : "");
 }
 
 /// A sentence if the cost is so far below 0 that it may have no lower bound: scaled costs are of order 1.
@@ -306,7 +324,7 @@ std::string endless_descent(Transcription& transcription, const Eigen::VectorXd&
 
 /// True if an end is bounded by more than the bounds that hold for q all along.
 bool states_more_than(const EndBounds& end, const Bounds& all_along) {
-  if (end.v.any() || all_along.empty()) return end.v.any() || end.q.any();
+  if (end.v.any() || end.y.any() || all_along.empty()) return end.v.any() || end.y.any() || end.q.any();
   return end.q.lower != all_along.lower || end.q.upper != all_along.upper;
 }
 
@@ -318,6 +336,8 @@ std::string contradiction(const Transcription& transcription) {
   if (!transcription.bounds().interior.empty()) parts.push_back(member_name("bounds().interior"));
   if (transcription.traced_problem().boundary_condition_count() > 0) parts.emplace_back("boundary_conditions");
   if (transcription.traced_problem().path_constraint_count() > 0) parts.emplace_back("path_constraints");
+  if (transcription.traced_problem().integral_count() > 0) parts.push_back(member_name("bounds().integrals"));
+  if (transcription.traced_problem().holonomic_count() > 0) parts.emplace_back("constraints");
   if (parts.empty()) return "";
   std::string text = " The solver found no motion near this one that meets " + parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];

@@ -213,6 +213,36 @@ TEST_P(ViolationInWords, TellsTheNamesOfConstraintsAndThatNoForceReadsAControl) 
             "boundary_conditions[0] (gate)");
 }
 
+/// A mass pushed by a force that grows at a rate, which grows at the rate of the control; its end is out of reach.
+class ByWayOfTwoRates final : public tests::SmallProblem {
+ public:
+  explicit ByWayOfTwoRates(bool is_linked)
+      : SmallProblem("by_way_of_two_rates", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1), is_linked_(is_linked) {}
+  [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"push", "rate"}; }
+  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
+    return ExpressionVector{{is_linked_ ? x.y[1] : -x.y[0], x.u[0]}};
+  }
+  [[nodiscard]] BoundaryState initial_state() const override { return with_rest(SmallProblem::initial_state()); }
+  [[nodiscard]] BoundaryState final_state() const override { return with_rest(SmallProblem::final_state()); }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(x.y[0]); }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+
+ private:
+  static BoundaryState with_rest(BoundaryState end) {
+    end.y = Eigen::VectorXd::Zero(2);
+    return end;
+  }
+  bool is_linked_;
+};
+
+TEST_P(ViolationInWords, FollowsControlsThroughFirstOrderStates) {
+  const ByWayOfTwoRates steered(true);
+  EXPECT_EQ(Ended(steered, GetParam()).words().find("no control steers"), std::string::npos);
+  const ByWayOfTwoRates idle(false);
+  EXPECT_PRED2(says, Ended(idle, GetParam()).words(), "nor a first-order state that one acts on");
+}
+
 /// Its cost falls without end as the control grows.
 class Endless final : public tests::SmallProblem {
  public:
