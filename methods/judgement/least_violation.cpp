@@ -231,11 +231,13 @@ bool moves_to_least_violation(const CountedProgram& program, const SolverOptions
   return false;
 }
 
-/// Where descent on the violation alone, from a point, meets the constraints; empty if it does not.
+/// Where descent on the violation alone, from a point, meets the constraints; empty if it does not, or not soon where
+/// it stalls and must not.
 Eigen::VectorXd feasible_point_from(const CountedProgram& program, const SolverOptions& options,
-                                    const Eigen::VectorXd& start) {
+                                    const Eigen::VectorXd& start, bool may_stall = true) {
   ViolationDescent descent(program.uncounted(), start);
   for (int i = 0; i < most_steps && descent.violation() > options.tolerance; ++i) {
+    if (!may_stall && descent.has_stalled()) break;
     require_time(program, options);
     if (!descent.step()) break;
   }
@@ -251,14 +253,61 @@ Eigen::VectorXd between_bounds(const NonlinearProgram& program, Eigen::VectorXd 
   return point;
 }
 
+/// A point with the unknowns of the whole horizon that are positive, such as T, multiplied by a factor, as far as their
+/// bounds permit; empty if none moves.
+Eigen::VectorXd stretched(const NonlinearProgram& program, Eigen::VectorXd point, double factor) {
+  const IntervalStructure* structure = program.interval_structure();
+  if (structure == nullptr) return {};
+  bool moves = false;
+  for (const PlaceRun& run : structure->unknowns.runs()) {
+    if (run.kind != Place::Kind::border) continue;
+    for (auto i = static_cast<Eigen::Index>(run.first); i < static_cast<Eigen::Index>(run.first + run.count); ++i) {
+      const double lower = program.variable_lower()[i];
+      const double upper = program.variable_upper()[i];
+      const double wanted = std::clamp(factor * point[i], lower, upper);
+      if (!(lower > 0.0) || wanted == point[i]) continue;
+      point[i] = wanted;
+      moves = true;
+    }
+  }
+  return moves ? point : Eigen::VectorXd();
+}
+
+/// Whether no constraint is curved, neither at a point nor at another one, with multipliers that do not cancel: then
+/// ½|r|² is convex, and where it is stationary it is least.
+bool has_affine_constraints(NonlinearProgram& program, const Eigen::VectorXd& point) {
+  // Irregular numbers between 0 and 1, of magnitudes that do not differ much.
+  const auto irregular = [](Eigen::Index count) {
+    constexpr double golden = 0.6180339887498949;
+    Eigen::VectorXd numbers(count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      numbers[i] = 0.25 + 0.5 * std::fmod(golden * static_cast<double>(i + 1), 1.0);
+    return numbers;
+  };
+  const Eigen::VectorXd multipliers = irregular(static_cast<Eigen::Index>(program.constraint_count()));
+  Eigen::VectorXd values(static_cast<Eigen::Index>(program.hessian_structure().size()));
+  const Eigen::VectorXd shift = irregular(point.size()).array() * point.array().abs().max(1.0);
+  for (const Eigen::VectorXd& at : {point, Eigen::VectorXd(point + shift)}) {
+    program.hessian(at, 0.0, multipliers, values);
+    if (!values.isZero(0.0)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Eigen::VectorXd feasible_point(const CountedProgram& program, const SolverOptions& options,
                                const Eigen::VectorXd& start) {
   if (!start.allFinite()) return {};
   Eigen::VectorXd point = feasible_point_from(program, options, start);
-  if (point.size() > 0) return point;
-  return feasible_point_from(program, options, between_bounds(program.uncounted(), start));
+  if (point.size() == 0) point = feasible_point_from(program, options, between_bounds(program.uncounted(), start));
+  // Of linear dynamics the violation is convex in all unknowns but T.
+  for (const double factor : {2.0, 4.0, 0.5, 8.0}) {
+    const Eigen::VectorXd further =
+        point.size() == 0 ? stretched(program.uncounted(), start, factor) : Eigen::VectorXd();
+    if (further.size() > 0) point = feasible_point_from(program, options, further, false);
+  }
+  return point;
 }
 
 void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start,
@@ -272,17 +321,22 @@ void judge_infeasibility(const CountedProgram& program, const SolverOptions& opt
   const bool is_least =
       is_outside && (is_point_of_least_violation(program.uncounted(), solution.primal) ||
                      ((claims || has_failed) && moves_to_least_violation(program, options, solution)));
-  if (is_least && feasible_point(program, options, start).size() > 0) {
+  const bool is_certain = is_least && has_affine_constraints(program.uncounted(), solution.primal);
+  if (is_least && !is_certain && feasible_point(program, options, start).size() > 0) {
     solution.status = Status::step_failed;
     solution.message =
         "Near the last point the constraints cannot be met any better, but descent on their violation alone, from the "
-        "start or from half way between the bounds, meets them: the program is feasible, and the solver went astray; "
-        "start from another motion.";
+        "start, from half way between the bounds or from another horizon, meets them: the program is feasible, and the "
+        "solver went astray; start from another motion.";
     return;
   }
-  if (is_least == claims) return;
+  if (!is_least && !claims) return;
   solution.status = is_least ? Status::infeasible : Status::step_failed;
-  solution.message = is_least ? "" : "The solver calls it infeasible, but its point does not minimise the violation.";
+  solution.message = is_certain
+                         ? "Infeasible: no point meets the constraints, which are affine; the last point violates "
+                           "them least."
+                     : is_least ? ""
+                                : "The solver calls it infeasible, but its point does not minimise the violation.";
 }
 
 }  // namespace dmocbench

@@ -68,8 +68,9 @@ class ViolationDescent {
 };
 
 /// A point that meets the constraints within the tolerance of the options: where descent on the violation alone ends,
-/// from `start` or, if that fails, from half way between the bounds. Empty if neither does. It counts no evaluation.
-/// Throws `Stopped` where the solve must end.
+/// from `start` or, if that fails, from half way between the bounds, or from the start with positive unknowns of the
+/// whole horizon, such as T, multiplied by 2, 4, 1/2 and 8. Empty if none does. It counts no evaluation. Throws
+/// `Stopped` where the solve must end.
 [[nodiscard]] Eigen::VectorXd feasible_point(const CountedProgram& program, const SolverOptions& options,
                                              const Eigen::VectorXd& start);
 
@@ -77,9 +78,10 @@ class ViolationDescent {
 /// point is one of least violation (`is_point_of_least_violation`), or if descent from it ends at one, to which
 /// `solution.primal` then moves; "step failed" if the solver reports infeasible and neither holds. For a `solution`
 /// that is reported infeasible, whose step failed or whose iterations ran out; the latter is judged at its last point,
-/// without descent. "Infeasible" is not reported either where descent from `start`, where the solve began, or from half
-/// way between the bounds meets the constraints. It counts no evaluation. Throws `Stopped` where the solve
-/// must end.
+/// without descent. "Infeasible" is not reported either where a `feasible_point` is found from `start`, where the solve
+/// began. Its message says "infeasible" where the constraints are affine, so that a local minimum of the violation is a
+/// global one, otherwise "no motion found". It counts no evaluation. Throws `Stopped` where the
+/// solve must end.
 void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start,
                          Solution& solution);
 

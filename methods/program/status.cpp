@@ -19,8 +19,9 @@ constexpr auto entries = std::to_array<Entry>({
      "KKT residual and constraint violation are below the tolerance, or below rounding where that is more."},
     {Status::acceptable, "acceptable",
      "The solver could not reach the tolerance, but came within a hundred times of it."},
-    {Status::infeasible, "infeasible",
-     "Infeasible from this start: the last point is a local minimum of the constraint violation."},
+    {Status::infeasible, "no motion found",
+     "No motion found: the last point is a local minimum of the constraint violation, and descents on it from other "
+     "starts did not meet the constraints either; this does not prove that no motion does."},
     {Status::diverged, "diverged", "The iterates grew without bound."},
     {Status::step_failed, "step failed", "The solver could not find a further step."},
     {Status::evaluation_failed, "evaluation failed", "A formula gave NaN or infinity."},
