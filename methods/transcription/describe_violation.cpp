@@ -273,6 +273,22 @@ std::string dependent_constraints(const Problem& problem, Transcription& transcr
                      fmt::join(named, "; "), last);
 }
 
+/// A sentence if no unknown is left to choose: the equations alone determine the motion.
+std::string no_freedom(const Transcription& transcription) {
+  std::size_t unknowns = 0;
+  std::size_t equations = 0;
+  for (Eigen::Index i = 0; i < transcription.variable_lower().size(); ++i)
+    unknowns += is_fixed(transcription, i) ? 0 : 1;
+  for (Eigen::Index i = 0; i < transcription.constraint_lower().size(); ++i) {
+    equations += transcription.constraint_lower()[i] == transcription.constraint_upper()[i] ? 1 : 0;
+  }
+  if (equations < unknowns) return "";
+  return fmt::format(
+      " The problem has no freedom: {} equations determine its {} unknowns, whatever the cost. It is a boundary value "
+      "problem, whose solution depends on the guess.",
+      equations, unknowns);
+}
+
 std::string held_horizon(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x) {
   if (!transcription.has_free_horizon()) return "";
   const HorizonBounds bounds = problem.bounds().horizon;
@@ -411,6 +427,7 @@ Failure failure_of(const Problem& problem, Transcription& transcription, const S
   if (has_stuck) {
     const std::string vanishing = vanishing_conditions(problem, transcription, x);
     text += vanishing.empty() ? dependent_constraints(problem, transcription, x) : vanishing;
+    text += no_freedom(transcription);
   }
   if (text.starts_with(' ')) text.erase(0, 1);
   Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription.constraint_count()));

@@ -22,7 +22,7 @@ namespace dmocbench {
 /// Why a solve failed, in a sentence or two: the constraint or bound that its point violates most
 /// (`describe_constraint`), and by how much, in the unit of the constraint; which controls, and whether the horizon,
 /// are at their bounds there; boundary conditions whose derivatives vanish there, or
-/// else constraints whose gradients depend on each other (`dependent_rows`); and, where the solver ended at a
+/// else constraints whose gradients depend on each other (`dependent_rows`); whether the problem has no freedom; and, where the solver ended at a
 /// point of least violation, the bounds on q and q̇ that the violation presses against most and conditions that cannot
 /// be met near it, such as an unreachable final state. A formula that is not a number at that point is named first,
 /// with the interval (`undefined_stage`); it alone where the evaluation failed. Empty where the solve ended without a

@@ -243,6 +243,28 @@ TEST_P(ViolationInWords, FollowsControlsThroughFirstOrderStates) {
   EXPECT_PRED2(says, Ended(idle, GetParam()).words(), "nor a first-order state that one acts on");
 }
 
+/// A pendulum without a control from 0 to 1, whose velocities at the ends are free: a boundary value problem.
+class WithoutControl final : public tests::SmallProblem {
+ public:
+  WithoutControl() : SmallProblem("without_control", at(0.0, 0.0), at(1.0, 0.0), 1.0, 0) {}
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = SmallProblem::bounds();
+    bounds.first.free_velocity(0);
+    bounds.last.free_velocity(0);
+    return bounds;
+  }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] - cos(x.q[0]); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& /*x*/) const override { return one(0.0); }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.v[0] * x.v[0]; }
+};
+
+TEST_P(ViolationInWords, SaysWhereAProblemHasNoFreedom) {
+  const WithoutControl problem;
+  EXPECT_PRED2(says, Ended(problem, GetParam()).words(), "The problem has no freedom: ");
+  const tests::Pendulum pendulum;
+  EXPECT_FALSE(says(Ended(pendulum, GetParam()).words(), "no freedom"));
+}
+
 /// Its cost falls without end as the control grows.
 class Endless final : public tests::SmallProblem {
  public:
