@@ -206,6 +206,10 @@ void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& ti
   tell_start(solved, start);
   try {
     const StopScope scope = time.scope();
+    if (is_solved(solution.status) && !solution.failed_before.empty()) {
+      const std::string flat = describe_flat_constraint(*solved.the_case.problem, program);
+      if (!flat.empty()) solved.note(flat);
+    }
     const Failure failure = failure_of(*solved.the_case.problem, program, solution, solved.tolerance);
     solved.solution.formula_undefined = failure.formula_undefined;
     if (!failure.words.empty()) solved.note(failure.words);

@@ -143,6 +143,30 @@ int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution&
   return 0;
 }
 
+/// An answer that no Newton step settles is solved all the same if trajectories on both sides of it, along the step,
+/// meet the conditions as well and cost the same: it is one of many.
+void tell_of_equal_neighbours(NonlinearProgram& program, double tolerance, Solution& solution) {
+  constexpr double distance = 10.0 * settled;
+  constexpr double same_cost = 1e-8;
+  NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
+  const auto correction = correction_in_time(corrections, solution);
+  if (!correction || !(correction->length > settled)) return;
+  const double share = std::min(1.0, distance / correction->length);
+  for (const double factor : {share, -share}) {
+    const NewtonCorrection part{.primal = factor * correction->primal, .multipliers = factor * correction->multipliers};
+    const Solution next = stepped(program, part, solution);
+    const bool is_kept_by_bounds = (next.primal - solution.primal).norm() < 0.5 * part.primal.norm();
+    const double cost_moves = std::abs(next.objective - solution.objective);
+    if (is_kept_by_bounds || !(cost_moves <= same_cost * std::max(1.0, std::abs(solution.objective)))) return;
+    if (!(scaled_residual(program, tolerance, next) <= confirmation_factor)) return;
+  }
+  solution.status = Status::solved;
+  solution.message = fmt::format(
+      "{} The trajectory is not unique: others, {:.0e} of its size away on both sides, meet all conditions at the same "
+      "cost. A small term in the cost, such as the square of a control, would choose one.",
+      sentence_of(solution.status), share * correction->length);
+}
+
 }  // namespace
 
 int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
@@ -150,6 +174,9 @@ int settle(NonlinearProgram& program, double tolerance, Solution& solution, int 
   int steps = 0;
   if (is_unsettled(solution) || is_near(program, tolerance, solution)) {
     steps = steps_to_confirmation(program, tolerance, solution, most_steps);
+  }
+  if (solution.status == Status::not_confirmed && is_unsettled(solution) && !must_stop()) {
+    tell_of_equal_neighbours(program, tolerance, solution);
   }
   if (is_solved_to_rounding(tolerance, solution)) steps += steps_to_rounding(program, solution, most_steps);
   return steps;

@@ -19,7 +19,9 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps = 5);
 /// - One that was not confirmed because a Newton step would still move it (`confirm`), or at which a solver stopped
 ///   within `acceptable_factor` of the tolerance that confirms it, whatever the solver calls that. It becomes solved if
 ///   a further step would not move it and its residuals are confirmed at this tolerance, and its message reports the
-///   number of steps it took; otherwise `solution` is unchanged.
+///   number of steps it took. It becomes solved as well if answers on both sides of it, along the step, meet the
+///   conditions to the tolerance at the same cost: the trajectory is one of many, which its message reports. Otherwise
+///   `solution` is unchanged.
 /// - A solved one whose residuals are above the tolerance and allowed only as rounding (`StopRule`). It takes steps as
 ///   long as each leaves less than half of the residuals: the rest is rounding, and was measured.
 ///

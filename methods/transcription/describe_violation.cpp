@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "methods/expression/schedule.hpp"
+#include "methods/judgement/flat_rows.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
 #include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/member_name.hpp"
@@ -62,6 +63,11 @@ class ConstraintWords {
     // A control that neighbours share is the first one of an interval.
     if (block.kind == Quantity::control) return sentence + in_interval(std::min(place.index, blocks_->intervals() - 1));
     return sentence + where(place);
+  }
+
+  /// "q[1] (theta)" of an unknown.
+  [[nodiscard]] std::string component(std::size_t unknown) const {
+    return component_of(blocks_->block_of_unknown(unknown), unknown);
   }
 
  private:
@@ -372,6 +378,25 @@ std::string describe_unknown(const Problem& problem, const Transcription& transc
   return ConstraintWords(problem, transcription, x).unknown(unknown);
 }
 
+std::string describe_flat_constraint(const Problem& problem, Transcription& transcription) {
+  const Eigen::VectorXd guess = sample(transcription, guessed_motion(transcription));
+  const std::vector<FlatRow> flat = flat_rows(transcription, guess);
+  if (flat.empty()) return "";
+  Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription.constraint_count()));
+  transcription.constraints(guess, rows);
+  const auto violation = [&](const FlatRow& of) {
+    const auto row = static_cast<Eigen::Index>(of.row);
+    return std::max(transcription.constraint_lower()[row] - rows[row],
+                    rows[row] - transcription.constraint_upper()[row]);
+  };
+  const FlatRow& worst = *std::ranges::max_element(flat, {}, violation);
+  const ConstraintWords words(problem, transcription, guess);
+  return fmt::format(
+      "The guess violates {}, whose derivative by {} vanishes there, so that it does not show on which side to pass: "
+      "guess a motion beside it.",
+      words.row(worst.row), words.component(worst.unknown));
+}
+
 namespace {
 
 /// Which formula cannot be evaluated at a point of a program, and where first: "a derivative of force[1] is not a
@@ -427,7 +452,8 @@ Failure failure_of(const Problem& problem, Transcription& transcription, const S
   if (has_stuck) {
     const std::string vanishing = vanishing_conditions(problem, transcription, x);
     text += vanishing.empty() ? dependent_constraints(problem, transcription, x) : vanishing;
-    text += no_freedom(transcription);
+    const std::string flat = describe_flat_constraint(problem, transcription);
+    text += no_freedom(transcription) + (flat.empty() ? "" : " " + flat);
   }
   if (text.starts_with(' ')) text.erase(0, 1);
   Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription.constraint_count()));

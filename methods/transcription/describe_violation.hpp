@@ -19,10 +19,15 @@ namespace dmocbench {
 [[nodiscard]] std::string describe_unknown(const Problem& problem, const Transcription& transcription,
                                            const Eigen::VectorXd& x, std::size_t unknown);
 
+/// A path constraint that the guess violates where its derivatives by the unknown that would repair it vanish
+/// (`flat_rows`), in a sentence; empty if there is none.
+[[nodiscard]] std::string describe_flat_constraint(const Problem& problem, Transcription& transcription);
+
 /// Why a solve failed, in a sentence or two: the constraint or bound that its point violates most
 /// (`describe_constraint`), and by how much, in the unit of the constraint; which controls, and whether the horizon,
 /// are at their bounds there; boundary conditions whose derivatives vanish there, or
-/// else constraints whose gradients depend on each other (`dependent_rows`); whether the problem has no freedom; and, where the solver ended at a
+/// else constraints whose gradients depend on each other (`dependent_rows`); whether the problem has no freedom; a
+/// constraint that is flat on the guess (`describe_flat_constraint`); and, where the solver ended at a
 /// point of least violation, the bounds on q and q̇ that the violation presses against most and conditions that cannot
 /// be met near it, such as an unreachable final state. A formula that is not a number at that point is named first,
 /// with the interval (`undefined_stage`); it alone where the evaluation failed. Empty where the solve ended without a

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/judgement/flat_rows.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
 #include "tests/support/small_programs.hpp"
 
@@ -74,6 +75,27 @@ TEST(DependentRows, CountHeldInequalitiesAndFreeVariablesOnly) {
   EXPECT_EQ(rows_of(program(0.0, 0.0)), (Rows{0, 1}));  // without x₀ both are x₁
   EXPECT_EQ(rows_of(program(0.0, 1.0)), Rows{});        // the second is not held
   EXPECT_EQ(rows_of(program(1.0, 0.0)), Rows{});
+}
+
+/// x₀² + x₁² >= 1 and x₂ >= 2; x₃ is in no row.
+SmallProgram outside_of_a_disc() {
+  return SmallProgram({[](const HyperVector& x) { return x[0]; },
+                       [](const HyperVector& x) {
+                         return HyperVector{x[0] * x[0] + x[1] * x[1], x[2]};
+                       },
+                       tests::everywhere(4, -unbounded), tests::everywhere(4, unbounded), vector({1.0, 2.0}),
+                       tests::everywhere(2, unbounded)});
+}
+
+TEST(FlatRows, AreViolatedOnesThatCurvatureAloneRepairs) {
+  SmallProgram program = outside_of_a_disc();
+  const std::vector<FlatRow> ahead = flat_rows(program, vector({0.5, 0.0, 0.0, 0.0}));
+  ASSERT_EQ(ahead.size(), 1U);
+  EXPECT_EQ(ahead.front().row, 0U);
+  EXPECT_EQ(ahead.front().unknown, 1U);
+  EXPECT_EQ(flat_rows(program, vector({0.0, 0.0, 0.0, 0.0})).size(), 2U);
+  EXPECT_TRUE(flat_rows(program, vector({0.5, 1e-6, 0.0, 0.0})).empty());  // it leads to one side
+  EXPECT_TRUE(flat_rows(program, vector({1.5, 0.0, 0.0, 0.0})).empty());   // it holds
 }
 
 }  // namespace

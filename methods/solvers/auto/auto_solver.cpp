@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "methods/judgement/flat_rows.hpp"
 #include "methods/judgement/least_violation.hpp"
 #include "methods/program/counted_program.hpp"
 
@@ -44,6 +45,14 @@ class AutoRun final : public PreparedRun {
     continue_with(1, has_point ? Eigen::VectorXd(solution.primal) : start, solution);
     solution.failed_before = "interior_point failed; ipopt continued from its last point.";
     if (!has_point || !leaves_hope(solution.status)) return;
+    const Eigen::VectorXd beside = moved_off_flat_rows(program_.uncounted(), start);
+    if (beside.size() > 0) {
+      continue_with(0, beside, solution);
+      solution.failed_before =
+          "interior_point and ipopt failed; interior_point began again beside the guess, on which derivatives of a "
+          "violated path constraint vanish.";
+      if (!leaves_hope(solution.status)) return;
+    }
     const Eigen::VectorXd feasible = feasible_point(program_, options_, start);
     if (feasible.size() == 0) return;
     continue_with(0, feasible, solution);

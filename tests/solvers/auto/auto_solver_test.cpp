@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "methods/error.hpp"
+#include "methods/judgement/confirm.hpp"
+#include "methods/judgement/polish.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/cart_pole.hpp"
 #include "tests/binaries/own_problems/mountain_car.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/value_of.hpp"
 
@@ -120,6 +123,61 @@ TEST(AutoSolver, EndsWithAStatusWhereverItIsStopped) {
     EXPECT_EQ(solution.status, Status::interrupted) << share << " of 24: " << solution.message;
     EXPECT_EQ(solution.primal.size(), start.size());
   }
+}
+
+/// From (0, 0) to (4, 0) in the least time, past a circle beside (2, 0), which costs no time: T = 4, and many motions
+/// across the way are optimal.
+class PastACircle final : public tests::SmallProblem {
+ public:
+  explicit PastACircle(double height)
+      : SmallProblem("past_a_circle", BoundaryState::at_rest(tests::vector({0.0, 0.0})),
+                     BoundaryState::at_rest(tests::vector({4.0, 0.0})), 6.0, 2),
+        height_(height) {}
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = SmallProblem::bounds();
+    bounds.u = Bounds::all(2, -1.0, 1.0);
+    bounds.horizon = {.lower = 0.5, .upper = 50.0};
+    return bounds;
+  }
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& /*x*/) const override { return 0.0; }
+  [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
+  [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
+    return one(pow(x.q[0] - 2.0, 2.0) + pow(x.q[1] - height_, 2.0) - 0.25);
+  }
+
+ private:
+  double height_;
+};
+
+/// The answer to it, settled.
+Solution solved_past_a_circle(double height) {
+  const PastACircle problem(height);
+  Transcription program(problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(64));
+  SolverOptions options;
+  options.most_iterations = 150;
+  Solution solution = AutoSolver(options).solve(program, sample(program, guessed_motion(problem)));
+  settle(program, options.tolerance, solution);
+  solution.objective /= program.cost_scale();
+  return solution;
+}
+
+TEST(AutoSolver, PassesAnObstacleStraightAheadOnOneSide) {
+  const Solution solution = solved_past_a_circle(0.0);
+  EXPECT_TRUE(is_solved(solution.status)) << solution.message;
+  EXPECT_NEAR(solution.objective, 4.0, 1e-6);
+  EXPECT_THAT(solution.failed_before, testing::HasSubstr("beside the guess"));
+}
+
+TEST(Settle, CallsOneOfManyTrajectoriesSolvedAndSaysThatThereAreOthers) {
+  const Solution solution = solved_past_a_circle(0.1);
+  EXPECT_EQ(solution.status, Status::solved);
+  EXPECT_NEAR(solution.objective, 4.0, 1e-6);
+  EXPECT_GT(tests::value_of(solution.correction), settled);
+  EXPECT_THAT(solution.message, testing::HasSubstr("not unique"));
 }
 
 }  // namespace
