@@ -128,9 +128,8 @@ void leave_saddle(NonlinearProgram& program, double tolerance, const Confirmatio
     return;
   }
   solution.message +=
-      " The curvature is negative along a direction that keeps the constraints, so that this may be a saddle point, "
-      "but "
-      "no solve from either side of it ended at a lower cost.";
+      " The curvature is negative along a direction that meets the linearised constraints. This may be a saddle point, "
+      "although no solve from either side of it ended at a lower cost.";
 }
 
 }  // namespace dmocbench
