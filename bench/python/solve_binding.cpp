@@ -134,7 +134,9 @@ double estimated_error(Answer& answer) {
   SolvedCase& solved = answer.solved;
   if (!solved.estimated_error) {
     solved.estimated_error = without_gil([&](Call& call) {
-      if (!is_solved(solved.solution.status) || !solved.trajectory) throw Error("the solution is not solved");
+      const Status status = solved.solution.status;
+      const bool is_optimum = is_solved(status) || is_no_motion(status);  // of the discrete program
+      if (!is_optimum || !solved.trajectory) throw Error("the solution is not solved");
       if (!solved.trajectory->has_costates()) throw Error("the solution has no costates");
       const StopScope scope([&call] { return call.is_interrupted(); }, 0.0);
       ErrorEstimator estimator(*solved.program);

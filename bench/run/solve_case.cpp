@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "methods/adaptive/error_estimate.hpp"
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/undefined_point.hpp"
@@ -100,6 +101,21 @@ void judge_between_stages(SolvedCase& solved, const Trajectory& motion) {
       std::string(sentence_of(solved.solution.status)) + found.words(motion, problem.card().time_unit.factor);
 }
 
+/// A sentence with the estimated error of an answer; empty where there is no estimate.
+std::string estimate_in_words(const SolvedCase& solved, const Trajectory& motion) {
+  if (!motion.has_costates()) return "";
+  try {
+    ErrorEstimator estimator(*solved.program);
+    const Solution& solution = solved.solution;
+    const ErrorEstimate error = estimator.estimate(*solved.program, solution.primal, solution.multipliers, motion);
+    return fmt::format(" The estimated relative error of q, p and cost is {:.2g}.", error.relative);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const Error&) {  // a free horizon, active bounds: what it does not cover
+    return "";
+  }
+}
+
 /// Replays the intervals of a solved case one by one; an answer that is not a motion is too coarse instead of solved,
 /// one that does not move as far as it has to is not confirmed.
 void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
@@ -111,8 +127,16 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
     solved.solution.message = lost;
     return;
   }
-  if (found.relative_jump <= largest_jump_of_a_motion) return;
+  if (found.is_motion()) return;
   solved.solution.status = Status::too_coarse;
+  if (found.relative_jump <= largest_jump_of_a_motion) {
+    solved.solution.message = fmt::format(
+        "{} Its intervals, replayed alone, miss the next nodes to the same side: by {:.2g} of the range all together, "
+        "the worst by {:.2g}.{}",
+        sentence_of(Status::too_coarse), found.accumulated_jump, found.relative_jump,
+        estimate_in_words(solved, motion));
+    return;
+  }
   const Eigen::Index k = found.interval;
   const double unit = solved.the_case.problem->card().time_unit.factor;
   const auto undefined = undefined_point(*solved.the_case.problem, motion, k);

@@ -179,7 +179,7 @@ class StartProvider::Search {
   };
 
   [[nodiscard]] bool is_motion(const Trajectory& trajectory) const {
-    return accuracy(*case_.problem, trajectory).relative_jump <= largest_jump_of_a_motion;
+    return accuracy(*case_.problem, trajectory).is_motion();
   }
 
   /// Solves it again on twice as many intervals; false, and the candidate as it was, if that fails.

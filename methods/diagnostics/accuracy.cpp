@@ -54,7 +54,41 @@ std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& traject
   return state;
 }
 
+/// (Δq, Δv, Δy) of every interval, a column each: where it ends, minus its last node. Infinite, like those after it in
+/// the same part, from the first interval on whose integration fails: nothing is worse.
+Eigen::MatrixXd jumps_of(const TracedProblem& traced, const Trajectory& trajectory, double tolerance) {
+  const Eigen::Index n = trajectory.q.cols();
+  const auto intervals = static_cast<std::size_t>(trajectory.intervals());
+  Eigen::MatrixXd jumps = Eigen::MatrixXd::Constant(2 * n + trajectory.y.cols(), trajectory.intervals(),
+                                                    std::numeric_limits<double>::infinity());
+  constexpr double shortest = 1e-9;      // 0 would be no limit
+  constexpr std::size_t per_part = 256;  // takes about ten milliseconds
+  const std::size_t parts = part_count(intervals, per_part);
+  std::vector<std::unique_ptr<EquationsOfMotion>> motions;  // one per part, since each has memory of its own
+  motions.reserve(parts);
+  for (std::size_t part = 0; part < parts; ++part) motions.push_back(std::make_unique<EquationsOfMotion>(traced));
+  const double left = std::max(seconds_left(), shortest);
+  for_each_part(parts, [&](std::size_t part) {
+    const StopScope scope(nullptr, left);  // the thread of a part has none
+    for (std::size_t i = begin_of_part(part, parts, intervals); i < begin_of_part(part + 1, parts, intervals); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const std::vector<double> state = carried(*motions[part], trajectory, k, tolerance);
+      const Eigen::Map<const Eigen::VectorXd> end(state.data(), static_cast<Eigen::Index>(state.size()));
+      if (state.empty() || !end.allFinite()) break;
+      jumps.col(k) = end;
+      jumps.col(k).head(n) -= trajectory.q.row(k + 1).transpose();
+      jumps.col(k).segment(n, n) -= trajectory.v.row(k + 1).transpose();
+      jumps.col(k).tail(trajectory.y.cols()) -= Trajectory::row_of(trajectory.y, k + 1);
+    }
+  });
+  return jumps;
+}
+
 }  // namespace
+
+bool Accuracy::is_motion() const {
+  return relative_jump <= largest_jump_of_a_motion && accumulated_jump <= largest_accumulated_jump_of_a_motion;
+}
 
 Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance) {
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
@@ -69,54 +103,29 @@ Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, dou
     const double range = range_of(nodes);
     return std::max(range > 0.0 ? range : moves, rounding_of(nodes) / largest_jump_of_a_motion);
   };
+  const Eigen::Index l = trajectory.y.cols();
   const double range_of_q = scale_of(trajectory.q);
   const double range_of_v = scale_of(trajectory.v);
-  const Eigen::Index l = trajectory.y.cols();
   const double range_of_y = l > 0 ? scale_of(trajectory.y) : 1.0;
-  const auto worst_of = [&](EquationsOfMotion& motion, Eigen::Index begin, Eigen::Index end) {
-    Accuracy worst{.interval = begin};
-    for (Eigen::Index k = begin; k < end; ++k) {
-      const std::vector<double> state = carried(motion, trajectory, k, tolerance);
-      double jump_of_q = std::numeric_limits<double>::infinity();
-      double jump_of_v = jump_of_q;
-      double jump_of_y = l > 0 ? jump_of_q : 0.0;
-      if (!state.empty() && std::ranges::all_of(state, [](double x) { return std::isfinite(x); })) {
-        jump_of_q = (Eigen::Map<const Eigen::VectorXd>(state.data(), n) - trajectory.q.row(k + 1).transpose()).norm();
-        jump_of_v =
-            (Eigen::Map<const Eigen::VectorXd>(state.data() + n, n) - trajectory.v.row(k + 1).transpose()).norm();
-        if (l > 0) {
-          jump_of_y =
-              (Eigen::Map<const Eigen::VectorXd>(state.data() + 2 * n, l) - trajectory.y.row(k + 1).transpose()).norm();
-        }
-      }
-      worst.jump = std::max(worst.jump, std::hypot(jump_of_q, jump_of_v));
-      const double relative = std::max({jump_of_q / range_of_q, jump_of_v / range_of_v, jump_of_y / range_of_y});
-      if (relative > worst.relative_jump) {
-        worst.relative_jump = relative;
-        worst.interval = k;
-      }
-      if (std::isinf(worst.relative_jump)) break;  // nothing is worse
-    }
-    return worst;
+  const auto relative_size = [&](const Eigen::VectorXd& of_state) {
+    if (!of_state.allFinite()) return std::numeric_limits<double>::infinity();
+    return std::max({of_state.head(n).norm() / range_of_q, of_state.segment(n, n).norm() / range_of_v,
+                     of_state.tail(l).norm() / range_of_y});
   };
-
-  const auto intervals = static_cast<std::size_t>(trajectory.intervals());
-  constexpr double shortest = 1e-9;      // 0 would be no limit
-  constexpr std::size_t per_part = 256;  // takes about ten milliseconds
-  const std::size_t parts = part_count(intervals, per_part);
-  std::vector<std::unique_ptr<EquationsOfMotion>> motions;  // one per part, since each has memory of its own
-  motions.reserve(parts);
-  for (std::size_t part = 0; part < parts; ++part) motions.push_back(std::make_unique<EquationsOfMotion>(traced));
-  std::vector<Accuracy> found(parts);
-  const double left = std::max(seconds_left(), shortest);
-  for_each_part(parts, [&](std::size_t part) {
-    const StopScope scope(nullptr, left);  // the thread of a part has none
-    found[part] = worst_of(*motions[part], static_cast<Eigen::Index>(begin_of_part(part, parts, intervals)),
-                           static_cast<Eigen::Index>(begin_of_part(part + 1, parts, intervals)));
-  });
-  Accuracy worst = *std::ranges::max_element(found, {}, &Accuracy::relative_jump);
-  worst.jump = std::ranges::max(found, {}, &Accuracy::jump).jump;
-  return worst;
+  const Eigen::MatrixXd jumps = jumps_of(traced, trajectory, tolerance);
+  Accuracy found;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(jumps.rows());
+  for (Eigen::Index k = 0; k < jumps.cols(); ++k) {
+    const double relative = relative_size(jumps.col(k));
+    if (relative > found.relative_jump) {
+      found.relative_jump = relative;
+      found.interval = k;
+    }
+    found.jump = std::max(found.jump, std::hypot(jumps.col(k).head(n).norm(), jumps.col(k).segment(n, n).norm()));
+    sum += jumps.col(k);
+    found.accumulated_jump = std::max(found.accumulated_jump, relative_size(sum));
+  }
+  return found;
 }
 
 namespace {

@@ -9,18 +9,24 @@
 
 namespace dmocbench {
 
-/// The largest jump of a motion whose intervals are replayed one by one: how far the continuous system, started at node
-/// k under the controls of interval k, ends from node k + 1. Unlike the replay of the whole horizon (`ReplayError`) it
-/// judges unstable systems too, where an error of any size grows without bound until the end.
+/// The jumps of a motion whose intervals are replayed one by one: how far the continuous system, started at node k
+/// under the controls of interval k, ends from node k + 1. Unlike the replay of the whole horizon (`ReplayError`) they
+/// judge unstable systems too, where an error of any size grows without bound until the end.
 struct Accuracy {
   double jump = 0.0;           ///< |(q, v)(t_{k+1}) - (q_{k+1}, v_{k+1})|, the largest over k
-  double relative_jump = 0.0;  ///< the largest |Δq| / range of q or |Δv| / range of v, see `accuracy`
+  double relative_jump = 0.0;  ///< the largest |Δq| / range of q, |Δv| / range of v or |Δy| / range of y
   Eigen::Index interval = 0;   ///< k where `relative_jump` is
+  /// The same of the sum of the jumps of intervals 0 to k, with their signs, the largest over k. A force whose period
+  /// is the step is sampled at one phase: no interval misses by much, but all miss to the same side.
+  double accumulated_jump = 0.0;
+
+  /// Whether neither a single jump nor their sum is too large for a motion.
+  [[nodiscard]] bool is_motion() const;
 };
 
 /// Replays every interval with the control polynomial through its stages, on the continuous forced Euler-Lagrange
 /// equations (eq:varmech_FEL), by an adaptive Runge-Kutta method of order 7(8) with the given tolerance, absolute and
-/// relative. Independent of every discretisation. Both jumps are infinite where the integration of an interval fails.
+/// relative. Independent of every discretisation. All jumps are infinite where the integration of an interval fails.
 ///
 /// Norms are Euclidean. The range of q is the norm of the differences between the largest and the smallest value of
 /// each component over the nodes, the range of v likewise. If one of the two is constant the range of the other is
@@ -42,6 +48,10 @@ inline constexpr double smallest_range = 1e-8;
 /// The largest `Accuracy::relative_jump` of an answer that is a motion. Above it the discrete program is solved, but
 /// discretisation errors dominate its answer: it is `Status::too_coarse`.
 inline constexpr double largest_jump_of_a_motion = 0.05;
+
+/// The largest `Accuracy::accumulated_jump` of an answer that is a motion. Right answers stay below it: on 36 problems
+/// and a force of 16 to 128 periods by three methods with one and two stages on 16 to 128 intervals none exceeds 0.18.
+inline constexpr double largest_accumulated_jump_of_a_motion = 0.2;
 
 /// The size of the motion that a problem prescribes: the Euclidean norm, over all entries of (q, q̇), of the least
 /// distance between the largest and the smallest value of an entry that both ends and the times between them allow. 0

@@ -1,6 +1,7 @@
 #include "bench/run/solve_case.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +51,40 @@ TEST(SolveCase, SaysWhichScaleWouldSuitACostFarFromOne) {
   EXPECT_NE(small.solution.message.find("consider cost_scale = 100000 instead of 1"), std::string::npos)
       << small.solution.message;
   EXPECT_EQ(solved(1.0, 0.5).solution.message.find("cost_scale"), std::string::npos);
+}
+
+/// A mass on a spring, 1 m in 10 s with least ∫ ½u², in a wave of some periods: L = ½v² - ½q², f = u + 0.3 cos.
+class InWave final : public tests::SmallProblem {
+ public:
+  explicit InWave(double periods) : SmallProblem("in_wave", at(0.0, 0.0), at(1.0, 0.0), 10.0, 1), periods_(periods) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * x.v[0] * x.v[0] - 0.5 * x.q[0] * x.q[0];
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return one(x.u[0] + 0.3 * cos(0.2 * std::numbers::pi * periods_ * x.t));
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+
+ private:
+  double periods_;
+};
+
+TEST(SolveCase, IsTooCoarseWhereEveryIntervalMissesToTheSameSide) {
+  const auto solved = [](double periods, const char* method) {
+    const auto problem = std::make_shared<InWave>(periods);
+    const Case the_case{
+        .problem = problem, .method = method, .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(64)};
+    return solve_case(the_case, {guessed_motion(*problem)}, *make_solver("ipopt"), SolverOptions{}.tolerance, 1);
+  };
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    const SolvedCase sampled_at_its_crests = solved(64.0, method);
+    EXPECT_EQ(sampled_at_its_crests.solution.status, Status::too_coarse) << method;
+    EXPECT_LT(sampled_at_its_crests.accuracy->relative_jump, largest_jump_of_a_motion) << method;
+    EXPECT_NE(sampled_at_its_crests.solution.message.find("estimated relative error of q, p and cost is 0.59"),
+              std::string::npos)
+        << sampled_at_its_crests.solution.message;
+    EXPECT_EQ(solved(8.0, method).solution.status, Status::solved) << method;
+  }
 }
 
 /// Pushed from rest with a power u, f = u/v, with the least ∫ ½u² over 1 m in 1 s: at rest the force is infinite, the

@@ -40,6 +40,22 @@ TEST(Accuracy, FindsWhereAMotionIsTornAndByHowMuch) {
   EXPECT_NEAR(replay.relative_jump, 0.25 / 1.25, 1e-13);
 }
 
+TEST(Accuracy, AddsUpJumpsToTheSameSideOnly) {
+  const tests::DoubleIntegrator problem;
+  constexpr double jump = 0.04;
+  Trajectory drifting = exact_optimum(problem, 16);
+  drifting.q += jump * Eigen::VectorXd::LinSpaced(17, 0.0, 16.0);
+  const Accuracy one_sided = accuracy(problem, drifting);
+  EXPECT_NEAR(one_sided.relative_jump, jump / 1.64, 1e-12);
+  EXPECT_NEAR(one_sided.accumulated_jump, 16.0 * jump / 1.64, 1e-12);
+  EXPECT_FALSE(one_sided.is_motion());
+  Trajectory zigzag = exact_optimum(problem, 16);
+  for (Eigen::Index k = 1; k <= 16; k += 2) zigzag.q(k, 0) += jump;
+  const Accuracy to_both_sides = accuracy(problem, zigzag);
+  EXPECT_NEAR(to_both_sides.accumulated_jump, to_both_sides.relative_jump, 1e-12);
+  EXPECT_TRUE(to_both_sides.is_motion());
+}
+
 TEST(Accuracy, DoesNotCallABodyAtRestTornByRounding) {
   const tests::DoubleIntegrator problem;
   Trajectory at_rest = exact_optimum(problem, 8);

@@ -71,7 +71,7 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
       continue;
     }
     const Trajectory answer = read_trajectory(*program, solution.primal, solution.multipliers);
-    if (accuracy(certified.problem(), answer).relative_jump > largest_jump_of_a_motion) {
+    if (!accuracy(certified.problem(), answer).is_motion()) {
       row.status = name_of(Status::too_coarse);
       rows.push_back(row);
       continue;

@@ -64,7 +64,7 @@ std::optional<double> best_motion(Transcription& program, std::vector<StartAnswe
   constexpr std::size_t most_looked_at = 200;
   for (const StartAnswer& answer : answers | std::views::take(most_looked_at)) {
     const Trajectory trajectory = read_trajectory(program, answer.primal, {});
-    if (accuracy(program.problem(), trajectory).relative_jump <= largest_jump_of_a_motion) return trajectory.cost;
+    if (accuracy(program.problem(), trajectory).is_motion()) return trajectory.cost;
   }
   return std::nullopt;
 }
