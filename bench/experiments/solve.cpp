@@ -156,6 +156,8 @@ class Solve final : public ExperimentOf<Measured> {
         output.summary.say(
             fmt::format("{}: {}: {}", answer.solved.the_case.label(), name_of(solution.status), solution.message));
       }
+      const std::string doubt = in_words(doubt_about_replay(answer.solved, answer.checks.replay));
+      if (!doubt.empty()) output.summary.say(fmt::format("{}: {}", answer.solved.the_case.label(), doubt));
       // After a failure the last point is no optimum, whose bounds would have prices.
       const bool is_optimum = is_solved(solution.status) || is_no_motion(solution.status);
       if (answer.solved.trajectory && is_optimum) say_found(answer.solved, output.summary);

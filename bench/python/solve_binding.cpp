@@ -190,13 +190,6 @@ void bind_numbers(py::class_<Answer>& answer) {
   number("solver", [](const SolvedCase& solved) { return solved.solution.solver; });
   number("status", [](const SolvedCase& solved) { return std::string(name_of(solved.solution.status)); });
   number("message", [](const SolvedCase& solved) { return solved.solution.message; });
-  number("advice", [](const SolvedCase& solved) {
-    const Advice next = next_to_try(solved, "");
-    const Advice advice = next.remedy == Remedy::none ? doubt_about_units(*solved.the_case.problem) : next;
-    return py::dict(py::arg("remedy") = name_of(advice.remedy), py::arg("coordinate") = advice.coordinate,
-                    py::arg("size") = advice.size, py::arg("smallest") = advice.smallest,
-                    py::arg("smallest_size") = advice.smallest_size);
-  });
   number("is_solved", [](const SolvedCase& solved) { return is_solved(solved.solution.status); });
   number("cost", [](const SolvedCase& solved) {
     return solved.trajectory ? std::optional(solved.trajectory->cost) : std::nullopt;
@@ -284,6 +277,14 @@ void bind_solve(py::module_& module) {
   answer.def_property_readonly("replay_in_words", [](Answer& one) {
     const IndependentChecks& checks = checks_of(one);
     return checks.replay ? replay_in_words(*one.solved.the_case.problem, *checks.replay) : "none";
+  });
+  answer.def_property_readonly("advice", [](Answer& one) {
+    Advice advice = next_to_try(one.solved, "");
+    if (advice.remedy == Remedy::none) advice = doubt_about_units(*one.solved.the_case.problem);
+    if (advice.remedy == Remedy::none) advice = doubt_about_replay(one.solved, checks_of(one).replay);
+    return py::dict(py::arg("remedy") = name_of(advice.remedy), py::arg("coordinate") = advice.coordinate,
+                    py::arg("size") = advice.size, py::arg("smallest") = advice.smallest,
+                    py::arg("smallest_size") = advice.smallest_size);
   });
   answer.def_property_readonly("largest_violation", [](Answer& one) { return checks_of(one).violation_between_nodes; });
   answer.def("estimated_error", &estimated_error);

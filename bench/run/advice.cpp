@@ -93,6 +93,25 @@ Advice doubt_about_units(const Problem& problem) {
   return angle_in_degrees(problem, is_angle).value_or(Advice());
 }
 
+Advice doubt_about_replay(const SolvedCase& solved, const std::optional<ReplayError>& replay) {
+  constexpr double most = 0.1;
+  constexpr double most_amplified = 10.0;
+  if (!is_solved(solved.solution.status) || !solved.trajectory || !solved.accuracy || !replay) return {};
+  const Eigen::MatrixXd& q = solved.trajectory->q;
+  const Eigen::VectorXd ranges = (q.colwise().maxCoeff() - q.colwise().minCoeff()).transpose();
+  Advice worst{.size = most};
+  for (Eigen::Index i = 0; i < replay->q.size(); ++i) {
+    const double share = std::abs(replay->q[i]) / ranges[i];
+    if (!(share > worst.size) || ranges[i] <= smallest_range * std::max(1.0, q.col(i).cwiseAbs().maxCoeff())) continue;
+    worst.coordinate = solved.the_case.problem->configuration_names()[static_cast<std::size_t>(i)];
+    worst.size = share;
+  }
+  if (worst.coordinate.empty()) return {};
+  const double jumps = static_cast<double>(q.rows() - 1) * solved.accuracy->relative_jump;
+  worst.remedy = worst.size > most_amplified * jumps ? Remedy::feedback : Remedy::finer_grid;
+  return worst;
+}
+
 std::string replay_in_words(const Problem& problem, const ReplayError& replay) {
   const ProblemCard card = problem.card();
   const std::vector<std::string>& units = card.configuration_units;
@@ -167,13 +186,25 @@ std::string in_words(const Advice& advice) {
     case Remedy::another_guess:
       return fmt::format("Try another guess ({}), or --start FILE with a motion near the one you want.",
                          member_name("Problem::guess"));
+    case Remedy::finer_grid:
+      return fmt::format(
+          "Try --accuracy 1e-4, or more intervals: with these controls {} ends {:.2g} of its range from where it "
+          "should.",
+          advice.coordinate, advice.size);
+    case Remedy::feedback:
+      return fmt::format(
+          "Try feedback to follow this trajectory, since the system is unstable: with these controls alone {} ends "
+          "{:.2g} "
+          "of its range from where it should, by the growth of small errors.",
+          advice.coordinate, advice.size);
   }
   return "";
 }
 
 std::string_view name_of(Remedy remedy) noexcept {
-  constexpr std::array names{"none",           "more_time",   "finite_formula",  "radians",      "other_units",
-                             "longer_horizon", "solver_auto", "several_solvers", "common_start", "another_guess"};
+  constexpr std::array names{"none",         "more_time",      "finite_formula", "radians",
+                             "other_units",  "longer_horizon", "solver_auto",    "several_solvers",
+                             "common_start", "another_guess",  "finer_grid",     "feedback"};
   return names[static_cast<std::size_t>(remedy)];
 }
 

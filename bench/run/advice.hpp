@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,13 +21,15 @@ enum class Remedy : std::uint8_t {
   several_solvers,  ///< the same, for a program that this solver does not solve
   common_start,     ///< a motion that other methods find first
   another_guess,    ///< or a motion near the wanted one
+  finer_grid,       ///< chosen by an accuracy, for a solved motion whose replay ends elsewhere
+  feedback,         ///< for one whose replay does so because the system amplifies errors
 };
 
 /// The next thing to try, and what it is about.
 struct Advice {
   Remedy remedy = Remedy::none;  ///< what to try
-  std::string coordinate = {};   ///< of `radians`; of `other_units` the largest
-  double size = 0.0;             ///< by which it changes; its size; of `longer_horizon` the horizon
+  std::string coordinate = {};   ///< of `radians`; of `other_units` the largest; whose replay misses the end
+  double size = 0.0;             ///< by which it changes; its size; of `longer_horizon` the horizon; share of its range
   std::string smallest = {};     ///< of `other_units`, the smallest coordinate
   double smallest_size = 0.0;    ///< and its size
 };
@@ -39,6 +42,11 @@ struct Advice {
 /// Radians, for a coordinate that is stated in them, by its unit or by a Lagrangian of period 2π, and changes by a
 /// number that looks like an angle in degrees. Such a problem may be solved all the same. None if there is none.
 [[nodiscard]] Advice doubt_about_units(const Problem& problem);
+
+/// For a solved case whose replay misses the end of a coordinate by more than a tenth of its range: a finer grid where
+/// the jumps of its intervals could add up to a tenth of that, feedback where they are less and so the system amplifies
+/// errors. None where it does not, or was not replayed.
+[[nodiscard]] Advice doubt_about_replay(const SolvedCase& solved, const std::optional<ReplayError>& replay);
 
 /// One sentence that begins with "Try", with the options of programs; empty without advice.
 [[nodiscard]] std::string in_words(const Advice& advice);

@@ -116,6 +116,29 @@ TEST(Advice, NamesNoOtherStartWhereANewtonStepHardlyMovesTheAnswer) {
   EXPECT_TRUE(names(in_words(next_to_try(solved, "guess")), "--start common"));
 }
 
+TEST(Advice, ForASolvedMotionWhoseReplayEndsElsewhereDependsOnWhetherItsJumpsExplainIt) {
+  SolvedCase solved;
+  solved.the_case.problem = std::make_shared<Moved>(1.0, "m");
+  solved.solution.status = Status::solved;
+  solved.trajectory.emplace();
+  solved.trajectory->q = Eigen::VectorXd::LinSpaced(11, 0.0, 1.0);
+  solved.accuracy = Accuracy{.relative_jump = 1e-2};
+  ReplayError replay{.q = Eigen::VectorXd::Constant(1, -0.3), .v = Eigen::VectorXd::Zero(1)};
+  const Advice coarse = doubt_about_replay(solved, replay);
+  EXPECT_EQ(coarse.remedy, Remedy::finer_grid);
+  EXPECT_EQ(coarse.coordinate, "q1");
+  EXPECT_DOUBLE_EQ(coarse.size, 0.3);
+  EXPECT_TRUE(names(in_words(coarse), "--accuracy"));
+  solved.accuracy->relative_jump = 1e-6;
+  EXPECT_EQ(doubt_about_replay(solved, replay).remedy, Remedy::feedback);
+  EXPECT_TRUE(names(in_words(doubt_about_replay(solved, replay)), "unstable"));
+  solved.solution.status = Status::too_coarse;
+  EXPECT_EQ(doubt_about_replay(solved, replay).remedy, Remedy::none);
+  solved.solution.status = Status::solved;
+  replay.q[0] = 0.05;
+  EXPECT_EQ(doubt_about_replay(solved, replay).remedy, Remedy::none);
+}
+
 TEST(LikelyMeant, IsTheNameWithFewestLettersChangedAndNoneThatIsFar) {
   const std::vector<std::string> names{"hamiltonian", "tangent", "dmoc"};
   EXPECT_EQ(likely_meant("hamiltonain", names), "hamiltonian");

@@ -243,7 +243,7 @@ class Solution:
         return "\n".join(lines)
 
 
-# What may help after a failed solve, by the remedy that its answer names.
+# What may help after a failed or doubtful solve, by the remedy that its answer names.
 _remedies = {
     "none": "",
     "more_time": "more time (most_seconds=) or fewer intervals.",
@@ -255,6 +255,10 @@ _remedies = {
     "several_solvers": "solver=\"auto\": interior_point, then ipopt, then a feasible motion as the start.",
     "common_start": "another start: start= with a solution by another method.",
     "another_guess": "another guess, or start= with a solution near the one you want.",
+    "finer_grid": "accuracy=1e-4, or more intervals: with these controls {coordinate} ends {size:.2g} of its range from where it "
+                  "should.",
+    "feedback": "feedback to follow this trajectory, since the system is unstable: with these controls alone {coordinate} ends "
+                "{size:.2g} of its range from where it should, by the growth of small errors.",
 }
 
 
