@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "methods/expression/enclosure.hpp"
 #include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/numerics/dense_solve.hpp"
@@ -20,39 +21,77 @@ namespace {
 constexpr Eigen::Index points = 9;              // of an interval, or of a part of one, both ends among them
 constexpr Eigen::Index intervals_at_once = 64;  // their points stay in the cache
 constexpr double rounding = 1e-8;
-constexpr double narrowest_part = 1e-10;  // of an interval
+constexpr double rounding_of_depth = 1e-12;  // of the constraint's values about the obstacle
+constexpr double finest = 1e-9;              // difference of violations that is searched for
+constexpr double narrowest_part = 1e-10;     // of an interval
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Displacements of an entry of (q, v, u, y) to either side: 4δ of its range, half of that, and so on.
 constexpr Eigen::Index displacements = 24;
 constexpr double largest_displacement = 4.0;
 constexpr Eigen::Index displacement_by_delta = 2;
 
-using AtPoints = Eigen::Matrix<double, points, 1>;
-
 double tau_of(Eigen::Index point) { return static_cast<double>(point) / static_cast<double>(points - 1); }
 
-/// The part [from, to] of an interval, whose ends are 0 and 1.
-struct Part {
-  [[nodiscard]] double tau(Eigen::Index point) const { return from + tau_of(point) * (to - from); }
-  double from = 0.0;
-  double to = 1.0;
-};
-
-/// The Lagrange polynomials of the stage times at the points of a part, a row per point, and their integrals from its
-/// beginning, by Simpson's rule, which is exact for up to four stages.
+/// The Lagrange polynomials of some times at the points, a row per point, and their integrals from the beginning, by
+/// Simpson's rule, which is exact for up to four times.
 struct PolynomialsAtPoints {
-  explicit PolynomialsAtPoints(const Eigen::VectorXd& c, const Part& part = {})
+  explicit PolynomialsAtPoints(const Eigen::VectorXd& c)
       : value(points, c.size()), integral(Eigen::MatrixXd::Zero(points, c.size())) {
-    for (Eigen::Index i = 0; i < points; ++i) value.row(i) = lagrange_basis(c, part.tau(i)).transpose();
+    for (Eigen::Index i = 0; i < points; ++i) value.row(i) = lagrange_basis(c, tau_of(i)).transpose();
+    constexpr double width = 1.0 / static_cast<double>(points - 1);
     for (Eigen::Index i = 1; i < points; ++i) {
-      const double width = part.tau(i) - part.tau(i - 1);
-      const Eigen::RowVectorXd middle = lagrange_basis(c, part.tau(i) - 0.5 * width).transpose();
+      const Eigen::RowVectorXd middle = lagrange_basis(c, tau_of(i) - 0.5 * width).transpose();
       integral.row(i) = integral.row(i - 1) + width / 6.0 * (value.row(i - 1) + 4.0 * middle + value.row(i));
     }
   }
   Eigen::MatrixXd value;
   Eigen::MatrixXd integral;
 };
+
+/// The coefficients of the Lagrange polynomials of some times, a column each, from the constant one.
+Eigen::MatrixXd lagrange_coefficients(const Eigen::VectorXd& c) {
+  Eigen::MatrixXd powers(c.size(), c.size());
+  for (Eigen::Index j = 0; j < c.size(); ++j) powers.col(j) = c.array().pow(static_cast<double>(j));
+  return powers.inverse();
+}
+
+/// (q, v, u, y, t) in one interval as polynomials of τ in [0, 1], a column each, from the constant coefficient.
+using Polynomials = Eigen::MatrixXd;
+
+/// The part of an interval about a time τ.
+struct Part {
+  double middle = 0.5;
+  double half = 0.5;
+  [[nodiscard]] double from() const { return middle - half; }
+  [[nodiscard]] double to() const { return middle + half; }
+};
+
+/// The coefficients about another time.
+Polynomials moved(Polynomials polynomials, double tau) {
+  for (Eigen::Index i = 1; i < polynomials.rows(); ++i) {
+    for (Eigen::Index j = polynomials.rows() - 1; j >= i; --j) polynomials.row(j - 1) += tau * polynomials.row(j);
+  }
+  return polynomials;
+}
+
+/// The ranges of polynomials, given about the middle of a part, and of their rates.
+std::vector<EnclosedRate> ranges_on(const Polynomials& about_middle, const Part& part) {
+  std::vector<EnclosedRate> ranges;
+  ranges.reserve(static_cast<std::size_t>(about_middle.cols()));
+  for (const auto& x : about_middle.colwise()) {
+    double swing = 0.0;
+    double swing_of_rate = 0.0;
+    double power = 1.0;
+    for (Eigen::Index i = 1; i < x.size(); ++i) {
+      if (i > 1) swing_of_rate += static_cast<double>(i) * std::abs(x[i]) * power;
+      power *= part.half;
+      swing += std::abs(x[i]) * power;
+    }
+    const double rate = x.size() > 1 ? x[1] : 0.0;
+    ranges.emplace_back(Enclosure{x[0] - swing, x[0] + swing}, Enclosure{rate - swing_of_rate, rate + swing_of_rate});
+  }
+  return ranges;
+}
 
 /// The ranges of all components, and the norm of these. A component that is constant to rounding has the norm, and
 /// where all of them are, all are 1.
@@ -100,6 +139,7 @@ class Measurement {
         m_(trajectory.stage_u.cols()),
         l_(trajectory.y.cols()),
         basis_(trajectory.tableau.c),
+        coefficients_(lagrange_coefficients(trajectory.tableau.c)),
         rows_(Eigen::MatrixXd::Zero(points * intervals_at_once, 2 * n_ + m_ + l_ + 1)),
         scales_(2 * n_ + m_ + l_),
         range_of_q_(trajectory.q),
@@ -189,78 +229,68 @@ class Measurement {
 
   void evaluate_path_constraints() {
     const Eigen::MatrixXd h = path_->at(rows_, points * count_);
-    for (Eigen::Index k = 0; k < count_; ++k) {
-      for (Eigen::Index i = 0; i < h.cols(); ++i) {
-        search(i, first_ + k, Part{}, rows_.middleRows(k * points, points), h.col(i).segment<points>(k * points));
-      }
+    for (Eigen::Index row = 0; row < points * count_; ++row)
+      keep_path(first_ + row / points, rows_.row(row), h.row(row));
+    for (Eigen::Index k = first_; k < first_ + count_; ++k) search(polynomials(k), k, Part{});
+  }
+
+  /// Keeps what a point of interval k violates. Where a constraint is not a number, the motion has left its domain.
+  void keep_path(Eigen::Index k, const Eigen::RowVectorXd& point, const Eigen::RowVectorXd& h) {
+    for (Eigen::Index i = 0; i < h.size(); ++i) {
+      Worst& worst = violated_[static_cast<std::size_t>(i)];
+      const double outside = std::max(path_bounds_.lower[i] - h[i], h[i] - path_bounds_.upper[i]);
+      const double amount = std::isfinite(h[i]) ? outside : infinite;
+      if (amount > worst.amount) worst = {amount, k, point[2 * n_ + m_ + l_], point};
     }
   }
 
-  /// Keeps the worst of h_i at the points of a part of interval k, and searches on about each of its least values that
-  /// may hide a worse one.
-  void search(Eigen::Index i, Eigen::Index k, const Part& part, const Eigen::Ref<const Eigen::MatrixXd>& rows,
-              const AtPoints& h) {
-    Worst& worst = violated_[static_cast<std::size_t>(i)];
-    const auto keep_worse = [&](double amount, Eigen::Index row) {
-      if (amount > worst.amount) worst = {amount, k, rows(row, 2 * n_ + m_ + l_), rows.row(row)};
-    };
-    // Where a constraint is not a number, the motion has left its domain.
-    if (!h.allFinite()) {
-      Eigen::Index row = 0;
-      while (std::isfinite(h[row])) ++row;
-      return keep_worse(infinite, row);
-    }
-    for (const AtPoints& inside :
-         {AtPoints(h.array() - path_bounds_.lower[i]), AtPoints(path_bounds_.upper[i] - h.array())}) {
-      Eigen::Index least = 0;
-      const double lowest = inside.minCoeff(&least);
-      keep_worse(-lowest, least);
-      for (Eigen::Index point = 0; point < points; ++point) {
-        if (!may_hide_worse(inside, point, worst.amount)) continue;
-        const Part next{part.tau(std::max<Eigen::Index>(point - 1, 0)), part.tau(std::min(point + 1, points - 1))};
-        if (next.to - next.from < narrowest_part) continue;
-        const Eigen::MatrixXd rows_of_next = rows_of(k, next);
-        search(i, k, next, rows_of_next, path_->at(rows_of_next, points).col(i));
-      }
-    }
+  /// Halves a part of interval k as long as the range of a path constraint, or of its rate, leaves room between the
+  /// ends of the part for a violation that is worse than any so far.
+  void search(const Polynomials& polynomials, Eigen::Index k, const Part& part) {
+    const Polynomials about_middle = moved(polynomials, part.middle);
+    const Eigen::RowVectorXd middle = about_middle.row(0);
+    const Eigen::RowVectorXd h = path_->at(middle, 1);
+    keep_path(k, middle, h);
+    const std::vector<EnclosedRate> ranges = path_->on(ranges_on(about_middle, part));
+    if (part.half < narrowest_part || !may_hide_worse(ranges, h, part)) return;
+    const double quarter = 0.5 * part.half;
+    search(polynomials, k, {part.middle - quarter, quarter});
+    search(polynomials, k, {part.middle + quarter, quarter});
   }
 
-  /// Whether a distance to a bound has a minimum about a point, and its differences there would carry it further
-  /// beyond the bound than `amount`. Half of `most_descent` would do for what is convex.
-  [[nodiscard]] static bool may_hide_worse(const AtPoints& inside, Eigen::Index point, double amount) {
-    const double here = inside[point];
-    const double before = point > 0 ? inside[point - 1] : infinite;
-    const double after = point + 1 < points ? inside[point + 1] : infinite;
-    if (!(here < before && here <= after)) return false;
-    constexpr double most_descent = 4.0;
+  [[nodiscard]] bool may_hide_worse(const std::vector<EnclosedRate>& ranges, const Eigen::RowVectorXd& h,
+                                    const Part& part) const {
     constexpr double worth = 1.01;
-    const double highest = std::max(point > 0 ? before : here, point + 1 < points ? after : here);
-    return here - most_descent * (highest - here) < -worth * amount - rounding;
+    for (Eigen::Index i = 0; i < h.size(); ++i) {
+      const auto& [value, rate] = ranges[static_cast<std::size_t>(i)];
+      if (!rate.contains(0.0)) continue;  // it is least and largest at the ends
+      const double swing = part.half * std::max(rate.upper, -rate.lower);
+      const double least = std::max(value.lower, h[i] - swing);
+      const double largest = std::min(value.upper, h[i] + swing);
+      const double outside = std::max(path_bounds_.lower[i] - least, largest - path_bounds_.upper[i]);
+      if (outside > worth * violated_[static_cast<std::size_t>(i)].amount + finest) return true;
+    }
+    return false;
   }
 
-  /// (q, v, u, y, t) at the points of a part of interval k.
-  [[nodiscard]] Eigen::MatrixXd rows_of(Eigen::Index k, const Part& part) const {
+  /// (q, v, u, y, t) of interval k.
+  [[nodiscard]] Polynomials polynomials(Eigen::Index k) const {
     const Eigen::Index s = trajectory_.stages();
-    const PolynomialsAtPoints basis(trajectory_.tableau.c, part);
-    const Eigen::RowVectorXd until = integral_until(part.from);
-    const double step = trajectory_.step(k);
-    const auto integrated = [&](const Eigen::MatrixXd& nodes, const Eigen::MatrixXd& rates) -> Eigen::MatrixXd {
-      const auto of_interval = rates.middleRows(k * s, s);
-      return ((basis.integral.rowwise() + until) * of_interval * step).rowwise() + nodes.row(k);
+    Polynomials all = Polynomials::Zero(s + 1, 2 * n_ + m_ + l_ + 1);
+    const auto integrate_from = [&](Eigen::Index column, const Eigen::MatrixXd& nodes, const Eigen::MatrixXd& rates) {
+      all.block(0, column, 1, nodes.cols()) = nodes.row(k);
+      const Eigen::MatrixXd of_rate = coefficients_ * rates.middleRows(k * s, s);
+      for (Eigen::Index i = 0; i < s; ++i) {
+        all.block(i + 1, column, 1, nodes.cols()) = trajectory_.step(k) / static_cast<double>(i + 1) * of_rate.row(i);
+      }
     };
-    Eigen::MatrixXd rows(points, 2 * n_ + m_ + l_ + 1);
-    rows.leftCols(n_) = integrated(trajectory_.q, trajectory_.stage_v);
-    rows.middleCols(n_, n_) = basis.value * trajectory_.stage_v.middleRows(k * s, s);
-    rows.middleCols(2 * n_, m_) = basis.value * trajectory_.stage_u.middleRows(k * s, s);
-    if (l_ > 0) rows.middleCols(2 * n_ + m_, l_) = integrated(trajectory_.y, trajectory_.stage_y_rates);
-    for (Eigen::Index i = 0; i < points; ++i) {
-      rows(i, 2 * n_ + m_ + l_) = trajectory_.node_times[k] + part.tau(i) * step;
-    }
-    return rows;
-  }
-  /// The integrals of the Lagrange polynomials from the beginning of an interval.
-  [[nodiscard]] Eigen::RowVectorXd integral_until(double tau) const {
-    return PolynomialsAtPoints(trajectory_.tableau.c, {0.0, tau}).integral.bottomRows(1);
+    integrate_from(0, trajectory_.q, trajectory_.stage_v);
+    all.block(0, n_, s, n_) = coefficients_ * trajectory_.stage_v.middleRows(k * s, s);
+    all.block(0, 2 * n_, s, m_) = coefficients_ * trajectory_.stage_u.middleRows(k * s, s);
+    if (l_ > 0) integrate_from(2 * n_ + m_, trajectory_.y, trajectory_.stage_y_rates);
+    all(0, 2 * n_ + m_ + l_) = trajectory_.node_times[k];
+    all(1, 2 * n_ + m_ + l_) = trajectory_.step(k);
+    return all;
   }
 
   /// Whether a control is beyond its bounds at a point.
@@ -362,8 +392,13 @@ class Measurement {
       change += of_entry.segment<2>(2 * displacement_by_delta).cwiseAbs().maxCoeff();
       descent += std::max(0.0, -of_entry.minCoeff<Eigen::PropagateNumbers>());
     }
-    const double share = delta * worst.amount / change;
     const double of_depth = worst.amount / (worst.amount + descent);
+    const double share = delta * worst.amount / change;
+    // What is rounding elsewhere may be the depth of an obstacle.
+    if (worst.amount <= rounding) {
+      const bool is_depth = worst.amount > rounding_of_depth * h.cwiseAbs().maxCoeff();
+      return is_depth && descent + change > 0.0 && of_depth > largest_share_of_depth ? of_depth : 0.0;
+    }
     return share <= delta && of_depth > largest_share_of_depth ? of_depth : share;
   }
 
@@ -384,7 +419,7 @@ class Measurement {
     for (Eigen::Index i = 0; i < std::ssize(violated_); ++i) {
       const Worst& worst = violated_[static_cast<std::size_t>(i)];
       found.largest = std::max(found.largest, worst.amount);
-      if (worst.amount > rounding) take(found.state, path_share(i, worst), worst, name_of_path(i), false);
+      if (worst.amount > 0.0) take(found.state, path_share(i, worst), worst, name_of_path(i), false);
     }
     return found;
   }
@@ -396,6 +431,7 @@ class Measurement {
   Eigen::Index m_;
   Eigen::Index l_;
   PolynomialsAtPoints basis_;
+  Eigen::MatrixXd coefficients_;
   Eigen::MatrixXd rows_;   // (q, v, u, y, t) at the points of the present intervals
   Eigen::VectorXd lower_;  // of (q, v, u, y)
   Eigen::VectorXd upper_;

@@ -38,17 +38,17 @@ struct ViolationBetweenStages {
 };
 
 /// Measures the element's polynomial of q with its time derivative, and the stage polynomial of u, at nine points per
-/// interval, both ends among them. Violations up to 1e-8 of the range, or of 1 if that is more, count as rounding.
-/// Where a path constraint has a minimum among these points, and its differences there would carry it further beyond
-/// its bound than it is anywhere else, the part about the minimum gets nine points too, and so on: an obstacle that all
-/// points step over is entered at its middle. A dip that does not show in the differences of nine points is not found.
+/// interval, both ends among them. Violations up to 1e-8 of
+/// the range, or of 1 if that is more, count as rounding. Of every path constraint it finds the worst violation, to 1 %
+/// or 1e-9: parts of intervals are halved until the ranges of h_i and of its rate (`EnclosedRate`) leave no room for a
+/// worse one between their ends. So no obstacle is too thin or too flat around to be seen.
 ///
 /// The scale of a bound is the range of its component along the motion; the range of all components of q, or of q̇,
 /// where it is constant. The share of a path constraint is δ |h_i| / D_i at its least value, where D_i adds up by how
 /// much h_i changes at most when each entry of (q, q̇, u) moves by ± δ of its range, δ =
 /// `largest_violation_of_a_motion`: the share is above δ exactly where such displacements do not make up for the
-/// violation, also where ∂h_i vanishes. An obstacle may be thinner than these displacements, which then carry the
-/// motion to its other side. So a share of at most δ is replaced by the share of the depth of the obstacle, |h_i| /
+/// violation, also where ∂h_i vanishes. As an
+/// obstacle may be thinner than these displacements, a share of at most δ is replaced by its depth's, |h_i| /
 /// (|h_i| + E_i), if that is above `largest_share_of_depth`. E_i adds up by how much h_i falls further at most when
 /// each entry moves by ± 4δ of its range or less; where h_i is linear this replaces nothing.
 ///

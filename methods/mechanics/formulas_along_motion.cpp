@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
 
 namespace dmocbench {
 
@@ -69,11 +71,12 @@ PathConstraints::PathConstraints(const TracedProblem& traced, Eigen::Index most_
     : PathConstraints(schedule_of(traced),
                       2 * traced.configuration_size() + traced.control_size() + traced.first_order_size(), most_rows) {}
 
-PathConstraints::PathConstraints(const Schedule& schedule, Eigen::Index time_input, Eigen::Index most_rows)
-    : tape_(schedule),
+PathConstraints::PathConstraints(Schedule schedule, Eigen::Index time_input, Eigen::Index most_rows)
+    : schedule_(std::move(schedule)),
+      tape_(schedule_),
       workspace_(tape_),
-      values_(most_rows, static_cast<Eigen::Index>(schedule.outputs().size())),
-      reads_time_(std::ranges::any_of(schedule.steps(), [time_input](const Schedule::Step& step) {
+      values_(most_rows, static_cast<Eigen::Index>(schedule_.outputs().size())),
+      reads_time_(std::ranges::any_of(schedule_.steps(), [time_input](const Schedule::Step& step) {
         return step.operation == Operation::input && step.input_index == static_cast<std::size_t>(time_input);
       })) {}
 
@@ -84,6 +87,10 @@ Eigen::Ref<const Eigen::MatrixXd> PathConstraints::at(const Eigen::MatrixXd& row
   for (auto column : values_.colwise()) outputs.push_back(column.data());
   tape_.evaluate(static_cast<std::size_t>(count), inputs, outputs, workspace_);
   return values_.topRows(count);
+}
+
+std::vector<EnclosedRate> PathConstraints::on(std::span<const EnclosedRate> part) const {
+  return replay<EnclosedRate>(schedule_, part);
 }
 
 }  // namespace dmocbench

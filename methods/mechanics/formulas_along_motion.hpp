@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "methods/expression/enclosure.hpp"
 #include "methods/expression/tape.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/problem.hpp"
@@ -49,10 +51,13 @@ class PathConstraints {
   /// h in a column per entry, at the first `count` rows of (q, v, u, y, t), 2n + m + l + 1 columns; valid until the
   /// next call.
   [[nodiscard]] Eigen::Ref<const Eigen::MatrixXd> at(const Eigen::MatrixXd& rows, Eigen::Index count);
+  /// The ranges of h and of its rate on a part of a motion, by the ranges of (q, v, u, y, t).
+  [[nodiscard]] std::vector<EnclosedRate> on(std::span<const EnclosedRate> part) const;
 
  private:
-  PathConstraints(const Schedule& schedule, Eigen::Index time_input, Eigen::Index most_rows);
+  PathConstraints(Schedule schedule, Eigen::Index time_input, Eigen::Index most_rows);
 
+  Schedule schedule_;
   Tape tape_;
   Tape::Workspace workspace_;
   Eigen::MatrixXd values_;

@@ -1,9 +1,10 @@
-#include "methods/diagnostics/violation_between_stages.hpp"
-
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "methods/diagnostics/violation_between_stages.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/solving.hpp"
 
@@ -146,6 +147,41 @@ TEST(ViolationBetweenStages, IsSeenWhereAThinWallIsCrossedBetweenTwoStages) {
         const ViolationBetweenStages found = violation_of(walled, solved_on(walled, {method}, intervals));
         EXPECT_FALSE(found.is_motion()) << method << ' ' << radius << ' ' << intervals;
         EXPECT_NEAR(found.largest, 1.0, 0.02) << method << ' ' << radius << ' ' << intervals;
+      }
+    }
+  }
+}
+
+/// Obstacles in the way from q = 0 to 1, functions of the distance from 0.53 over their half width.
+const std::vector<std::function<Expression(const Expression&, double)>>& obstacles() {
+  static const std::vector<std::function<Expression(const Expression&, double)>> forms{
+      [](const Expression& x, double /*radius*/) { return x * x - 1.0; },
+      [](const Expression& x, double radius) { return radius * radius * (x * x - 1.0); },
+      [](const Expression& x, double radius) { return radius * (sqrt(x * x + 1e-12) - 1.0); },
+      [](const Expression& x, double /*radius*/) { return 0.5 - exp(-x * x); },
+      [](const Expression& x, double /*radius*/) { return 1.0 - 2.0 / (1.0 + x * x); },
+      [](const Expression& x, double /*radius*/) { return tanh(x * x - 1.0); }};
+  return forms;
+}
+
+TEST(ViolationBetweenStages, IsSeenOfEveryObstacleThatIsCrossedHoweverThinAndFlatAround) {
+  const tests::DoubleIntegrator base;
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const int stages : {1, 2}) {
+      for (const Eigen::Index intervals : {8, 16, 32, 64, 128, 256}) {
+        const Trajectory motion = solved_on(base, {method, stages}, intervals);
+        for (std::size_t form = 0; form < obstacles().size(); ++form) {
+          for (int width = 0; width < 20; ++width) {
+            const double radius = 1e-4 * std::pow(1000.0, width / 19.0);
+            const Restated walled(base, [form, radius](Statement& s) {
+              s.path_constraints = [form, radius](const ControlledState& x) {
+                return ExpressionVector::Constant(1, obstacles()[form]((x.q[0] - 0.53) / radius, radius));
+              };
+            });
+            EXPECT_FALSE(violation_of(walled, motion).is_motion())
+                << method << ' ' << stages << ' ' << intervals << " form " << form << " radius " << radius;
+          }
+        }
       }
     }
   }
