@@ -139,7 +139,10 @@ class Measurement {
         m_(trajectory.stage_u.cols()),
         l_(trajectory.y.cols()),
         basis_(trajectory.tableau.c),
+        times_of_velocity_(times_of_velocity()),
+        basis_of_velocity_(times_of_velocity_),
         coefficients_(lagrange_coefficients(trajectory.tableau.c)),
+        coefficients_of_velocity_(lagrange_coefficients(times_of_velocity_)),
         rows_(Eigen::MatrixXd::Zero(points * intervals_at_once, 2 * n_ + m_ + l_ + 1)),
         scales_(2 * n_ + m_ + l_),
         range_of_q_(trajectory.q),
@@ -180,11 +183,34 @@ class Measurement {
   void read(Eigen::Index j) {
     auto values = block(j);
     if (is_control(j)) values = basis_.value.lazyProduct(stages(trajectory_.stage_u, j - 2 * n_));
-    if (j >= n_ && j < 2 * n_) values = basis_.value.lazyProduct(stages(trajectory_.stage_v, j - n_));
+    if (j >= n_ && j < 2 * n_) read_velocity(j - n_, values);
     if (j < n_) integrate(trajectory_.q.col(j), stages(trajectory_.stage_v, j), values);
     if (j < 2 * n_ + m_) return;
     const Eigen::Index i = j - 2 * n_ - m_;
     integrate(trajectory_.y.col(i), stages(trajectory_.stage_y_rates, i), values);
+  }
+  void read_velocity(Eigen::Index i, Eigen::Map<Eigen::MatrixXd>& values) const {
+    if (trajectory_.stages() > 1) {
+      values = basis_.value.lazyProduct(stages(trajectory_.stage_v, i));
+      return;
+    }
+    for (Eigen::Index k = 0; k < count_; ++k) {
+      values.col(k) = basis_of_velocity_.value * velocities(first_ + k).col(i);
+    }
+  }
+  /// When the velocity is read: at the stages. One stage has the mean velocity of its interval, so there it is read at
+  /// both nodes too, as files show it.
+  [[nodiscard]] Eigen::VectorXd times_of_velocity() const {
+    const Eigen::VectorXd& c = trajectory_.tableau.c;
+    return trajectory_.stages() == 1 ? Eigen::VectorXd(Eigen::Vector3d(0.0, c[0], 1.0)) : c;
+  }
+  /// The velocities of interval k at these times.
+  [[nodiscard]] Eigen::MatrixXd velocities(Eigen::Index k) const {
+    const Eigen::Index s = trajectory_.stages();
+    if (s > 1) return trajectory_.stage_v.middleRows(k * s, s);
+    Eigen::MatrixXd three(3, n_);
+    three << trajectory_.v.row(k), trajectory_.stage_v.row(k), trajectory_.v.row(k + 1);
+    return three;
   }
   [[nodiscard]] bool is_control(Eigen::Index j) const { return j >= 2 * n_ && j < 2 * n_ + m_; }
   /// From its nodes and the rates at the stages.
@@ -276,7 +302,8 @@ class Measurement {
   /// (q, v, u, y, t) of interval k.
   [[nodiscard]] Polynomials polynomials(Eigen::Index k) const {
     const Eigen::Index s = trajectory_.stages();
-    Polynomials all = Polynomials::Zero(s + 1, 2 * n_ + m_ + l_ + 1);
+    const Eigen::MatrixXd v = coefficients_of_velocity_ * velocities(k);
+    Polynomials all = Polynomials::Zero(std::max(s, v.rows() - 1) + 1, 2 * n_ + m_ + l_ + 1);
     const auto integrate_from = [&](Eigen::Index column, const Eigen::MatrixXd& nodes, const Eigen::MatrixXd& rates) {
       all.block(0, column, 1, nodes.cols()) = nodes.row(k);
       const Eigen::MatrixXd of_rate = coefficients_ * rates.middleRows(k * s, s);
@@ -285,7 +312,7 @@ class Measurement {
       }
     };
     integrate_from(0, trajectory_.q, trajectory_.stage_v);
-    all.block(0, n_, s, n_) = coefficients_ * trajectory_.stage_v.middleRows(k * s, s);
+    all.block(0, n_, v.rows(), n_) = v;
     all.block(0, 2 * n_, s, m_) = coefficients_ * trajectory_.stage_u.middleRows(k * s, s);
     if (l_ > 0) integrate_from(2 * n_ + m_, trajectory_.y, trajectory_.stage_y_rates);
     all(0, 2 * n_ + m_ + l_) = trajectory_.node_times[k];
@@ -431,7 +458,10 @@ class Measurement {
   Eigen::Index m_;
   Eigen::Index l_;
   PolynomialsAtPoints basis_;
+  Eigen::VectorXd times_of_velocity_;
+  PolynomialsAtPoints basis_of_velocity_;
   Eigen::MatrixXd coefficients_;
+  Eigen::MatrixXd coefficients_of_velocity_;
   Eigen::MatrixXd rows_;   // (q, v, u, y, t) at the points of the present intervals
   Eigen::VectorXd lower_;  // of (q, v, u, y)
   Eigen::VectorXd upper_;
@@ -480,8 +510,8 @@ ViolationBetweenStages violation_between_stages(const Problem& problem, const Tr
                                                 const Trajectory& trajectory) {
   const ProblemBounds bounds = problem.bounds();
   const bool is_bounded = bounds.q.any() || bounds.v.any() || bounds.u.any() || bounds.y.any();
-  // With one stage q̇ and u are constant in an interval, and q is linear.
-  const bool may_leave_bounds = is_bounded && trajectory.stages() > 1;
+  // With one stage u is constant in an interval, and q is linear.
+  const bool may_leave_bounds = (is_bounded && trajectory.stages() > 1) || bounds.v.any();
   if (!may_leave_bounds && traced.path_constraint_count() == 0) return {};
   return Measurement(problem, bounds, traced, trajectory).measured();
 }

@@ -38,7 +38,7 @@ struct ViolationBetweenStages {
 };
 
 /// Measures the element's polynomial of q with its time derivative, and the stage polynomial of u, at nine points per
-/// interval, both ends among them. Violations up to 1e-8 of
+/// interval, both ends among them; with one stage q̇ passes through both nodes and the stage. Violations up to 1e-8 of
 /// the range, or of 1 if that is more, count as rounding. Of every path constraint it finds the worst violation, to 1 %
 /// or 1e-9: parts of intervals are halved until the ranges of h_i and of its rate (`EnclosedRate`) leave no room for a
 /// worse one between their ends. So no obstacle is too thin or too flat around to be seen.

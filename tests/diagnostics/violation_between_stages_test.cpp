@@ -187,6 +187,27 @@ TEST(ViolationBetweenStages, IsSeenOfEveryObstacleThatIsCrossedHoweverThinAndFla
   }
 }
 
+TEST(ViolationBetweenStages, CountsTheVelocityAtNodesWhereOneStageHasTheMean) {
+  const tests::DoubleIntegrator base;
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    const Trajectory motion = solved_on(base, {method}, 8);
+    const double fastest_stage = motion.stage_v.maxCoeff();
+    const double excess = motion.v.maxCoeff() - fastest_stage;
+    ASSERT_GT(excess, 0.01) << method;
+    const Restated bounded(base, [&](Statement& s) { s.v = tests::all_between(1, -1.0, fastest_stage); });
+    const Restated stated(base, [&](Statement& s) {
+      s.path_constraints = [&](const ControlledState& x) {
+        return ExpressionVector::Constant(1, fastest_stage - x.v[0]);
+      };
+    });
+    for (const Problem* problem : {static_cast<const Problem*>(&bounded), static_cast<const Problem*>(&stated)}) {
+      const ViolationBetweenStages found = violation_of(*problem, motion);
+      EXPECT_NEAR(found.largest, excess, 1e-6) << method;
+      EXPECT_FALSE(found.is_motion()) << method;
+    }
+  }
+}
+
 TEST(ViolationBetweenStages, OfASmoothMotionAlongAConstraintFallsWithTheSquareOfTheStep) {
   const tests::DoubleIntegrator base;
   const Restated slow(base, [](Statement& s) {
