@@ -420,13 +420,22 @@ class Measurement {
       descent += std::max(0.0, -of_entry.minCoeff<Eigen::PropagateNumbers>());
     }
     const double of_depth = worst.amount / (worst.amount + descent);
-    const double share = delta * worst.amount / change;
+    const double share = std::max(delta * worst.amount / change, worst.amount / limit(i));
     // What is rounding elsewhere may be the depth of an obstacle.
     if (worst.amount <= rounding) {
       const bool is_depth = worst.amount > rounding_of_depth * h.cwiseAbs().maxCoeff();
       return is_depth && descent + change > 0.0 && of_depth > largest_share_of_depth ? of_depth : 0.0;
     }
     return share <= delta && of_depth > largest_share_of_depth ? of_depth : share;
+  }
+
+  /// The largest bound of path constraint i, infinite where it has none but 0.
+  [[nodiscard]] double limit(Eigen::Index i) const {
+    double largest = 0.0;
+    for (const double bound : {path_bounds_.lower[i], path_bounds_.upper[i]}) {
+      if (std::isfinite(bound)) largest = std::max(largest, std::abs(bound));
+    }
+    return largest > 0.0 ? largest : infinite;
   }
 
   [[nodiscard]] ViolationBetweenStages summary() {

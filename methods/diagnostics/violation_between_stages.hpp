@@ -47,7 +47,7 @@ struct ViolationBetweenStages {
 /// where it is constant. The share of a path constraint is δ |h_i| / D_i at its least value, where D_i adds up by how
 /// much h_i changes at most when each entry of (q, q̇, u) moves by ± δ of its range, δ =
 /// `largest_violation_of_a_motion`: the share is above δ exactly where such displacements do not make up for the
-/// violation, also where ∂h_i vanishes. As an
+/// violation, also where ∂h_i vanishes. It is at least the share of the largest bound of h_i, if that is not 0. As an
 /// obstacle may be thinner than these displacements, a share of at most δ is replaced by its depth's, |h_i| /
 /// (|h_i| + E_i), if that is above `largest_share_of_depth`. E_i adds up by how much h_i falls further at most when
 /// each entry moves by ± 4δ of its range or less; where h_i is linear this replaces nothing.

@@ -208,6 +208,21 @@ TEST(ViolationBetweenStages, CountsTheVelocityAtNodesWhereOneStageHasTheMean) {
   }
 }
 
+TEST_F(OptimumOfDoubleIntegrator, LeavesALimitThatIsNotZeroByItsShare) {
+  // q is 1 at its end, so that 1000 (q - 0.99) exceeds a limit of 9 by 1; 0.5 % of the range of q change it by 5.
+  const auto share = [&](double unit) {
+    return violating([unit](Statement& s) {
+             s.path = tests::all_between(1, -tests::infinity, 9.0 * unit);
+             s.path_constraints = [unit](const ControlledState& x) {
+               return ExpressionVector::Constant(1, unit * 1000.0 * (x.q[0] - 0.99));
+             };
+           })
+        .state.share;
+  };
+  EXPECT_NEAR(share(1.0), 1.0 / 9.0, 1e-6);
+  EXPECT_NEAR(share(1e3), 1.0 / 9.0, 1e-6);
+}
+
 TEST(ViolationBetweenStages, OfASmoothMotionAlongAConstraintFallsWithTheSquareOfTheStep) {
   const tests::DoubleIntegrator base;
   const Restated slow(base, [](Statement& s) {
