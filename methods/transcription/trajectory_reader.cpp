@@ -1,7 +1,9 @@
 #include "methods/transcription/trajectory_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -207,6 +209,33 @@ void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Tr
   }
 }
 
+/// Takes whole turns out of leaps of a control without bounds that the formulas read as an angle: an answer may have
+/// any number of turns at every stage, but the polynomial through its stages would sweep them.
+void take_out_turns(const Transcription& transcription, Trajectory& trajectory) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  constexpr double rounding = 1e-9;
+  const Bounds bounds = transcription.problem().bounds().u;
+  const TracedProblem& traced = transcription.traced_problem();
+  const Eigen::Index before_controls = 2 * trajectory.stage_q.cols();
+  Eigen::MatrixXd rows(trajectory.stage_u.rows(),
+                       before_controls + trajectory.stage_u.cols() + trajectory.stage_y.cols() + 1);
+  Eigen::MatrixXd values;  // of the formulas at the stages
+  for (Eigen::Index j = 0; j < trajectory.stage_u.cols(); ++j) {
+    Eigen::VectorXd angle = trajectory.stage_u.col(j);
+    for (Eigen::Index i = 1; i < angle.size(); ++i) angle[i] -= turn * std::round((angle[i] - angle[i - 1]) / turn);
+    if (angle == trajectory.stage_u.col(j) || (bounds.any() && bounds.is_bounded(j))) continue;
+    if (values.size() == 0) {
+      rows << trajectory.stage_q, trajectory.stage_v, trajectory.stage_u, trajectory.stage_y, trajectory.stage_times;
+      values = traced.table(rows);
+    }
+    rows.col(before_controls + j) = angle;
+    const Eigen::MatrixXd turned = traced.table(rows);
+    const bool is_angle = ((turned - values).array().abs() <= rounding * (1.0 + values.array().abs())).all();
+    if (is_angle) trajectory.stage_u.col(j) = angle;
+    rows.col(before_controls + j) = trajectory.stage_u.col(j);
+  }
+}
+
 /// The series of a block, a column per component.
 Eigen::MatrixXd table_of(const UnknownBlock& block, const Eigen::VectorXd& primal, Eigen::Index length) {
   Eigen::MatrixXd table(length, block.width);
@@ -244,6 +273,7 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   transcription.set_unknown_parameters(trajectory.unknowns);
   trajectory.p = read_momenta(transcription, primal, n);
   read_stages(transcription, primal, trajectory);
+  take_out_turns(transcription, trajectory);
   const Eigen::MatrixXd raw_momenta = trajectory.p;
   add_velocities(transcription.traced_problem(), trajectory);
   trajectory.cost = transcription.objective(primal) / transcription.cost_scale();

@@ -23,8 +23,10 @@ void add_velocities(const TracedProblem& problem, Trajectory& trajectory);
 ///
 /// p_k is one number per node: the left momentum of the interval to its right, at the last node the right momentum of
 /// the last interval (for DMOC the forced discrete Legendre transforms (eq:varmech_dlegf)); v_k solves p_k = L_v(q_k,
-/// v_k). The transcription's `traced_problem` gets the answer's unknown parameters. Costates are computed if
-/// `multipliers` has an entry per constraint. Throws `Error` if L_vv is singular on the motion or a size is wrong.
+/// v_k). Controls without bounds that formulas read through functions of period 2π only change by at most half a turn
+/// from stage to stage, whatever turns the unknowns have. The transcription's `traced_problem` gets the answer's
+/// unknown parameters. Costates are computed if `multipliers` has an entry per constraint. Throws `Error` if L_vv is
+/// singular on the motion or a size is wrong.
 [[nodiscard]] Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& primal,
                                          const Eigen::VectorXd& multipliers);
 

@@ -1,5 +1,7 @@
 #include "methods/transcription/trajectory_reader.hpp"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/legendre_transform.hpp"
@@ -50,6 +52,50 @@ TEST(Trajectory, EndsInThePrescribedConfigurationsVelocitiesAndMomenta) {
       EXPECT_LT((trajectory.v.row(end).transpose() - last.v).norm(), 1e-8);
     }
   }
+}
+
+/// A mass in a plane that is pushed with a given force into the direction of an angle.
+class Steered final : public tests::SmallProblem {
+ public:
+  Steered(bool is_angle, bool is_bounded)
+      : SmallProblem("steered", BoundaryState::at_rest(Eigen::Vector2d::Zero()),
+                     BoundaryState::at_rest(Eigen::Vector2d::Ones()), 1.0, 1),
+        is_angle_(is_angle),
+        is_bounded_(is_bounded) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.squaredNorm(); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return ExpressionVector{{cos(x.u[0]), sin(x.u[0])}};
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return is_angle_ ? Expression(0.0) : x.u[0] * x.u[0];
+  }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    if (is_bounded_) bounds.u = Bounds::all(1, -10.0, 10.0);
+    return bounds;
+  }
+
+ private:
+  bool is_angle_;
+  bool is_bounded_;
+};
+
+TEST(Trajectory, HasNoWholeTurnsBetweenStagesOfAFreeControlThatIsAnAngle) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  const Eigen::VectorXd turns = Eigen::VectorXd{{0.0, 1.0, -1.0, 2.0, 2.0, 0.0, -3.0, 1.0}};
+  const Eigen::VectorXd smooth = Eigen::VectorXd::LinSpaced(8, 0.1, 1.5);
+  const auto read = [&](const Problem& problem) {
+    const auto program = tests::transcribe(problem, {"dmoc", 2}, Grid::uniform(4));
+    Eigen::VectorXd primal = sample(*program, guessed_motion(problem));
+    for (Eigen::Index i = 0; i < 8; ++i) {
+      primal[program->blocks().unknown(Quantity::control, i % 2).index() + i / 2] = smooth[i] + turn * turns[i];
+    }
+    return read_trajectory(*program, primal, {});
+  };
+  EXPECT_LT((read(Steered(true, false)).stage_u - smooth).norm(), 1e-12);
+  const Eigen::VectorXd as_they_are = smooth + turn * turns;
+  EXPECT_EQ(read(Steered(false, false)).stage_u, as_they_are);  // its size is paid for
+  EXPECT_EQ(read(Steered(true, true)).stage_u, as_they_are);
 }
 
 TEST(Trajectory, VelocitiesSolveTheLegendreTransformAtEveryNode) {
