@@ -193,7 +193,7 @@ std::string in_words(const Advice& advice) {
           advice.coordinate, advice.size);
     case Remedy::feedback:
       return fmt::format(
-          "Try feedback to follow this trajectory, since the system is unstable: with these controls alone {} ends "
+          "Try feedback to follow this trajectory: the system is unstable, and with these controls alone {} ends "
           "{:.2g} "
           "of its range from where it should, by the growth of small errors.",
           advice.coordinate, advice.size);

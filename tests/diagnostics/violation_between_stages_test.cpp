@@ -1,10 +1,11 @@
+#include "methods/diagnostics/violation_between_stages.hpp"
+
 #include <cmath>
 #include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "methods/diagnostics/violation_between_stages.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/solving.hpp"
 
