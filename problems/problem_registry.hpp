@@ -29,6 +29,7 @@ class Registry {
     std::string reason;  ///< a sentence that names its class
   };
 
+  /// Without problems.
   explicit Registry(Faults faults = Faults::thrown) : faults_(faults) {}
 
   /// Adds the problem of a class, `registry.add<Furuta>()`; it is made by its default constructor. Throws `Error` if
