@@ -38,8 +38,8 @@ std::vector<std::string> answer_columns(bool with_horizon, bool with_estimate) {
 /// "path_constraints[0] (height) by 2e-03 at t = 0.4", the constraint that is left farthest relative to its scale.
 std::string violation_in_words(const SolvedCase& solved) {
   if (!solved.between_stages) return "not checked";
-  const auto& [state, control, missed, largest] = *solved.between_stages;
-  const MotionViolation& worst = state.share >= control.share ? state : control;
+  const ViolationBetweenStages& found = *solved.between_stages;
+  const MotionViolation& worst = found.state.share >= found.control.share ? found.state : found.control;
   if (worst.constraint.empty()) return "none";
   return fmt::format("{} by {:.1e} at t = {:.4g}", worst.constraint, worst.size,
                      solved.the_case.problem->card().time_unit.factor * worst.time);

@@ -13,6 +13,7 @@
 #include "methods/choose.hpp"
 #include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/error.hpp"
+#include "methods/judgement/polish.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/elements/element.hpp"
@@ -182,11 +183,15 @@ class AdaptiveRun {
 
   [[nodiscard]] Solution solve(Transcription& program) const {
     const auto solver = make_solver(options_.solver, solver_options_, options_.named_options);
-    if (answer_.grids.empty()) return solver->solve(program, sample(program, task_.start));
+    const auto settled = [&](Solution solution) {
+      if (!is_solved(solution.status)) settle(program, solver_options_.tolerance, solution);
+      return solution;
+    };
+    if (answer_.grids.empty()) return settled(solver->solve(program, sample(program, task_.start)));
     const Eigen::VectorXd start = sample(program, smooth_motion(answer_.trajectory));
-    Solution solution = solver->solve(program, start, sample_multipliers(program, answer_.trajectory));
+    Solution solution = settled(solver->solve(program, start, sample_multipliers(program, answer_.trajectory)));
     if (is_solved(solution.status) || must_stop()) return solution;
-    Solution from_motion = solver->solve(program, start);
+    Solution from_motion = settled(solver->solve(program, start));
     add_work(solution, from_motion);
     return from_motion;
   }
@@ -224,8 +229,12 @@ class AdaptiveRun {
   void refine_where_violated() {
     constexpr double narrower = 0.25;
     Eigen::VectorXd widths = grid_.relative_widths();
-    const Eigen::Index k = between_.keeps_state() ? between_.control.interval : between_.state.interval;
-    widths[k] = std::max(narrower * widths[k], Grid::narrowest);
+    const auto narrow = [&](Eigen::Index k) { widths[k] = std::max(narrower * widths[k], Grid::narrowest); };
+    if (between_.keeps_state()) {
+      std::ranges::for_each(between_.intervals_of_control, narrow);
+    } else {
+      narrow(between_.state.interval);
+    }
     grid_ = graded_grid(grid_, widths, options_.largest_ratio);
     is_finer_than_before_ = false;
   }

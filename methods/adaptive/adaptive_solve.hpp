@@ -109,7 +109,8 @@ struct AdaptiveTask {
 /// where, by the order of the error, the accuracy takes more than 65536 intervals, on three grids in turn.
 ///
 /// A motion that leaves its constraints between stages (`violation_between_stages`) has no estimate, whatever the
-/// requested accuracy: the next grid is four times as fine where it leaves them farthest, and the same elsewhere.
+/// requested accuracy: the next grid is four times as fine where a control leaves its bounds, or where the motion
+/// leaves other constraints farthest, and the same elsewhere.
 ///
 /// It ends as `rounding` where the floor of an estimate is above the accuracy, or the next grid's would be. It stops
 /// where a program is not solved (`solution` has the reason), and as `stopped` where the time is up. `on_grid` is

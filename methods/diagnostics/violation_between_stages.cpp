@@ -286,7 +286,7 @@ class Measurement {
 
   [[nodiscard]] bool may_hide_worse(const std::vector<EnclosedRate>& ranges, const Eigen::RowVectorXd& h,
                                     const Part& part) const {
-    constexpr double worth = 1.01;
+    constexpr double worth = 1.001;
     for (Eigen::Index i = 0; i < h.size(); ++i) {
       const auto& [value, rate] = ranges[static_cast<std::size_t>(i)];
       if (!rate.contains(0.0)) continue;  // it is least and largest at the ends
@@ -371,6 +371,9 @@ class Measurement {
       missed.col(k).head(n_) += h * (1.0 - tau_of(point)) * impulse;
     }
     clipped_share_ = std::max(clipped_share_, cut.maxCoeff());
+    for (Eigen::Index k = 0; k < count_; ++k) {
+      if (cut.col(k).maxCoeff() > largest_violation_of_a_motion) clipped_.push_back(first_ + k);
+    }
     return missed;
   }
 
@@ -452,6 +455,7 @@ class Measurement {
     }
     found.control.share = clipped_share_;
     found.missed = missed_;
+    found.intervals_of_control = clipped_;
     for (Eigen::Index i = 0; i < std::ssize(violated_); ++i) {
       const Worst& worst = violated_[static_cast<std::size_t>(i)];
       found.largest = std::max(found.largest, worst.amount);
@@ -486,6 +490,7 @@ class Measurement {
   bool has_excess_ = false;
   double clipped_share_ = 0.0;
   double missed_ = 0.0;
+  std::vector<Eigen::Index> clipped_;
 };
 
 }  // namespace
@@ -506,10 +511,16 @@ std::string ViolationBetweenStages::words(const Trajectory& trajectory, double t
     add(state, state.share > 1.0 ? ", more than its scale" : fmt::format(", {:.2g} of its scale", state.share));
   if (!keeps_controls())
     add(control, fmt::format("; with clipped controls the motion misses {:.1e} of its range", missed));
+  // At a switch of a control more intervals hardly help.
+  if (keeps_state()) {
+    return text +
+           " Take --method galerkin --control-nodes 1 or --stages 1, whose controls are constant in an interval, or "
+           "--accuracy, which narrows the intervals in which controls switch.";
+  }
   const Eigen::VectorXd& c = trajectory.tableau.c;
   const bool are_stages_inside = c.minCoeff() > 0.0 || c.maxCoeff() < 1.0;
-  const bool helps_one_stage = trajectory.stages() > 1 && (keeps_state() || state.is_bound);
-  return fmt::format("{} Take more intervals{}{}.", text, helps_one_stage ? ", --stages 1" : "",
+  return fmt::format("{} Take more intervals{}{}.", text,
+                     trajectory.stages() > 1 && state.is_bound ? ", --stages 1" : "",
                      !are_stages_inside         ? ""
                      : trajectory.stages() == 1 ? ", or --tableau lobatto --stages 2"
                                                 : ", or --tableau lobatto");

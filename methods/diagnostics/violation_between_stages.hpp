@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
@@ -25,6 +26,8 @@ struct ViolationBetweenStages {
   MotionViolation control;  ///< of the bounds on u
   double missed = 0.0;      ///< by the motion whose controls are clipped to their bounds, relative to its range
   double largest = 0.0;     ///< the largest size of all violations, each in its own unit
+  /// Where a control leaves its bounds by more than `largest_violation_of_a_motion`, in rising order.
+  std::vector<Eigen::Index> intervals_of_control = {};
 
   /// Whether q, q̇ and h leave their bounds by no more than `largest_violation_of_a_motion`.
   [[nodiscard]] bool keeps_state() const;

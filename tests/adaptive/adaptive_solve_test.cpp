@@ -139,6 +139,19 @@ TEST(AdaptiveSolve, ReachesTheAccuracyAskedForWithAFreeHorizonToo) {
   }
 }
 
+/// Three torques of the robot arm switch, five times in all.
+TEST(AdaptiveSolve, NarrowsAllIntervalsInWhichControlsSwitchAtOnce) {
+  const auto problem = make_problem("robot_arm");
+  AdaptiveOptions options;
+  options.accuracy = 1e-3;
+  for (const std::string& method : paper_families()) {
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, method, 2, 32), options);
+    ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << method << ": " << answer.message;
+    EXPECT_EQ(answer.grids.front().status, Status::violates_between_stages) << method;
+    EXPECT_LE(answer.grids.size(), 8U) << method;
+  }
+}
+
 TEST(AdaptiveSolve, EndsWhereAGridIsNotSolvedAndSaysWhich) {
   const auto problem = make_problem("two_link_manipulator");
   AdaptiveOptions options;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -110,6 +111,8 @@ TEST_F(OptimumOfDoubleIntegrator, MissesByTheImpulseThatClippingTakesAway) {
   // The mean of u - 5 over the interval, relative to the range of u over the stages.
   const double range = motion_.stage_u.maxCoeff() - motion_.stage_u.minCoeff();
   EXPECT_NEAR(strong.control.share, 8.0 / 24.0 / range, 1e-3);
+  EXPECT_EQ(strong.intervals_of_control, (std::vector<Eigen::Index>{0, 7}));
+  EXPECT_NE(strong.words(motion_, 1.0).find("galerkin --control-nodes 1"), std::string::npos);
   EXPECT_EQ(strong.state.share, 0.0);
   EXPECT_FALSE(strong.is_motion());
 }
