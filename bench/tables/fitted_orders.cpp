@@ -202,7 +202,7 @@ std::optional<std::string> note_on_reference(const Selection& curve, long long r
   const Row meant = reference_meant(curve, reference);
   if (is_usable(meant)) return std::nullopt;
   const std::optional<Row> used = reference_used(curve, reference);
-  const std::string status = meant.text("status");
+  const std::string& status = meant.text("status");
   return fmt::format(
       "{} {} {} {}: the reference should be N = {}, which {}; {}", meant.text("problem"), meant.text("method"),
       meant.text("tableau"), meant.text("stages"), meant.text("intervals"),
