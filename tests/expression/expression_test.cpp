@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <initializer_list>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -119,11 +120,12 @@ TEST_F(Folding, ADifferenceAndItsReverseAreOneNodeAndItsNegative) {
 }
 
 TEST_F(Folding, OddFunctionsPassSignsAndEvenOnesDropThem) {
-  for (Expression (*odd)(const Expression&) : {sin, tan, asin, atan, sinh, tanh}) {
+  using Function = Expression (*)(const Expression&);
+  for (const Function odd : std::initializer_list<Function>{sin, tan, asin, atan, sinh, tanh}) {
     EXPECT_TRUE(odd(-x).is_same(-odd(x)));
     EXPECT_TRUE(odd(-2.0 * x).is_same(-odd(2.0 * x)));
   }
-  for (Expression (*even)(const Expression&) : {cos, cosh}) {
+  for (const Function even : std::initializer_list<Function>{cos, cosh}) {
     EXPECT_TRUE(even(-x).is_same(even(x)));
     EXPECT_TRUE(even(-2.0 * x).is_same(even(2.0 * x)));
   }
