@@ -30,6 +30,14 @@ double largest_of(std::initializer_list<double> shares) {
   return largest;
 }
 
+double largest_of_free(const NonlinearProgram& program, const Eigen::VectorXd& gradient) {
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < gradient.size(); ++j) {
+    if (!is_fixed(program, j)) largest = std::max(largest, std::abs(gradient[j]));
+  }
+  return largest;
+}
+
 }  // namespace
 
 void Confirmation::judge_residuals(Solution& solution) {
@@ -90,6 +98,29 @@ void Confirmation::look_for_curvature(Solution& solution) {
   if (curvature_) solution.curvature = curvature_->share;
 }
 
+/// Takes "solved" back from an answer whose residuals the tolerance, or the round-off of a constraint, hides.
+void Confirmation::require_visible(double tolerance, Solution& solution) {
+  if (const auto hidden = sizes_.hidden_violation(program_, solution.primal, memory_)) {
+    solution.status = Status::not_confirmed;
+    solution.message = fmt::format(
+        "The violation of constraint {} is below the tolerance, but {:.1g} of the constraint's own size, {:.1g}. State "
+        "it in units in which its size is about 1.",
+        hidden->row, hidden->share, hidden->size);
+    return;
+  }
+  const Eigen::VectorXd& multipliers = solution.multipliers;
+  const double mean = multipliers.lpNorm<1>() / std::max(1.0, static_cast<double>(multipliers.size()));
+  const double residual = solution.kkt_residual.value_or(0.0);
+  const double gradient = largest_of_free(program_, memory_.gradient_of_cost);
+  if (residual <= confirmation_factor * tolerance * StopRule::scale(mean)) return;
+  if (!(residual > ConstraintSizes::largest_share * gradient)) return;
+  solution.status = Status::not_confirmed;
+  solution.message = fmt::format(
+      "The residual of stationarity, {:.1g}, is excused by the round-off of large constraints, but it is {:.1g} of the "
+      "gradient of the cost. State the constraints in units in which their sizes are about 1.",
+      residual, gradient > 0.0 ? residual / gradient : unbounded);
+}
+
 /// Takes "solved" back from an answer that a Newton step would move.
 void Confirmation::require_settled(Solution& solution) {
   std::optional<StepLengths> step;
@@ -138,18 +169,11 @@ void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton)
   if (!claims_success) return;
   solution.status = confirmed_status(solution.status, scaled_residual(tolerance, solution));
   solution.message = sentence_of(solution.status);
+  if (is_solved(solution.status)) require_visible(tolerance, solution);
   if (is_solved(solution.status) && asks_newton) require_settled(solution);
 }
 
 namespace {
-
-double largest_of_free(const NonlinearProgram& program, const Eigen::VectorXd& gradient) {
-  double largest = 0.0;
-  for (Eigen::Index j = 0; j < gradient.size(); ++j) {
-    if (!is_fixed(program, j)) largest = std::max(largest, std::abs(gradient[j]));
-  }
-  return largest;
-}
 
 /// The largest entry of the Hessian of the cost.
 double largest_curvature(NonlinearProgram& program, const Eigen::VectorXd& at) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "methods/judgement/hidden_violation.hpp"
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/judgement/negative_curvature.hpp"
 #include "methods/judgement/newton_correction.hpp"
@@ -37,6 +38,10 @@ class Confirmation {
   /// Computes the residuals of a solution and judges its claim; other statuses are unchanged, and so is a solution
   /// without a point, unless it claims to be solved. The message states the judgement.
   ///
+  /// "Solved" requires residuals that are small next to the program's own sizes too: no violation may be more than a
+  /// thousandth of its constraint's size (`ConstraintSizes`), and no stationarity that only round-off excuses more than
+  /// a thousandth of the gradient of the cost.
+  ///
   /// "Solved" requires a settled answer too: a Newton step from it moves no unknown by more than `settled` of its
   /// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are, or, where
   /// controls alone would move, "solved, control not determined"; `settle` may settle it. Negative curvature there is
@@ -63,6 +68,7 @@ class Confirmation {
     double of_state = 0.0;
   };
   [[nodiscard]] std::optional<StepLengths> newton_step(const Solution& solution);
+  void require_visible(double tolerance, Solution& solution);
   void require_settled(Solution& solution);
   void look_for_curvature(Solution& solution);
 
@@ -74,6 +80,7 @@ class Confirmation {
   KktEntries entries_;
   std::optional<NewtonCorrections> corrections_;  // made when it is first needed
   std::optional<NegativeCurvature> curvature_;
+  ConstraintSizes sizes_;
 };
 
 /// `Confirmation::judge`, once.

@@ -1,0 +1,43 @@
+#include "methods/judgement/hidden_violation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmocbench {
+
+void ConstraintSizes::measure_unknowns(const NonlinearProgram& program, const Eigen::VectorXd& primal) {
+  constexpr double at_rest = 1e-6;
+  const double largest = primal.size() > 0 ? primal.lpNorm<Eigen::Infinity>() : 0.0;
+  const double least = at_rest * std::max(1.0, largest);
+  of_unknowns_.setConstant(primal.size(), largest > least ? largest : 1.0);
+  const IntervalStructure* const structure = program.interval_structure();
+  if (structure == nullptr) return;
+  for (const PlaceRun& run : structure->unknowns.runs()) {
+    const auto first = static_cast<Eigen::Index>(run.first);
+    const auto count = static_cast<Eigen::Index>(run.count);
+    if (count == 0) continue;
+    const double size = primal.segment(first, count).lpNorm<Eigen::Infinity>();
+    of_unknowns_.segment(first, count).setConstant(size > least ? size : 1.0);
+  }
+}
+
+std::optional<HiddenViolation> ConstraintSizes::hidden_violation(const NonlinearProgram& program,
+                                                                 const Eigen::VectorXd& primal,
+                                                                 const KktMemory& memory) {
+  measure_unknowns(program, primal);
+  of_rows_.setZero(memory.constraints.size());
+  program.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
+    of_rows_[row] += std::abs(memory.jacobian[e]) * of_unknowns_[column];
+  });
+  std::optional<HiddenViolation> worst;
+  for (Eigen::Index i = 0; i < of_rows_.size(); ++i) {
+    const double violation = std::max({0.0, program.constraint_lower()[i] - memory.constraints[i],
+                                       memory.constraints[i] - program.constraint_upper()[i]});
+    if (!(violation > std::max(largest_share, worst ? worst->share : 0.0) * of_rows_[i]) || of_rows_[i] == 0.0)
+      continue;
+    worst = HiddenViolation{.row = i, .size = of_rows_[i], .share = violation / of_rows_[i]};
+  }
+  return worst;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "methods/judgement/kkt_residual.hpp"
+#include "methods/program/nonlinear_program.hpp"
+
+namespace dmocbench {
+
+/// A violation that passes an absolute tolerance only because its constraint is stated in tiny units.
+struct HiddenViolation {
+  Eigen::Index row = 0;  ///< number of the constraint
+  double size = 0.0;     ///< Σ_j |∂a_i/∂ξ_j| · size of ξ_j: by how much the unknowns could change it
+  double share = 0.0;    ///< violation / size
+};
+
+/// Compares the violation of every constraint with the constraint's own size, and finds the worst. Next to a tolerance
+/// of 1e-8 any point meets a constraint of size 1e-14.
+///
+/// The size of an unknown is the largest magnitude in its run of the interval structure (in all unknowns without one),
+/// or 1 where that is below 1e-6 of the largest unknown, or of 1: at rest it is not known.
+class ConstraintSizes {
+ public:
+  /// The worst violation above `largest_share`, at a point where `memory` holds the results of `evaluate_kkt`; none if
+  /// there is none. Allocates nothing after the first time.
+  [[nodiscard]] std::optional<HiddenViolation> hidden_violation(const NonlinearProgram& program,
+                                                                const Eigen::VectorXd& primal, const KktMemory& memory);
+
+  /// See above. A solved row of size 1e-5 or more stays below it.
+  static constexpr double largest_share = 1e-3;
+
+ private:
+  void measure_unknowns(const NonlinearProgram& program, const Eigen::VectorXd& primal);
+
+  Eigen::VectorXd of_unknowns_;
+  Eigen::VectorXd of_rows_;
+};
+
+}  // namespace dmocbench

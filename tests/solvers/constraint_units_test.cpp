@@ -1,0 +1,71 @@
+// Constraints times any number: what is solved is the same, or the answer says that it is not.
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "methods/solvers/solver.hpp"
+#include "tests/support/restated_problems.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Restated;
+
+Solution solve(const Problem& problem, const std::string& method, const std::string& solver) {
+  const auto program = tests::transcribe(problem, {method, 1}, Grid::uniform(12));
+  SolverOptions options;
+  options.most_iterations = 200;
+  return make_solver(solver, options)->solve(*program, sample(*program, guessed_motion(problem)));
+}
+
+class ConstraintsTimes : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+ protected:
+  static constexpr int smallest = -100;
+  static constexpr int largest = 30;
+  tests::DoubleIntegrator base_;
+};
+
+INSTANTIATE_TEST_SUITE_P(All, ConstraintsTimes,
+                         testing::Combine(testing::Values("dmoc", "hamiltonian", "tangent"),
+                                          testing::Values("auto", "interior_point", "ipopt", "sqp")),
+                         [](const auto& test) {
+                           return std::string(std::get<0>(test.param)) + "_" + std::get<1>(test.param);
+                         });
+
+/// 0 to 1 from rest to rest takes |u| = 4 at least.
+TEST_P(ConstraintsTimes, APowerOfTenAreNotSolvedWhereTheyAreInfeasible) {
+  const auto& [method, solver] = GetParam();
+  for (int k = smallest; k <= largest; k += 2) {
+    const double factor = std::pow(10.0, k);
+    const Restated limited(base_, [factor](Restated::Statement& s) {
+      s.path_constraints = [factor](const ControlledState& x) {
+        return ExpressionVector::Constant(1, factor * (1.0 - x.u[0]));
+      };
+    });
+    const Solution solution = solve(limited, method, solver);
+    EXPECT_FALSE(is_solved(solution.status)) << k << ": cost " << solution.objective << " " << solution.message;
+  }
+}
+
+TEST_P(ConstraintsTimes, APowerOfTenAreSolvedOnlyAtTheSameCost) {
+  const auto& [method, solver] = GetParam();
+  const auto with_mean = [this](double factor) {
+    return Restated(base_, [factor](Restated::Statement& s) {
+      s.integrals = Bounds::all(1, 0.6 * factor, 0.6 * factor);
+      s.integrands = [factor](const ControlledState& x) { return ExpressionVector::Constant(1, factor * x.q[0]); };
+    });
+  };
+  const double optimum = solve(with_mean(1.0), method, "ipopt").objective;
+  for (int k = smallest; k <= largest; k += 2) {
+    const Solution solution = solve(with_mean(std::pow(10.0, k)), method, solver);
+    if (!is_solved(solution.status)) continue;
+    EXPECT_NEAR(solution.objective, optimum, 1e-6 * optimum) << k << ": " << solution.message;
+  }
+  EXPECT_TRUE(is_solved(solve(with_mean(1e3), method, solver).status));
+}
+
+}  // namespace
+}  // namespace dmocbench
