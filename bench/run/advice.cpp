@@ -193,9 +193,8 @@ std::string in_words(const Advice& advice) {
           advice.coordinate, advice.size);
     case Remedy::feedback:
       return fmt::format(
-          "Try feedback to follow this trajectory: the system is unstable, and with these controls alone {} ends "
-          "{:.2g} "
-          "of its range from where it should, by the growth of small errors.",
+          "Try feedback to follow this trajectory. The system is unstable: with these controls alone {} ends {:.2g} of "
+          "its range from where it should.",
           advice.coordinate, advice.size);
   }
   return "";

@@ -257,8 +257,8 @@ _remedies = {
     "another_guess": "another guess, or start= with a solution near the one you want.",
     "finer_grid": "accuracy=1e-4, or more intervals: with these controls {coordinate} ends {size:.2g} of its range from where it "
                   "should.",
-    "feedback": "feedback to follow this trajectory, since the system is unstable: with these controls alone {coordinate} ends "
-                "{size:.2g} of its range from where it should, by the growth of small errors.",
+    "feedback": "feedback to follow this trajectory. The system is unstable: with these controls alone {coordinate} ends {size:.2g} of "
+                "its range from where it should.",
 }
 
 
