@@ -7,6 +7,7 @@
 #include "methods/adaptive/interval_conditions.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
+#include "methods/kkt/sparse_kkt.hpp"
 #include "methods/mechanics/member_name.hpp"
 
 namespace dmocbench {

@@ -27,7 +27,8 @@ struct EnclosedRate {
   Enclosure rate;
 };
 
-// One for each `Operation`.
+// One for each `Operation`, which `replay` calls.
+/// @cond
 [[nodiscard]] EnclosedRate operator+(const EnclosedRate& x, const EnclosedRate& y);
 [[nodiscard]] EnclosedRate operator-(const EnclosedRate& x, const EnclosedRate& y);
 [[nodiscard]] EnclosedRate operator-(const EnclosedRate& x);
@@ -51,5 +52,6 @@ struct EnclosedRate {
 [[nodiscard]] EnclosedRate asinh(const EnclosedRate& x);
 [[nodiscard]] EnclosedRate erf(const EnclosedRate& x);
 [[nodiscard]] EnclosedRate unit_step(const EnclosedRate& x);
+/// @endcond
 
 }  // namespace dmocbench

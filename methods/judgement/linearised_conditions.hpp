@@ -8,10 +8,13 @@
 
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/kkt/kkt_system.hpp"
-#include "methods/kkt/sparse_kkt.hpp"
 #include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench {
+
+namespace kkt {
+class SparseKkt;
+}
 
 /// The Karush-Kuhn-Tucker conditions of a program, linearised at a point.
 ///

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "methods/judgement/linearised_conditions.hpp"
+#include "methods/kkt/sparse_kkt.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {

@@ -4,6 +4,7 @@
 
 #include "methods/error.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
+#include "methods/kkt/sparse_kkt.hpp"
 
 namespace dmocbench {
 
