@@ -67,14 +67,15 @@ template <class Record, class... Members>
 
 /// An interval of confidence, 95 %, for a share or for the difference of two.
 struct ShareInterval {
-  double lower = 0.0;
-  double upper = 1.0;
+  double lower = 0.0;  ///< lower end
+  double upper = 1.0;  ///< upper end
 };
 
 /// Successes among independent trials.
 struct ShareCount {
-  std::size_t hits = 0;
-  std::size_t trials = 0;
+  std::size_t hits = 0;    ///< successes
+  std::size_t trials = 0;  ///< at least `hits`
+  /// hits / trials
   [[nodiscard]] double share() const { return static_cast<double>(hits) / static_cast<double>(trials); }
 };
 

@@ -21,10 +21,11 @@ struct EnclosedRate {
   EnclosedRate() = default;
   /// A constant.
   explicit EnclosedRate(double constant) : value{constant, constant} {}
+  /// Both.
   EnclosedRate(Enclosure of_value, Enclosure of_rate) : value(of_value), rate(of_rate) {}
 
-  Enclosure value;
-  Enclosure rate;
+  Enclosure value;  ///< of the quantity
+  Enclosure rate;   ///< of its derivative by τ
 };
 
 // One for each `Operation`, which `replay` calls.

@@ -149,7 +149,7 @@ class Runs(unittest.TestCase):
 
     @unittest.skipIf(library is None, "no library is given")
     def test_take_libraries_however_they_are_named(self):
-        grid = ["solve", "--problem", "pushed_in_a_band", "--method", "dmoc", "--intervals", "16"]
+        grid = ["solve", "--problem", "pushed_in_a_band", "--method", "dmoc", "--intervals", "128"]
         of_class = ("import dmocbench as db; from pendulum import PendulumSwingUp\n"
                     "class Mine(PendulumSwingUp): 'by another name than in the library'\n"
                     "db.convergence(Mine(), intervals=[16, 32])")

@@ -33,13 +33,14 @@ struct QuadraticOptions {
 
 /// A column and the rate at which the objective changes with it.
 struct PricedColumn {
-  Eigen::Index column = 0;
-  double rate = 0.0;
+  Eigen::Index column = 0;  ///< number of the column
+  double rate = 0.0;        ///< of the objective, per unit of the column
 };
 
 /// Carries out a rule.
 class Pricing {
  public:
+  /// `seed`: of `PricingRule::random`.
   explicit Pricing(PricingRule rule = PricingRule::largest, std::uint32_t seed = 1) : rule_(rule), generator_(seed) {}
 
   /// One of the candidates (in ascending order of their index, not empty).
@@ -64,15 +65,15 @@ class Pricing {
 
 /// A column that moves along a direction.
 struct MovingColumn {
-  double value = 0.0;
-  double rate = 0.0;  ///< change of the value per unit step
-  double lower = 0.0;
-  double upper = 0.0;
+  double value = 0.0;  ///< of the column at the start of the step
+  double rate = 0.0;   ///< change of the value per unit step
+  double lower = 0.0;  ///< its lower bound
+  double upper = 0.0;  ///< its upper bound
 };
 
 /// The distance by which a direction may be followed.
 struct RatioTest {
-  double step = 0.0;
+  double step = 0.0;                    ///< the largest step
   std::optional<std::size_t> blocking;  ///< place in the list of the column that stops it; none if the limit does
 };
 
