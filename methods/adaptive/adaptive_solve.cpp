@@ -114,7 +114,7 @@ class AdaptiveRun {
           fmt::format("The answer is the one on {} intervals, whose {}.", answer_.program->grid().intervals(),
                       std::isfinite(error) ? fmt::format("estimated error is {:.1e}", error) : "error is not known");
     }
-    solution.status = seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
+    solution.status = stop_is_requested() ? Status::interrupted : Status::time_limit;
     return end(AdaptiveOutcome::stopped, fmt::format("{} {}", sentence_of(solution.status), words));
   }
 

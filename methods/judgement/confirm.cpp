@@ -93,7 +93,7 @@ std::optional<Confirmation::StepLengths> Confirmation::newton_step(const Solutio
 }
 
 void Confirmation::look_for_curvature(Solution& solution) {
-  if (!corrections_->may_be_saddle()) return;
+  if (corrections_->has_minimum() || !corrections_->conditions().is_finite()) return;
   curvature_ = dmocbench::negative_curvature(program_, corrections_->conditions());
   if (curvature_) solution.curvature = curvature_->share;
 }
@@ -205,7 +205,7 @@ double Confirmation::factor_of_cost(double tolerance, const Eigen::VectorXd& sta
 }
 
 void tell_of_stop(Solution& solution) {
-  solution.status = seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
+  solution.status = stop_is_requested() ? Status::interrupted : Status::time_limit;
   solution.message = fmt::format(
       "{} The residuals are below the tolerance; it is unknown whether Newton steps would settle the answer.",
       sentence_of(solution.status));

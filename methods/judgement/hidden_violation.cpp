@@ -33,9 +33,11 @@ std::optional<HiddenViolation> ConstraintSizes::hidden_violation(const Nonlinear
   for (Eigen::Index i = 0; i < of_rows_.size(); ++i) {
     const double violation = std::max({0.0, program.constraint_lower()[i] - memory.constraints[i],
                                        memory.constraints[i] - program.constraint_upper()[i]});
-    if (!(violation > std::max(largest_share, worst ? worst->share : 0.0) * of_rows_[i]) || of_rows_[i] == 0.0)
-      continue;
-    worst = HiddenViolation{.row = i, .size = of_rows_[i], .share = violation / of_rows_[i]};
+    const bool is_flat = of_rows_[i] == 0.0;
+    const double size = is_flat ? std::abs(memory.constraints[i]) : of_rows_[i];
+    if (is_flat && violation <= program.rounding_floors().of_constraint(i)) continue;
+    if (!(violation > std::max(largest_share, worst ? worst->share : 0.0) * size) || size == 0.0) continue;
+    worst = HiddenViolation{.row = i, .size = size, .share = violation / size};
   }
   return worst;
 }

@@ -20,7 +20,8 @@ struct HiddenViolation {
 /// of 1e-8 any point meets a constraint of size 1e-14.
 ///
 /// The size of an unknown is the largest magnitude in its run of the interval structure (in all unknowns without one),
-/// or 1 where that is below 1e-6 of the largest unknown, or of 1: at rest it is not known.
+/// or 1 where that is below 1e-6 of the largest unknown, or of 1: at rest it is not known. Where all derivatives of a
+/// constraint vanish its value stands for its size.
 class ConstraintSizes {
  public:
   /// The worst violation above `largest_share`, at a point where `memory` holds the results of `evaluate_kkt`; none if

@@ -21,11 +21,15 @@ double largest_entry(const NonlinearProgram& program, const Eigen::VectorXd& hes
   return largest;
 }
 
-/// The linearised conditions with a multiple of the unit matrix added to H + Σ.
+/// The linearised conditions with a multiple of the unit matrix added to H + Σ, all of it divided by the largest entry
+/// of H: next to the Jacobian it may be as large as the scale of the cost.
 class ShiftedSystem {
  public:
-  ShiftedSystem(const NonlinearProgram& program, const LinearisedConditions& at)
-      : at_(at),
+  ShiftedSystem(const NonlinearProgram& program, const LinearisedConditions& at, double size)
+      : jacobian_(at.jacobian),
+        hessian_(at.hessian / size),
+        diagonal_(at.diagonal / size),
+        compliance_(at.compliance * size),
         kkt_(program, kkt::SparseKkt::Order::found, kkt::SparseKkt::Inertia::minimum),
         no_residuals_(Eigen::VectorXd::Zero(at.constraints.size())),
         multipliers_(no_residuals_) {}
@@ -33,10 +37,10 @@ class ShiftedSystem {
   /// Solves for a right-hand side in the place of the gradient.
   [[nodiscard]] kkt::FactorisationStatus solve(double shift, const Eigen::VectorXd& right_hand_side,
                                                Eigen::VectorXd& solution) {
-    const Eigen::VectorXd diagonal = at_.diagonal.array() + shift;
+    const Eigen::VectorXd diagonal = diagonal_.array() + shift;
     const Eigen::VectorXd gradient = -right_hand_side;
     try {
-      return kkt_.solve({at_.hessian, at_.jacobian, diagonal, at_.compliance}, {gradient, no_residuals_},
+      return kkt_.solve({hessian_, jacobian_, diagonal, compliance_}, {gradient, no_residuals_},
                         {solution, multipliers_});
     } catch (const Stopped&) {
       throw;
@@ -46,7 +50,10 @@ class ShiftedSystem {
   }
 
  private:
-  const LinearisedConditions& at_;
+  const Eigen::VectorXd& jacobian_;
+  Eigen::VectorXd hessian_;
+  Eigen::VectorXd diagonal_;
+  Eigen::VectorXd compliance_;
   kkt::SparseKkt kkt_;
   Eigen::VectorXd no_residuals_;
   Eigen::VectorXd multipliers_;
@@ -64,23 +71,32 @@ Eigen::VectorXd any_vector(Eigen::Index size) {
 
 std::optional<NegativeCurvature> negative_curvature(const NonlinearProgram& program, const LinearisedConditions& at) {
   using kkt::FactorisationStatus;
-  constexpr double growth = 4.0;   // from shift to shift: the one that suffices is at most so far above the curvature
+  constexpr double growth = 4.0;   // from shift to shift
   constexpr int most_shifts = 16;  // up to a hundred times the largest entry
+  constexpr int bisections = 5;    // until the shift is so near the curvature that inverse iteration converges at once
   constexpr int most_steps = 20;
   constexpr double enough = 1e-2;  // relative change of the curvature at which its direction is known
   const double size = largest_entry(program, at.hessian);
   if (!(size > 0.0) || !std::isfinite(size)) return std::nullopt;
 
-  ShiftedSystem system(program, at);
+  ShiftedSystem system(program, at, size);
   Eigen::VectorXd image(at.gradient.size());
   Eigen::VectorXd vector = any_vector(image.size());
-  double shift = negligible_curvature * size;
+  double too_small = negligible_curvature;
+  if (system.solve(too_small, vector, image) != FactorisationStatus::wrong_inertia) return std::nullopt;
+  double shift = growth * too_small;
   FactorisationStatus status = system.solve(shift, vector, image);
-  if (status != FactorisationStatus::wrong_inertia) return std::nullopt;
-  for (int shifts = 0; shifts < most_shifts && status == FactorisationStatus::wrong_inertia; ++shifts) {
+  for (int shifts = 1; shifts < most_shifts && status == FactorisationStatus::wrong_inertia; ++shifts) {
+    too_small = shift;
     shift *= growth;
     status = system.solve(shift, vector, image);
   }
+  for (int i = 0; i < bisections && status == FactorisationStatus::solved; ++i) {
+    const double middle = std::sqrt(too_small * shift);
+    const bool is_enough = system.solve(middle, vector, image) == FactorisationStatus::solved;
+    (is_enough ? shift : too_small) = middle;
+  }
+  status = system.solve(shift, vector, image);
   // Inverse iteration: with b = d / |d| and (H + Σ + σ) d' = b in the null space, the curvature along d' is
   // bᵀd' / d'ᵀd' - σ, which falls towards the smallest eigenvalue.
   double curvature = unbounded;
@@ -88,11 +104,11 @@ std::optional<NegativeCurvature> negative_curvature(const NonlinearProgram& prog
     const double before = curvature;
     curvature = vector.dot(image) / image.squaredNorm() - shift;
     vector = image / image.norm();
-    if (steps > 0 && std::abs(before - curvature) <= enough * std::abs(curvature)) break;
+    if (curvature < 0.0 && std::abs(before - curvature) <= enough * std::abs(curvature)) break;
     status = system.solve(shift, vector, image);
   }
-  if (!(curvature < -negligible_curvature * size)) return std::nullopt;
-  return NegativeCurvature{.direction = vector / vector.lpNorm<Eigen::Infinity>(), .share = curvature / size};
+  if (!(curvature < -negligible_curvature)) return std::nullopt;
+  return NegativeCurvature{.direction = vector / vector.lpNorm<Eigen::Infinity>(), .share = curvature};
 }
 
 }  // namespace dmocbench

@@ -24,8 +24,9 @@ struct NegativeCurvature {
 /// are suspected.
 ///
 /// Eigenvalues above -`negligible_curvature` times the largest entry of H count as zero: one sparse factorisation of
-/// the matrix, shifted by so much, decides. The direction needs about ten more (inverse iteration). None, too, where a
-/// factorisation fails. Throws `Stopped` where the `StopScope` of the thread ends that.
+/// the matrix, shifted by so much, decides. The direction needs about twenty more, for a bisection of the shift and
+/// inverse iteration. None, too, where a factorisation fails. Throws `Stopped` where the `StopScope` of the thread ends
+/// that.
 [[nodiscard]] std::optional<NegativeCurvature> negative_curvature(const NonlinearProgram& program,
                                                                   const LinearisedConditions& at);
 

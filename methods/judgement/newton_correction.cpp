@@ -28,6 +28,7 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
   conditions_.compute(program_, primal, multipliers, memory);
   step_.primal.setZero(primal.size());
   step_.multipliers.setZero(multipliers.size());
+  has_minimum_ = false;
   if (!conditions_.is_finite()) return unbounded;
   const auto solved_or_failed = [&](kkt::KktSystem& system) {
     try {
@@ -42,12 +43,12 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
   };
   FactorisationStatus status = FactorisationStatus::untrusted;
   if (by_intervals_) status = solved_or_failed(*by_intervals_);
-  may_be_saddle_ = false;
-  if (status != FactorisationStatus::solved) {
+  has_minimum_ = status == FactorisationStatus::solved;
+  if (!has_minimum_) {
     by_intervals_.reset();
     if (!pivoting_) pivoting_ = kkt_system_of_any_point(program_);
     status = solved_or_failed(*pivoting_);
-    may_be_saddle_ = status == FactorisationStatus::solved && !pivoting_->has_minimum();
+    has_minimum_ = status == FactorisationStatus::solved && pivoting_->has_minimum();
   }
   if (status != FactorisationStatus::solved) return std::nullopt;
   measure_step(primal, memory.gradient_of_cost);

@@ -61,9 +61,9 @@ class NewtonCorrections {
   /// `Stopped` where the `StopScope` of the thread ends that.
   [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
 
-  /// True where the matrix of the last step is not positive definite along the equalities; rounding may be the reason
-  /// (`negative_curvature` of `conditions()` decides).
-  [[nodiscard]] bool may_be_saddle() const noexcept { return may_be_saddle_; }
+  /// True where the matrix of the last step is positive definite along the equalities. Where it is not, or is singular,
+  /// rounding or directions without curvature may be the reason (`negative_curvature` of `conditions()` decides).
+  [[nodiscard]] bool has_minimum() const noexcept { return has_minimum_; }
   /// The linearised conditions at the last point.
   [[nodiscard]] const LinearisedConditions& conditions() const noexcept { return conditions_; }
 
@@ -79,7 +79,7 @@ class NewtonCorrections {
   NonlinearProgram& program_;
   std::unique_ptr<kkt::KktSystem> by_intervals_;  // until it fails once
   std::unique_ptr<kkt::SparseKkt> pivoting_;      // made when it is first needed
-  bool may_be_saddle_ = false;
+  bool has_minimum_ = false;
   LinearisedConditions conditions_;
   NewtonCorrection step_;  // the last one
 };

@@ -33,6 +33,12 @@ bool StopScope::must_stop() const {
   return outer_ != nullptr && outer_->must_stop();
 }
 
+bool StopScope::stop_is_requested() const {
+  return (stop_requested_ && stop_requested_()) || (outer_ != nullptr && outer_->stop_is_requested());
+}
+
+bool stop_is_requested() { return innermost() != nullptr && innermost()->stop_is_requested(); }
+
 bool must_stop() { return innermost() != nullptr && innermost()->must_stop(); }
 
 double seconds_left() {

@@ -29,6 +29,9 @@ class StopScope {
 
   /// True if `stop_requested` is true or the time is over, here or in a scope around.
   [[nodiscard]] bool must_stop() const;
+  /// True if `stop_requested` is true, here or in a scope around. Work may also end before its time is over, where the
+  /// rest does not suffice for it.
+  [[nodiscard]] bool stop_is_requested() const;
   /// The least of this scope and those around; infinite without a limit.
   [[nodiscard]] double seconds_left() const;
 
@@ -41,6 +44,8 @@ class StopScope {
 
 /// Whether the scope of this thread requires a stop; false outside of all scopes.
 [[nodiscard]] bool must_stop();
+/// The same of `StopScope::stop_is_requested`.
+[[nodiscard]] bool stop_is_requested();
 /// The remaining time of this thread's scope: infinity without a limit, negative where it is over.
 [[nodiscard]] double seconds_left();
 /// Throws `Stopped` if the scope of this thread requires it; for loops whose rounds take microseconds or more.

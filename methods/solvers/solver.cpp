@@ -131,7 +131,7 @@ double Solver::run_within_limits(CountedProgram& counted, PreparedRun& run, cons
     run.run(start.primal, start.multipliers, start.barrier_parameter, solution);
     return complete(counted, start.primal, confirmation, asks_newton, solution);
   } catch (const Stopped&) {
-    solution.status = limits.seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
+    solution.status = limits.stop_is_requested() ? Status::interrupted : Status::time_limit;
     solution.message.clear();
     if (solution.primal.size() != start.primal.size()) solution.primal = start.primal;
     return complete(counted, start.primal, confirmation, asks_newton, solution);

@@ -166,6 +166,43 @@ TEST_P(SaddlesOf, ASymmetricGuessAreLeftForAMinimumWhateverTheSolver) {
   }
 }
 
+/// Next to the saddle of the first statement the cost falls on every grid, whatever round-off makes of its matrix.
+TEST_P(SaddlesOf, ACrestAreLeftOnEveryGrid) {
+  const auto& [method, stages] = GetParam();
+  const Crest crest(statements().front());
+  for (Eigen::Index intervals = 4; intervals <= 80; ++intervals) {
+    const auto program = tests::transcribe(crest, {method, stages}, Grid::uniform(intervals));
+    const Solution solution = make_solver("interior_point")->solve(*program, sample(*program, guessed_motion(crest)));
+    EXPECT_TRUE(is_solved(solution.status)) << intervals << ": " << solution.message;
+    EXPECT_LT(solution.objective / program->cost_scale(), -3.2) << intervals << ": " << solution.message;
+  }
+}
+
+/// A direction without curvature next to the one with negative curvature: two motors that turn the same.
+class TwoMotors final : public SmallProblem {
+ public:
+  TwoMotors() : SmallProblem("two_motors", at(0.0, 0.0), at(0.0, 0.0), 2.0, 2) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(x.u[0] + x.u[1]); }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return 0.5 * (x.u[0] + x.u[1]) * (x.u[0] + x.u[1]);
+  }
+  [[nodiscard]] Expression final_cost(const State& last) const override { return well(last.q[0]); }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = SmallProblem::bounds();
+    bounds.last.free_configuration(0).free_velocity(0);
+    bounds.u = Bounds::all(2, -9.0, 9.0);
+    return bounds;
+  }
+};
+
+TEST_P(SaddlesOf, ASystemWithRedundantMotorsAreLeft) {
+  const auto& [method, stages] = GetParam();
+  const Solution solution = solve(TwoMotors(), {method, stages}, "interior_point");
+  EXPECT_TRUE(is_solved(solution.status)) << solution.message;
+  EXPECT_LT(solution.objective, 0.0) << solution.message;
+}
+
 TEST(Saddles, OfAQuadrotorsFlipAreLeft) {
   const auto problem = make_problem("planar_quadrotor_flip");
   for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {

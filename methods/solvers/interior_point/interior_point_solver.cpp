@@ -70,7 +70,7 @@ class InteriorPointRun final : public PreparedRun {
     try {
       while (!end) end = iterate();
     } catch (const Stopped&) {
-      end = reason_to_stop().value_or(Status::interrupted);
+      end = reason_to_stop().value_or(Status::time_limit);
     }
     write(*end, solution);  // NOLINT(bugprone-unchecked-optional-access): the loop ends with a status
   }

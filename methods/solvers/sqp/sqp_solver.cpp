@@ -57,7 +57,7 @@ class SequentialRun {
       try {
         while (!end) end = major_iteration();
       } catch (const Stopped&) {
-        end = reason_to_stop().value_or(Status::interrupted);
+        end = reason_to_stop().value_or(Status::time_limit);
       }
       solution.status = end.value_or(Status::solver_error);
     }
@@ -116,7 +116,7 @@ class SequentialRun {
         quadratic_program_at(program_, at_, [this](const auto& vectors) { return hessian_times(vectors); }));
     switch (quadratic.status) {
       case QuadraticStatus::stopped:
-        return reason_to_stop().value_or(Status::interrupted);
+        return reason_to_stop().value_or(Status::time_limit);
       case QuadraticStatus::breakdown:
         message_ = "A quadratic program could not be solved: " + quadratic.message + ".";
         return Status::step_failed;
