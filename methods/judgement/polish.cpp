@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "methods/judgement/confirm.hpp"
+#include "methods/judgement/negative_curvature.hpp"
 #include "methods/judgement/newton_correction.hpp"
 #include "methods/judgement/stop_rule.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -144,6 +145,15 @@ int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution&
   return 0;
 }
 
+/// True also where a limit comes before that is known.
+bool may_be_saddle(const NonlinearProgram& program, const LinearisedConditions& at) {
+  try {
+    return negative_curvature(program, at).has_value();
+  } catch (const Stopped&) {
+    return true;
+  }
+}
+
 /// An answer that no Newton step settles is solved all the same if trajectories on both sides of it, along the step,
 /// meet the conditions as well and cost the same: it is one of many.
 void tell_of_equal_neighbours(NonlinearProgram& program, double tolerance, Solution& solution) {
@@ -152,6 +162,7 @@ void tell_of_equal_neighbours(NonlinearProgram& program, double tolerance, Solut
   NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
   const auto correction = correction_in_time(corrections, solution);
   if (!correction || !(correction->length > settled)) return;
+  if (may_be_saddle(program, corrections.conditions())) return;  // there the cost is flat, too
   const double share = std::min(1.0, distance / correction->length);
   for (const double factor : {share, -share}) {
     const NewtonCorrection part{.primal = factor * correction->primal, .multipliers = factor * correction->multipliers};

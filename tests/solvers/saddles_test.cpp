@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/judgement/polish.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/solvers/solver.hpp"
@@ -234,6 +235,21 @@ TEST(Saddles, AreLeftByPreparedSolvesAndBatches) {
       [&](std::size_t /*index*/, const Solution& solution) {
         EXPECT_NEAR(solution.objective, minimum, 1e-6 * std::abs(minimum)) << solution.message;
       }));
+}
+
+/// Weak controls: on fine grids the solver stops near the saddle, and Newton steps would lead there.
+TEST(Saddles, AreNoAnswersAfterNewtonStepsEither) {
+  Crest::Statement statement = statements().front();
+  statement.largest_control = 0.3;
+  const Crest weak(statement, 0.6);
+  for (const Eigen::Index intervals : {1000, 1500, 3000}) {
+    const auto program = tests::transcribe(weak, {"dmoc", 1}, Grid::uniform(intervals));
+    const auto solver = make_solver("auto");
+    Solution solution = solver->solve(*program, sample(*program, guessed_motion(weak)));
+    settle(*program, solver->options().tolerance, solution);
+    const bool is_low = solution.objective / program->cost_scale() < -0.5;
+    EXPECT_TRUE(is_low || !is_solved(solution.status)) << intervals << ": " << solution.message;
+  }
 }
 
 /// Without a lower end of the cost no solve next to the saddle ends.
