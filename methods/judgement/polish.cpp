@@ -174,8 +174,8 @@ void tell_of_equal_neighbours(NonlinearProgram& program, double tolerance, Solut
   }
   solution.status = Status::solved;
   solution.message = fmt::format(
-      "{} The trajectory is not unique: others, {:.0e} of its size away on both sides, meet all conditions at the same "
-      "cost. A small term in the cost, such as the square of a control, would choose one.",
+      "{} The tolerance does not determine the trajectory: others, {:.0e} of its size away on both sides, meet all "
+      "conditions at the same cost. A small term in the cost, such as the square of a control, would choose one.",
       sentence_of(solution.status), share * correction->length);
 }
 

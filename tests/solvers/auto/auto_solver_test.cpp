@@ -177,7 +177,7 @@ TEST(Settle, CallsOneOfManyTrajectoriesSolvedAndSaysThatThereAreOthers) {
   EXPECT_EQ(solution.status, Status::solved);
   EXPECT_NEAR(solution.objective, 4.0, 1e-6);
   EXPECT_GT(tests::value_of(solution.correction), settled);
-  EXPECT_THAT(solution.message, testing::HasSubstr("not unique"));
+  EXPECT_THAT(solution.message, testing::HasSubstr("does not determine the trajectory"));
 }
 
 }  // namespace
