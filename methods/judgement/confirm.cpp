@@ -93,7 +93,7 @@ std::optional<Confirmation::StepLengths> Confirmation::newton_step(const Solutio
 }
 
 void Confirmation::look_for_curvature(Solution& solution) {
-  if (corrections_->has_minimum() || !corrections_->conditions().is_finite()) return;
+  if (!corrections_ || corrections_->has_minimum() || !corrections_->conditions().is_finite()) return;
   curvature_ = dmocbench::negative_curvature(program_, corrections_->conditions());
   if (curvature_) solution.curvature = curvature_->share;
 }
