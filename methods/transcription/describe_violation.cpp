@@ -393,7 +393,7 @@ std::string describe_flat_constraint(const Problem& problem, Transcription& tran
   const ConstraintWords words(problem, transcription, guess);
   return fmt::format(
       "The guess violates {}, whose derivative by {} vanishes there, so that it does not show on which side to pass: "
-      "guess a motion beside it.",
+      "guess a trajectory next to it.",
       words.row(worst.row), words.component(worst.unknown));
 }
 

@@ -147,8 +147,8 @@ INSTANTIATE_TEST_SUITE_P(All, SaddlesOf,
                            return std::string(std::get<0>(test.param)) + std::to_string(std::get<1>(test.param));
                          });
 
-/// From the symmetric guess the cost is that of the minimum to which a guess aside leads. The quadratic programs of
-/// `sqp` may fail next to a saddle; then it does not report "solved".
+/// From the symmetric guess the cost is that of the minimum to which an asymmetric guess leads. The quadratic programs
+/// of `sqp` may fail next to a saddle; then it does not report "solved".
 TEST_P(SaddlesOf, ASymmetricGuessAreLeftForAMinimumWhateverTheSolver) {
   const auto& [method, stages] = GetParam();
   const tests::Scheme scheme{method, stages};

@@ -45,11 +45,11 @@ class AutoRun final : public PreparedRun {
     continue_with(1, has_point ? Eigen::VectorXd(solution.primal) : start, solution);
     solution.failed_before = "interior_point failed; ipopt continued from its last point.";
     if (!has_point || !leaves_hope(solution.status)) return;
-    const Eigen::VectorXd beside = moved_off_flat_rows(program_.uncounted(), start);
-    if (beside.size() > 0) {
-      continue_with(0, beside, solution);
+    const Eigen::VectorXd moved = moved_off_flat_rows(program_.uncounted(), start);
+    if (moved.size() > 0) {
+      continue_with(0, moved, solution);
       solution.failed_before =
-          "interior_point and ipopt failed; interior_point began again beside the guess, on which derivatives of a "
+          "interior_point and ipopt failed; interior_point began again next to the guess, on which derivatives of a "
           "violated path constraint vanish.";
       if (!leaves_hope(solution.status)) return;
     }

@@ -125,7 +125,7 @@ TEST(AutoSolver, EndsWithAStatusWhereverItIsStopped) {
   }
 }
 
-/// From (0, 0) to (4, 0) in the least time, past a circle beside (2, 0), which costs no time: T = 4, and many motions
+/// From (0, 0) to (4, 0) in the least time, past a circle next to (2, 0), which costs no time: T = 4, and many motions
 /// across the way are optimal.
 class PastACircle final : public tests::SmallProblem {
  public:
@@ -169,7 +169,7 @@ TEST(AutoSolver, PassesAnObstacleStraightAheadOnOneSide) {
   const Solution solution = solved_past_a_circle(0.0);
   EXPECT_TRUE(is_solved(solution.status)) << solution.message;
   EXPECT_NEAR(solution.objective, 4.0, 1e-6);
-  EXPECT_THAT(solution.failed_before, testing::HasSubstr("beside the guess"));
+  EXPECT_THAT(solution.failed_before, testing::HasSubstr("next to the guess"));
 }
 
 TEST(Settle, CallsOneOfManyTrajectoriesSolvedAndSaysThatThereAreOthers) {
