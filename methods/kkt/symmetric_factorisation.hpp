@@ -11,7 +11,7 @@
 namespace dmocbench {
 
 /// Makes MUMPS this thread's alone until the lock that is returned ends. MUMPS has global state, and so has Ipopt,
-/// which calls it: each call of ours holds this one lock of the process, and solves by `ipopt` and `sqp` hold it
+/// which calls it: each of our calls holds this one lock of the process, and solves by `ipopt` and `sqp` hold it
 /// throughout. A thread that holds it may take it again.
 ///
 /// While another thread has it, `gives_up` is called every millisecond; once that is true, the lock is returned

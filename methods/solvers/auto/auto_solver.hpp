@@ -20,10 +20,10 @@ struct AutoOptions {
 [[nodiscard]] AutoOptions auto_options(const NamedOptions& named);
 
 /// `interior_point` first and, where that fails, Ipopt from the point where it ended (from the start where it has
-/// none, as where it rejects the program). Where both fail, `interior_point` again: beside the start, if derivatives of
-/// constraints vanish there (`moved_off_flat_rows`), then from a motion that meets the constraints, if descent on their
-/// violation alone finds one (`feasible_point`). `Solution::solver` names the solver
-/// whose answer it is, and `Solution::failed_before` the attempts before it.
+/// none, as where it rejects the program). Where both fail, `interior_point` again: next to the start, if derivatives
+/// of constraints vanish there (`moved_off_flat_rows`), then from a motion that meets the constraints, if descent on
+/// their violation alone finds one (`feasible_point`). `Solution::solver` names the solver whose answer it is, and
+/// `Solution::failed_before` the attempts before it.
 ///
 /// Counts and times include all attempts: evaluations, seconds, major iterations. The limit of time holds for all of
 /// them together, the limit of iterations for each. Linear systems are counted where `interior_point` gives the answer.
