@@ -110,25 +110,20 @@ Eigen::VectorXd eigenvalues(Eigen::MatrixXd symmetric) {
   return values;
 }
 
-bool is_near(double value, double lower, double upper) {
-  constexpr double at_bound = 1e-8;
-  return std::min(value - lower, upper - value) < at_bound;
-}
-
 /// Throws `Error` if more holds than the equations.
 void require_no_active_inequality(const NonlinearProgram& program, const Linearisation& at,
                                   const std::vector<bool>& free, const std::vector<bool>& equalities) {
-  bool is_active = false;
+  bool has_active = false;
   for (std::size_t i = 0; i < free.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i);
-    is_active |= free[i] && is_near(at.point[j], program.variable_lower()[j], program.variable_upper()[j]);
+    has_active |= free[i] && is_active(at.point[j], program.variable_lower()[j], program.variable_upper()[j]);
   }
   for (std::size_t i = 0; i < equalities.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i);
-    is_active |=
-        !equalities[i] && is_near(at.constraints[j], program.constraint_lower()[j], program.constraint_upper()[j]);
+    has_active |=
+        !equalities[i] && is_active(at.constraints[j], program.constraint_lower()[j], program.constraint_upper()[j]);
   }
-  if (is_active) throw Error("the condition of a program is defined for its equations only, but a bound is active");
+  if (has_active) throw Error("the condition of a program is defined for its equations only, but a bound is active");
 }
 
 /// Divides rows and columns of a symmetric matrix by the roots of their largest entries until all of these are 1.
