@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "bench/programs.hpp"
+#include "bench/run/build.hpp"
 #include "bench/run/command_line.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
@@ -37,8 +38,7 @@ bool is_plain(const std::string& name) {
 
 /// Runs dmocbench-NAME in place of this program. Throws `Error` if it does not exist.
 void run_installed(const std::string& name, char** argv) {
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
-  const std::filesystem::path other = self.parent_path() / ("dmocbench-" + name);
+  const std::filesystem::path other = own_file().parent_path() / ("dmocbench-" + name);
   if (is_plain(name)) ::execv(other.c_str(), argv);  // returns where it fails
   const std::string meant = likely_meant(name, names_of(programs(), &Program::name));
   throw Error(fmt::format("there is no experiment \"{}\"{}; dmocbench --help lists them", name.substr(0, 40),

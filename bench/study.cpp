@@ -2,23 +2,24 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <string>
-#include <utility>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bench/programs.hpp"
+#include "bench/run/build.hpp"
 #include "bench/run/command_line.hpp"
 #include "bench/run/interrupt.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "methods/error.hpp"
-#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench::study_program {
 
@@ -34,55 +35,57 @@ struct Study {
   std::filesystem::path out;
 };
 
-/// The script that draws figures: installed next to the program, else the one of the sources.
+/// The script that draws figures: in an installation next to the program, in a wheel below the Python module, with a
+/// module of an installation in the prefix's bin; else the one of the sources.
 std::string drawer() {
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
-  const std::filesystem::path installed = self.parent_path() / "dmocbench-figures";
-  return std::filesystem::exists(installed) ? installed.string() : DMOCBENCH_SOURCE_DIR "/plots/figures";
-}
-
-/// The words that start a program of the suite: the one of this name next to this program, or this one if it contains
-/// all of them.
-std::vector<std::string> start_of_program(const std::string& name) {
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
-  if (self.filename() != "study") return {self.string(), name};
-  const std::filesystem::path program = self.parent_path() / name;
-  if (::access(program.c_str(), X_OK) != 0)
-    throw Error(fmt::format("there is no program {}; build it", program.string()));
-  return {program.string()};
-}
-
-/// Becomes that program. Throws `Error` if it cannot be run.
-[[noreturn]] void run_in_place(const std::vector<std::string>& command_line) {
-  std::vector<char*> words;
-  std::vector<std::string> copies = command_line;
-  words.reserve(copies.size() + 1);
-  for (std::string& word : copies) words.push_back(word.data());
-  words.push_back(nullptr);
-  std::fflush(nullptr);
-  ::execv(words.front(), words.data());
-  throw Error(
-      fmt::format("cannot run {}: {}", command_line.front(), std::strerror(errno)));  // NOLINT(concurrency-mt-unsafe)
-}
-
-/// Runs a command and returns its exit code, 128 and the signal's number if a signal ended it.
-int run_and_wait(const std::vector<std::string>& words) {
-  fmt::print("+ {}\n", fmt::join(words, " "));
-  std::fflush(nullptr);
-  const ::pid_t child = ::fork();
-  if (child < 0) throw Error("cannot create a process");
-  if (child == 0) {
-    try {
-      run_in_place(words);
-    } catch (const Error& error) {
-      std::fputs((std::string("study: ") + error.what() + "\n").c_str(), stderr);
-      ::_exit(2);
-    }
+  const std::filesystem::path folder = own_file().parent_path();
+  for (const char* place : {"dmocbench-figures", "plots/figures", "../../../../bin/dmocbench-figures"}) {
+    if (std::filesystem::exists(folder / place)) return (folder / place).lexically_normal().string();
   }
+  return DMOCBENCH_SOURCE_DIR "/plots/figures";
+}
+
+/// For functions of C that take an array of words.
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Runs another executable and returns its exit code, 128 and the signal's number if a signal ended it.
+int run_and_wait(std::vector<std::string> words) {
+  ::pid_t child = 0;
+  const int failure =
+      ::posix_spawn(&child, words.front().c_str(), nullptr, nullptr, pointers_to(words).data(), environ);
+  if (failure != 0)
+    throw Error(fmt::format("cannot run {}: {}", words.front(), std::generic_category().message(failure)));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   constexpr int base_of_signals = 128;
   return WIFEXITED(status) ? WEXITSTATUS(status) : base_of_signals + WTERMSIG(status);
+}
+
+/// One step: a program of the suite, or the drawer.
+struct Step {
+  std::string name;
+  std::vector<std::string> words;  ///< a command line as a user would type it
+};
+
+/// Runs a step and returns its exit code. Programs of the suite run in this process, where problems of Python are
+/// known. Throws `Error` if `solve` rejects its options: all other steps would.
+int run_step(Step step) {
+  fmt::print("+ {}\n", fmt::join(step.words, " "));
+  std::fflush(nullptr);
+  const auto program = std::ranges::find(programs(), step.name, &Program::name);
+  if (program == programs().end()) return run_and_wait(step.words);
+  std::string complaint;
+  const ComplaintScope scope(&complaint);
+  const int code = program->run(static_cast<int>(step.words.size()), pointers_to(step.words).data());
+  if (code == 2 && step.name == "solve") throw Error(complaint);
+  if (!complaint.empty()) fmt::print(stderr, "{}: {}\n", step.name, complaint);
+  return code;
 }
 
 /// The grid for local minima: fine enough for a motion, cheap enough for many starts.
@@ -92,29 +95,30 @@ long long second_finest(const Study& study) {
   return grids[grids.size() < 2 ? 0 : grids.size() - 2];
 }
 
-/// The steps by name, each a command.
-std::vector<std::pair<std::string, std::vector<std::string>>> commands_of(const Study& study) {
+/// The steps. `call`: the words by which `study` itself was called, as "dmocbench study".
+std::vector<Step> steps_of(const Study& study, const std::string& call) {
   const std::string out = study.out.string();
-  const auto experiment = [&](const std::string& name, const std::vector<std::string>& options) {
-    std::vector<std::string> words = start_of_program(name);
-    words.insert(words.end(), {"--problem", study.problem, "--out", out});
-    for (const std::string& library : study.libraries) words.insert(words.end(), {"--library", library});
-    for (const std::string& setting : study.settings) words.insert(words.end(), {"--set", setting});
-    if (name != "invariants")  // which compares tableaus
-      words.insert(words.end(), {"--tableau", study.tableau, "--stages", std::to_string(study.stages)});
-    words.insert(words.end(), options.begin(), options.end());
-    return std::pair(name, words);
+  const auto program = [&](const std::string& name, const std::vector<std::string>& options) {
+    Step step{name, {call.substr(0, call.rfind("study")) + name}};
+    step.words.insert(step.words.end(), options.begin(), options.end());
+    for (const std::string& library : study.libraries) step.words.insert(step.words.end(), {"--library", library});
+    return step;
   };
-  std::vector<std::string> report = start_of_program("report");
-  report.insert(report.end(), {"--from", out});
-  for (const std::string& library : study.libraries) report.insert(report.end(), {"--library", library});
+  const auto experiment = [&](const std::string& name, const std::vector<std::string>& options) {
+    Step step = program(name, {"--problem", study.problem, "--out", out});
+    for (const std::string& setting : study.settings) step.words.insert(step.words.end(), {"--set", setting});
+    if (name != "invariants")  // which compares tableaus
+      step.words.insert(step.words.end(), {"--tableau", study.tableau, "--stages", std::to_string(study.stages)});
+    step.words.insert(step.words.end(), options.begin(), options.end());
+    return step;
+  };
   return {experiment("solve", {"--method", "dmoc", "--start", "common", "--name", "motion_" + study.problem}),
           experiment("convergence", {"--intervals", study.intervals, "--solver", "auto"}),
           experiment("invariants", {}),
           experiment("local_minima",
                      {"--starts", std::to_string(study.starts), "--intervals", std::to_string(second_finest(study))}),
           {"figures", {drawer(), out}},
-          {"report", report}};
+          program("report", {"--from", out})};
 }
 
 int run_all(CommandLine& line) {
@@ -132,16 +136,15 @@ int run_all(CommandLine& line) {
   line.option("--out", study.out, "folder for the results; default: study_PROBLEM");
   line.example("--problem cart_pole");
   line.exit_code_1("a step has failed; the others have run");
-  line.parse();
+  const std::string call = line.parse().front();
   if (study.problem.empty()) throw Error("name a problem: study --problem cart_pole; list shows all problems");
   if (study.out.empty()) study.out = "study_" + study.problem;
   listen_for_interrupt();
   std::vector<std::string> failed;
-  for (const auto& [step, command] : commands_of(study)) {
-    const int code = run_and_wait(command);
+  for (const Step& step : steps_of(study, call)) {
+    const int code = run_step(step);
     throw_if_interrupted();
-    if (code == 2 && step == "solve") return code;  // what it rejects, such as an unknown problem, all steps reject
-    if (code != 0) failed.push_back(step);
+    if (code != 0) failed.push_back(step.name);
   }
   const std::filesystem::path report = study.out / "report.html";
   fmt::print("study: {}: {}\n", failed.empty() ? "all steps done" : fmt::format("failed: {}", fmt::join(failed, ", ")),

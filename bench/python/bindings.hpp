@@ -22,6 +22,8 @@ struct ProblemHandle {
 void bind_expressions(pybind11::module_& module);
 /// Problems: of Python classes, built-in ones, and problems of libraries.
 void bind_problems(pybind11::module_& module);
+/// Arrays of a trajectory.
+void bind_motion(pybind11::module_& module);
 /// One solve and its answer.
 void bind_solve(pybind11::module_& module);
 /// Many solves of one program.

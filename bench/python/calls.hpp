@@ -26,8 +26,8 @@ class Call {
   /// Raises the kept exception, if there is one. Holds the GIL.
   void raise_kept();
 
-  /// Whether the user has pressed Ctrl-C since: asks Python, which answers in its main thread only, at most fifty times
-  /// a second. For callers without the GIL.
+  /// Whether the user has pressed Ctrl-C since: looks it up in Python, which answers in its main thread only, at most
+  /// fifty times a second. For callers without the GIL.
   [[nodiscard]] bool is_interrupted();
   /// The kept exception will be raised, even if C++ has converted it.
   void raise_later() noexcept { is_to_be_raised_ = true; }

@@ -7,8 +7,8 @@
 #include <pybind11/stl.h>
 
 #include "bench/python/bindings.hpp"
+#include "bench/python/formula_text.hpp"
 #include "methods/error.hpp"
-#include "methods/expression/schedule.hpp"
 #include "methods/expression/smooth.hpp"
 #include "methods/expression/spline.hpp"
 
@@ -62,9 +62,8 @@ py::object power(const Expression& base, const py::object& exponent) {
 }
 
 std::string text_of(const Expression& formula) {
-  if (const auto value = formula.constant_value()) return fmt::format("Expression({})", *value);
-  const std::size_t operations = Schedule(std::span(&formula, 1)).operation_count();
-  return fmt::format("<a formula of {} operations>", operations);
+  const auto value = formula.constant_value();
+  return value ? fmt::format("Expression({})", *value) : text_of_formula(formula);
 }
 
 void bind_class(py::module_& module) {

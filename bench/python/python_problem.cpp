@@ -10,6 +10,7 @@
 
 #include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
+#include "bench/python/formula_text.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -79,7 +80,11 @@ py::object ParameterReader::read(const std::string& name) const {
   const std::vector<Parameter>& parameters = problem_->parameters();
   const bool is_whole = parameters[parameter_number(*problem_, name)].whole;
   if (is_whole) return py::int_(static_cast<long long>(problem_->parameter(name)));
-  if (traced_formulas() > 0) return number_or_formula(problem_->varying(name));
+  if (traced_formulas() > 0) {
+    const Expression value = problem_->varying(name);
+    name_inputs(ExpressionVector::Constant(1, value), "", {name});
+    return number_or_formula(value);
+  }
   return py::float_(problem_->parameter(name));
 }
 
@@ -137,11 +142,21 @@ auto PythonProblem::asked_of_python(const char* member, const Work& work) const 
 
 bool PythonProblem::states(const char* member) const { return std::ranges::find(members_, member) != members_.end(); }
 
+void PythonProblem::name_entries(const State& x) const {
+  name_inputs(x.q, "q", configuration_names_);
+  name_inputs(x.v, "v", configuration_names_);
+  name_inputs(x.y, "y", first_order_names_);
+  name_inputs(ExpressionVector::Constant(1, x.t), "", {"t"});
+}
+
 py::object PythonProblem::point(const State& x) const {
+  name_entries(x);
   return object_.attr("_point")(list_of(x.q), list_of(x.v), py::none(), number_or_formula(x.t), list_of(x.y));
 }
 
 py::object PythonProblem::point(const ControlledState& x) const {
+  name_entries(x.state());
+  name_inputs(x.u, "u", control_names_);
   return object_.attr("_point")(list_of(x.q), list_of(x.v), list_of(x.u), number_or_formula(x.t), list_of(x.y));
 }
 

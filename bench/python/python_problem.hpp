@@ -91,6 +91,8 @@ class PythonProblem final : public Problem {
   /// `work()` with the GIL; Python exceptions become an `Error` that names the member.
   template <class Work>
   [[nodiscard]] auto asked_of_python(const char* member, const Work& work) const;
+  /// Names the entries of a point in texts of formulas.
+  void name_entries(const State& x) const;
   [[nodiscard]] pybind11::object point(const State& x) const;
   [[nodiscard]] pybind11::object point(const ControlledState& x) const;
   /// Inputs, to ask how many entries a formula has.

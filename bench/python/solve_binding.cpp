@@ -1,9 +1,11 @@
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
@@ -18,7 +20,9 @@
 #include "methods/adaptive/error_estimate.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/iteration_scope.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/tables/motion_file.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
@@ -54,19 +58,20 @@ struct Answer {
   std::optional<IndependentChecks> checks;
 };
 
-/// The motion of an answer to start from, moved to the ends of the problem. Throws `Error` if it has none, or not of a
-/// problem like this one.
-Start start_from(const Answer& answer, const Problem& problem) {
-  const std::optional<Trajectory>& motion = answer.solved.trajectory;
-  if (!motion) throw Error("the solution to start from has no motion");
-  const bool fits = motion->q.cols() == problem.configuration_size() &&
-                    motion->stage_u.cols() == problem.control_size() && motion->y.cols() == problem.first_order_size();
+/// A trajectory to start from, moved to the ends of the problem. Throws `Error` if it is not of a problem like this
+/// one.
+Start start_from(const Trajectory& trajectory, const Problem& problem) {
+  const bool fits = trajectory.q.cols() == problem.configuration_size() &&
+                    trajectory.stage_u.cols() == problem.control_size() &&
+                    trajectory.y.cols() == problem.first_order_size();
   if (!fits) {
     throw Error(
-        "the solution to start from is of a problem with other numbers of coordinates, controls or first-order states");
+        fmt::format("start= has {} coordinates, {} controls and {} first-order states, but the problem {}, {} and {}",
+                    trajectory.q.cols(), trajectory.stage_u.cols(), trajectory.y.cols(), problem.configuration_size(),
+                    problem.control_size(), problem.first_order_size()));
   }
-  Start start{.motion = moved_to_ends(smooth_motion(*motion), problem.bounds())};
-  if (motion->has_costates()) start.with_costates = motion;
+  Start start{.motion = moved_to_ends(smooth_motion(trajectory), problem.bounds())};
+  if (trajectory.has_costates()) start.with_costates = trajectory;
   return start;
 }
 
@@ -81,18 +86,71 @@ Case case_of(const ProblemHandle& handle, const Asked& asked) {
           .form = cost_form_named(asked.form)};
 }
 
-SolverOptions solver_options(const Asked& asked, Call& call) {
+/// Reports a running solve to Python, which may end it.
+class Watch {
+ public:
+  /// `callback`: None, or called for every iteration; a true value ends the solve. `prints_grids`: a line for each.
+  Watch(Call& call, const py::object& callback, double cost_scale, bool prints_grids)
+      : call_(call), callback_(callback), cost_scale_(cost_scale), prints_grids_(prints_grids) {}
+
+  [[nodiscard]] bool wants_iterations() const { return !callback_.is_none(); }
+  [[nodiscard]] bool must_stop() const { return is_over_ || call_.is_interrupted(); }
+
+  void operator()(const Iteration& iteration) {
+    in_python([&] {
+      const py::object answer =
+          callback_(std::string(iteration.solver), iteration.number, iteration.objective / cost_scale_,
+                    iteration.violation, iteration.stationarity);
+      is_over_ = is_over_ || py::bool_(answer);
+    });
+  }
+
+  void operator()(const GridAttempt& grid) {
+    if (!prints_grids_) return;
+    in_python([&] {
+      const std::string error = is_solved(grid.status) ? fmt::format("estimated error {:.1e}", grid.relative)
+                                                       : std::string(name_of(grid.status));
+      py::print(fmt::format("grid of {} intervals, {} stage{}: {}, {} iterations, {:.2g} s", grid.intervals,
+                            grid.stages, grid.stages == 1 ? "" : "s", error, grid.iterations, grid.seconds),
+                py::arg("flush") = true);
+    });
+  }
+
+ private:
+  /// An exception ends the solve and is raised afterwards: it does not pass through solvers.
+  template <class Work>
+  void in_python(const Work& work) {
+    if (is_over_) return;
+    const py::gil_scoped_acquire gil;
+    try {
+      work();
+    } catch (py::error_already_set& error) {
+      Call::keep(error);
+      call_.raise_later();
+      is_over_ = true;
+    }
+  }
+
+  Call& call_;
+  const py::object& callback_;
+  double cost_scale_;
+  bool prints_grids_;
+  bool is_over_ = false;
+};
+
+SolverOptions solver_options(const Asked& asked, const Watch& watch) {
   SolverOptions options;
   options.tolerance = asked.tolerance;
   options.most_iterations = asked.most_iterations;
   options.most_seconds = asked.most_seconds;
   options.verbose = asked.verbose;
-  options.stop_requested = [&call] { return call.is_interrupted(); };
+  options.stop_requested = [&watch] { return watch.must_stop(); };
   return options;
 }
 
 /// On grids that are refined until the estimated error is small enough.
-SolvedCase solve_on_grids(const Case& the_case, const Start& start, const Asked& asked, const SolverOptions& options) {
+SolvedCase solve_on_grids(const Case& the_case, const Start& start, const Asked& asked, const SolverOptions& options,
+                          Watch& watch) {
   AdaptiveOptions adaptive;
   adaptive.accuracy = *asked.accuracy;
   adaptive.refinement = refinement_named(asked.refinement);
@@ -102,19 +160,23 @@ SolvedCase solve_on_grids(const Case& the_case, const Start& start, const Asked&
   if (the_case.form != CostForm::bolza || the_case.derivatives != "tape") {
     throw Error(R"(accuracy= refines with form="bolza" and derivatives="tape")");
   }
-  return solve_accurately(the_case, start, adaptive);
+  return solve_accurately(the_case, start, adaptive, std::ref(watch));
 }
 
-std::unique_ptr<Answer> solve(const ProblemHandle& handle, const Asked& asked, const Answer* from) {
+std::unique_ptr<Answer> solve(const ProblemHandle& handle, const Asked& asked, const Trajectory* from,
+                              const py::object& callback) {
   return without_gil([&](Call& call) {
+    const Problem& problem = *handle.problem;
     const Case the_case = case_of(handle, asked);
-    const SolverOptions options = solver_options(asked, call);
+    Watch watch(call, callback, problem.cost_scale(), asked.verbose);
+    const SolverOptions options = solver_options(asked, watch);
     const auto solver = make_solver(asked.solver, options, asked.options);
     const StopScope scope(options.stop_requested, 0.0);
-    const Start start =
-        from == nullptr ? Start{.motion = guessed_motion(*handle.problem)} : start_from(*from, *handle.problem);
+    std::optional<IterationScope> watched;
+    if (watch.wants_iterations()) watched.emplace(std::ref(watch));
+    const Start start = from == nullptr ? Start{.motion = guessed_motion(problem)} : start_from(*from, problem);
     auto answer = std::make_unique<Answer>();
-    answer->solved = asked.accuracy ? solve_on_grids(the_case, start, asked, options)
+    answer->solved = asked.accuracy ? solve_on_grids(the_case, start, asked, options, watch)
                                     : solve_case(the_case, start, *solver, asked.tolerance, 1);
     return answer;
   });
@@ -204,6 +266,9 @@ void bind_numbers(py::class_<Answer>& answer) {
   });
   number("coordinates", [](const SolvedCase& solved) { return solved.the_case.problem->configuration_names(); });
   number("controls", [](const SolvedCase& solved) { return solved.the_case.problem->control_names(); });
+  number("coordinate_units",
+         [](const SolvedCase& solved) { return solved.the_case.problem->card().configuration_units; });
+  number("control_units", [](const SolvedCase& solved) { return solved.the_case.problem->card().control_units; });
   number("first_order_states", [](const SolvedCase& solved) { return solved.the_case.problem->first_order_names(); });
   number("unknowns", [](const SolvedCase& solved) {
     return by_unknown(solved, solved.trajectory ? solved.trajectory->unknowns : Eigen::VectorXd());
@@ -217,50 +282,20 @@ void bind_numbers(py::class_<Answer>& answer) {
   });
 }
 
-/// Arrays of a motion are views: they keep the answer.
-void bind_arrays(py::class_<Answer>& answer) {
-  const auto array = [&](const char* name, auto member) {
-    answer.def_property_readonly(name, [member](const py::object& self) -> py::object {
-      const std::optional<Trajectory>& motion = self.cast<const Answer&>().solved.trajectory;
-      if (!motion || std::invoke(member, *motion).size() == 0) return py::none();
-      const auto& values = std::invoke(member, *motion);
-      using Values = std::remove_cvref_t<decltype(values)>;
-      const auto size = static_cast<py::ssize_t>(sizeof(double));
-      py::array_t<double> view =
-          Values::ColsAtCompileTime == 1
-              ? py::array_t<double>({values.rows()}, {size}, values.data(), self)
-              : py::array_t<double>({values.rows(), values.cols()}, {size, size * values.rows()}, values.data(), self);
-      view.attr("setflags")(py::arg("write") = false);
-      return view;
-    });
-  };
-  array("t", &Trajectory::node_times);
-  array("q", &Trajectory::q);
-  array("v", &Trajectory::v);
-  array("p", &Trajectory::p);
-  array("y", &Trajectory::y);
-  array("psi_q", &Trajectory::psi_q);
-  array("psi_p", &Trajectory::psi_p);
-  array("psi_y", &Trajectory::psi_y);
-  array("integrals", &Trajectory::integrals);
-  array("integral_prices", &Trajectory::integral_prices);
-  array("stage_t", &Trajectory::stage_times);
-  array("stage_q", &Trajectory::stage_q);
-  array("stage_v", &Trajectory::stage_v);
-  array("stage_u", &Trajectory::stage_u);
-  array("stage_p", &Trajectory::stage_p);
-  array("stage_y", &Trajectory::stage_y);
-  array("stage_psi_q", &Trajectory::stage_psi_q);
-  array("stage_psi_p", &Trajectory::stage_psi_p);
-  const auto prices = [&](const char* name, Eigen::MatrixXd BoundMultipliers::*member) {
-    array(name, [member](const Trajectory& motion) -> const Eigen::MatrixXd& { return motion.prices.*member; });
-  };
-  prices("price_q", &BoundMultipliers::q);
-  prices("price_v", &BoundMultipliers::v);
-  prices("price_y", &BoundMultipliers::y);
-  prices("price_stage_v", &BoundMultipliers::stage_v);
-  prices("price_stage_u", &BoundMultipliers::stage_u);
-  prices("price_path", &BoundMultipliers::path);
+/// The quantities of the problem's picture at the nodes: (columns, a row per node); empty without a trajectory.
+std::pair<std::vector<std::string>, Eigen::MatrixXd> picture_of(const Answer& answer) {
+  const std::optional<Trajectory>& motion = answer.solved.trajectory;
+  if (!motion) return {};
+  const Table table = picture_table(*answer.solved.the_case.problem, *motion);
+  const std::vector<std::string>& columns = table.columns();
+  Eigen::MatrixXd values(std::ssize(table.rows()), std::ssize(columns));
+  for (std::size_t i = 0; i < table.rows().size(); ++i) {
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          table.rows()[i].number(columns[j], std::nan(""));
+    }
+  }
+  return {columns, values};
 }
 
 }  // namespace
@@ -269,7 +304,11 @@ void bind_solve(py::module_& module) {
   bind_options(module);
   py::class_<Answer> answer(module, "Answer");
   bind_numbers(answer);
-  bind_arrays(answer);
+  answer.def_property_readonly("motion", [](const py::object& self) -> py::object {
+    const std::optional<Trajectory>& motion = self.cast<const Answer&>().solved.trajectory;
+    return motion ? py::cast(*motion, py::return_value_policy::reference_internal, self) : py::none();
+  });
+  answer.def_property_readonly("picture", &picture_of);
   answer.def_property_readonly("replay_error", [](Answer& one) {
     const IndependentChecks& checks = checks_of(one);
     return checks.replay ? std::optional(checks.replay->norm()) : std::nullopt;
@@ -288,7 +327,7 @@ void bind_solve(py::module_& module) {
   });
   answer.def_property_readonly("largest_violation", [](Answer& one) { return checks_of(one).violation_between_nodes; });
   answer.def("estimated_error", &estimated_error);
-  module.def("solve", &solve, py::arg("problem"), py::arg("asked"), py::arg("start"));
+  module.def("solve", &solve, py::arg("problem"), py::arg("asked"), py::arg("start"), py::arg("callback"));
   module.def("methods", &all_methods, "Names of all methods.");
   module.def("solvers", &solver_names, "Names of all solvers.");
 }

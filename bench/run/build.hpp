@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace dmocbench {
@@ -9,5 +10,8 @@ namespace dmocbench {
 
 /// The compiler of this build, with its version.
 [[nodiscard]] std::string compiler();
+
+/// The file that this code was loaded from: the program, or the Python module in a process that runs Python.
+[[nodiscard]] std::filesystem::path own_file();
 
 }  // namespace dmocbench

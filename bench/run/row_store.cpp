@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/run/build.hpp"
 #include "bench/run/json_place.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
@@ -103,7 +104,7 @@ Json identity_of(const std::string& experiment, const Json& metadata, const std:
     identity[key] = metadata.at(key);
   }
   // Not the commit: a tree that was changed has several programs under one, and one program outlives many.
-  identity["program"] = checksum_of(read_file("/proc/self/exe"));
+  identity["program"] = checksum_of(read_file(own_file()));
   if (metadata.contains("problem_libraries")) {
     for (const Json& library : metadata.at("problem_libraries")) {  // their folders may differ between machines
       const std::filesystem::path path = library.at("path").get<std::string>();

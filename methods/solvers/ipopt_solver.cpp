@@ -39,6 +39,7 @@
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/iteration_scope.hpp"
 #include "methods/solvers/run_alone.hpp"
 
 namespace dmocbench {
@@ -182,12 +183,19 @@ class ProgramForIpopt final : public Ipopt::TNLP {
     return true;
   }
 
-  bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number, Number, Number, Number, Number, Number,
-                             Number, Number, Index, const Ipopt::IpoptData* data,
-                             Ipopt::IpoptCalculatedQuantities* quantities) override {
+  bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number objective, Number violation,
+                             Number stationarity, Number, Number, Number, Number, Number, Index,
+                             const Ipopt::IpoptData* data, Ipopt::IpoptCalculatedQuantities* quantities) override {
     solution_.major_iterations = static_cast<int>(iteration);
     has_converged_ = !has_rule_of_its_own_ && mode == Ipopt::RegularMode && data != nullptr && quantities != nullptr &&
                      meets(tolerances_, program_, *data->curr(), *quantities);
+    if (iteration > 0) {
+      report_iteration({.solver = "ipopt",
+                        .number = static_cast<int>(iteration),
+                        .objective = objective,
+                        .violation = violation,
+                        .stationarity = stationarity});
+    }
     if (has_converged_ || must_end()) return false;
     return !(options_.stop_requested && options_.stop_requested());
   }

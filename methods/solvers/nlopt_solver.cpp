@@ -21,6 +21,7 @@
 #include "methods/kkt/linearisation.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
+#include "methods/solvers/iteration_scope.hpp"
 #include "methods/solvers/one_sided_constraints.hpp"
 
 namespace dmocbench {
@@ -239,6 +240,13 @@ class SlsqpRun {
     Solution here;
     here.primal = at_.point;
     judge_residuals(program_.uncounted(), here);
+    if (++points_ > 1) {
+      report_iteration({.solver = "nlopt",
+                        .number = points_ - 1,
+                        .objective = at_.objective,
+                        .violation = here.constraint_violation.value_or(0.0),
+                        .stationarity = here.kkt_residual.value_or(0.0)});
+    }
     const bool violates = !(here.constraint_violation.value_or(unbounded) <= constraint_tolerance_);
     const Nearness nearness{violates, scaled_residual(program_, options_.tolerance, here)};
     if (nearness.is_nearer_than(nearest_)) {
@@ -258,6 +266,7 @@ class SlsqpRun {
   Linearisation at_;
   std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> handle_{nullptr, &nlopt_destroy};
   int visits_ = 0;
+  int points_ = 0;  // whose derivatives were evaluated
   Eigen::VectorXd nearest_point_;
   Nearness nearest_;
   std::optional<Status> own_stop_;  // why we stopped NLopt, if we did

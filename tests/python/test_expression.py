@@ -48,6 +48,42 @@ class Expressions(unittest.TestCase):
 
         at_point(look)
 
+    def test_print_themselves_as_python_would_write_them(self):
+        class Point:
+            def __init__(self, **parts):
+                self.__dict__.update(parts)
+
+        def formulas(q, v, length):
+            a, b = q.theta, v.theta
+            return [a, b, 0.5 * length**2 * b**2 + 9.81 * length * db.cos(a), a - (b - length), -(a + b) * length, a / (b * length),
+                    1 / (a + 2) + a**3, (a * b)**-0.5, a / b / length, -a**2, (-a)**2, 2 * db.atan2(a, b) - db.hypot(a, b),
+                    db.exp(-db.sqrt(a)) * db.erf(b), (a - 1.5) * (-2.5), db.smooth_max(a, b, 0.1), (a / b) * (b / length)]
+
+        def look(x):
+            numbers = Point(theta=0.7), Point(theta=1.3), 0.4
+            wanted = formulas(*numbers)
+            for formula, number in zip(formulas(x.q, x.v, x.t), wanted):
+                text = repr(formula)
+                self.assertNotIn("<", text)
+                value = eval(text, {**vars(db), "q": numbers[0], "v": numbers[1], "t": numbers[2]})
+                self.assertAlmostEqual(float(value) / float(number), 1.0, places=12, msg=text)
+            self.assertEqual(f"{x.q.theta} {x.u.tau if hasattr(x, 'u') else x.v.theta}", "q.theta v.theta")
+            grown = x.q.theta
+            for _ in range(300):
+                grown = db.sin(grown * grown + x.v.theta)
+            self.assertRegex(repr(grown), r"^sin\(.{400,600}\.\.\. \(900 operations\)$")
+
+        at_point(look)
+        opened = []
+
+        class Open(PendulumSwingUp):
+            def lagrangian(self, x):
+                opened.append(repr(self.length * x.v.theta))
+                return super().lagrangian(x)
+
+        db.solve_batch(Open(), parameters={"length": [1.0, 1.1]}, intervals=8)
+        self.assertIn("v.theta*length", opened)
+
     def test_fill_arrays(self):
         def look(x):
             vector = np.array([x.q.theta, x.v.theta, 1.0], dtype=object)

@@ -76,7 +76,9 @@ class Mistakes(unittest.TestCase):
         self.refused("force is 3, expected a method", variant(force=3))
         self.refused("expected a problem, or its name", 7)
         self.refused("intervals='many' is of the wrong type", intervals="many")
-        self.refused("start= takes a Solution", start=[0.0, 1.0])
+        self.refused("start= takes a Solution, a motion or arrays", start="guess")
+        self.refused("intervals=16.5 is of the wrong type", intervals=16.5)
+        self.assertTrue(db.solve(PendulumSwingUp(), intervals=16.0, stages=np.float64(1.0)).is_solved)
 
     def test_numbers_that_are_none(self):
         self.refused("start: q is nan, not a finite number", variant(start=db.at_rest(theta=math.nan)))
@@ -126,7 +128,8 @@ class Mistakes(unittest.TestCase):
             solution.estimated_error()
         with self.assertRaisesRegex(db.Error, "a batch cannot take"):
             db.solve_batch(restated.TwoLinkWithMotors(), start=np.zeros((3, 4)))
-        self.refused("solution to start from is of a problem with other numbers", PendulumSwingUp(), start=solution)
+        self.refused("start= has 2 coordinates, .* but the problem 1, 1 and 0", PendulumSwingUp(), start=solution)
+        self.refused("tableau=\"gauss\", stages=1", "cart_pole_cartesian", method="dmoc", stages=2)
 
     def test_unknowns_that_nothing_reads(self):
         self.refused("nothing reads|no formula reads", variant(stiffness=db.unknown(1.0, lower=0.0, upper=2.0)))

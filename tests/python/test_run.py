@@ -8,9 +8,11 @@ import sys
 import tempfile
 import threading
 import unittest
+import zlib
 
 import dmocbench as db
 import restated
+from dmocbench import __main__, _core
 from pendulum import PendulumSwingUp
 
 program = os.environ.get("DMOCBENCH_TEST_PROGRAM")
@@ -72,8 +74,11 @@ class Runs(unittest.TestCase):
                 self.assertGreater(len(table) + sum(map(len, table.further.values())), 0)
 
     def test_vary_parameters_in_a_sweep(self):
-        table = db.run("sweep", PendulumSwingUp(), out=self.out, method="dmoc", intervals=16, over="length=0.9:1.1:3")
+        table = db.run("sweep", PendulumSwingUp(), out=self.out, method="dmoc", intervals=16.0, over="length=0.9:1.1:3")
         self.assertEqual(len(table), 3)
+        of_two = db.run("sweep", "cart_pole", out=self.out, name="two", method="dmoc", intervals=16,
+                        over=["length=0.5:0.6:2", "bob_mass=0.3:0.4:2"])
+        self.assertEqual(len(of_two), 4)
         self.assertEqual(len({row["objective"] for row in table}), 3)
 
     def test_take_problems_with_every_kind_of_statement(self):
@@ -117,10 +122,68 @@ class Runs(unittest.TestCase):
         self.assertAlmostEqual(b["objective"][0], db.solve(db.problem("cart_pole", length=0.6), intervals=32).cost, places=7)
 
     def test_raise_what_the_program_would_print(self):
-        with self.assertRaisesRegex(db.Error, "--intervals"):
+        with self.assertRaisesRegex(db.Error, "^intervals: "):
             db.run("solve", PendulumSwingUp(), out=self.out, intervals="x")
-        with self.assertRaisesRegex(db.Error, "not expected.*--colour"):
+        with self.assertRaisesRegex(db.Error, "there is no option colour="):
             db.run("solve", PendulumSwingUp(), out=self.out, colour="red")
+
+    def test_raise_no_error_without_words_nor_with_words_of_a_command_line(self):
+        for experiment in [name for name, _ in _core.programs() if name not in ("new", "write-nl", "read-sol")]:
+            for options in ({"colour": "red"}, {"intervals": "x"}, {"problem": "no_such_problem"}):
+                with self.subTest(experiment, options=options):
+                    try:
+                        db.run(experiment, out=self.out, **options)
+                    except db.Error as error:
+                        self.assertRegex(str(error), r"\w+ \w+")
+                        self.assertNotRegex(str(error), r"(?<![\w-])--[a-z]")
+                    else:
+                        self.fail("nothing was raised")
+        with self.assertRaisesRegex(db.Error, r"load_library\(FILE\)"):
+            db.run("solve", "no_such_problem", out=self.out)
+
+    def test_of_every_program_take_the_problems_of_a_file(self):
+        file = os.path.join(here, "pendulum.py")
+        for experiment in [name for name, _ in _core.programs()]:
+            with self.subTest(experiment):
+                done = self.command(experiment, file, "--help")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                has_problem = "  --problem " in done.stdout
+                self.assertEqual(has_problem, experiment not in __main__._without_problems)
+
+    @unittest.skipIf(program is None, "no program is given")
+    def test_of_a_study_write_the_files_of_the_program(self):
+        short = {"intervals": "16:64", "starts": 2}
+        db.run("study", "double_integrator", out=os.path.join(self.out, "in_python"), **short)
+        subprocess.run([program, "study", "--problem", "double_integrator", "--intervals", "16:64", "--starts", "2", "--out",
+                        os.path.join(self.out, "program")], check=True, capture_output=True)
+        ours, theirs = (db.read_table(os.path.join(self.out, way, "local_minima.csv")) for way in ("in_python", "program"))
+        self.assertEqual(without_times(ours), without_times(theirs))
+        listings = [sorted(os.listdir(os.path.join(self.out, way))) for way in ("in_python", "program")]
+        self.assertEqual(*listings)
+        self.assertIn("report.html", listings[0])
+
+    def test_of_a_study_are_about_a_problem_in_python(self):
+        done = self.command("study", os.path.join(here, "pendulum.py"), "--intervals", "16:32", "--starts", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(os.path.join(self.out, "study_pendulum_swing_up", "report.html")) as page:
+            self.assertIn("swing-up of a pendulum, least torque", page.read())
+        db.run("study", PendulumSwingUp(), out=self.out, intervals="16:32", starts=2)
+        self.assertTrue(os.path.exists(os.path.join(self.out, "report.html")))
+        with self.assertRaisesRegex(db.Error, "^intervals: "):
+            db.run("study", PendulumSwingUp(), out=self.out, intervals="x")
+
+    def test_of_another_build_are_not_resumed(self):
+        db.convergence(PendulumSwingUp(), out=self.out, method="dmoc", intervals=[16, 32], part="1/2")
+        with open(os.path.join(self.out, "convergence.parts", "1-of-2.rows")) as rows, open(_core.__file__, "rb") as module:
+            self.assertIn(f"{zlib.crc32(module.read()):08x}", rows.readline())  # of the module, not of the interpreter
+
+    def test_in_parts_are_joined(self):
+        grid = {"method": ["dmoc", "tangent"], "intervals": [16, 32, 64], "solver": "interior_point"}
+        for part in ("1/2", "2/2"):
+            db.run("objective", PendulumSwingUp(), out=self.out, part=part, **grid)
+        joined = db.run("objective", PendulumSwingUp(), out=self.out, join=[self.out], **grid)
+        whole = db.run("objective", PendulumSwingUp(), out=self.out, name="whole", **grid)
+        self.assertEqual(without_times(joined), without_times(whole))
 
     def test_give_data_frames(self):
         try:

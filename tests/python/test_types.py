@@ -3,12 +3,17 @@
 import ast
 import inspect
 import os
+import re
 import subprocess
+import sys
 import tempfile
+import typing
 import unittest
+from typing import get_args
 
 import dmocbench as db
-from dmocbench import _core
+from dmocbench import _core, names
+from pendulum import PendulumSwingUp
 
 here = os.path.dirname(os.path.abspath(__file__))
 package = os.path.dirname(os.path.abspath(db.__file__))
@@ -53,6 +58,30 @@ class Hints(unittest.TestCase):
                     missing = [argument.name for argument in inspect.signature(value).parameters.values()
                                if argument.annotation is inspect.Parameter.empty]
                     self.assertEqual(missing, [])
+
+    def test_of_names_are_the_names_in_cpp(self):
+        def listed(kind):
+            words = [sys.executable, "-m", "dmocbench", "list", "--names", kind]
+            return subprocess.run(words, check=True, capture_output=True, text=True).stdout.split()
+
+        literal_methods, _any_string = get_args(names.Method)
+        for kind, there in ((names.Solver, listed("solver")), (names.Tableau, listed("tableau")),
+                            (names.Experiment, [name for name, _ in _core.programs()]), (literal_methods, db.methods())):
+            self.assertEqual(sorted(get_args(kind)), sorted(there))
+        self.assertLessEqual(set(listed("derivatives")), set(get_args(names.Derivatives)))
+        for keyword, kind in (("form", names.CostForm), ("refinement", names.Refinement)):
+            for name in get_args(kind):
+                db.solve(PendulumSwingUp(), intervals=8, **{keyword: name})
+
+    def test_of_arguments_of_solve_are_explained_with_their_values(self):
+        doc = inspect.getdoc(db.solve)
+        hints = typing.get_type_hints(db.solve)
+        for name in inspect.signature(db.solve).parameters:
+            self.assertRegex(doc, rf"(?m)^{name}: ")
+            explained = re.search(rf"(?ms)^{name}: .*?(?=^\w+: |\Z)", doc)[0]
+            if typing.get_origin(hints[name]) is typing.Literal:
+                for value in get_args(hints[name]):
+                    self.assertIn(f'"{value}"', explained)
 
     def test_of_what_users_call_have_docstrings(self):
         for name in public(vars(db)):

@@ -78,4 +78,4 @@ from .problem import (  # noqa: E402, F401
     state,
     unknown,
 )
-from .solving import Batch, Solution, problem, solve, solve_batch  # noqa: E402, F401
+from .solving import Batch, Iteration, Solution, problem, solve, solve_batch  # noqa: E402, F401

@@ -25,6 +25,10 @@ def problems_of(file):
     return found
 
 
+_without_problems = {"claims", "misprints", "new", "report", "step_control"}
+"""Experiments that have no option --problem: the problems of files are known to them all the same."""
+
+
 def main(words):
     if not words or words[0] in ("-h", "--help"):
         print(__doc__.strip() + "\n")
@@ -40,7 +44,10 @@ def main(words):
             raise _core.Error(f"there is no file {file}")
     names = [register(problem).name for file in files for problem in problems_of(file)]
     rest = [word for word in rest if word not in files]
-    if names and not any(word == "--problem" or word.startswith("--problem=") for word in rest):
+    is_named = any(word == "--problem" or word.startswith("--problem=") for word in rest)
+    if names and not is_named and experiment not in _without_problems:
+        if experiment == "study" and len(names) > 1:
+            raise _core.Error(f"study is about one problem; add --problem NAME, one of {', '.join(names)}")
         rest += ["--problem", ",".join(names)]
     return _core.run(experiment, rest, False)
 

@@ -138,11 +138,25 @@ class Answer:
     advice: dict[str, Any]
     largest_violation: float | None
     coordinates: list[str]
+    coordinate_units: list[str]
     controls: list[str]
+    control_units: list[str]
     first_order_states: list[str]
     unknowns: dict[str, float]
+    picture: tuple[list[str], Array]
+    price_unknowns: dict[str, float]
+    price_horizon: float | None
+    motion: Motion | None
+    def estimated_error(self) -> float: ...
+
+class Motion:
+    @staticmethod
+    def of_nodes(t: Array, q: Array, v: Array, u: Array, y: Array) -> Motion: ...
+    def at(self, times: Array) -> tuple[Array, Array, Array, Array]: ...
     integrals: Array | None
     integral_prices: Array | None
+    values_of_unknowns: Array | None
+    prices_of_unknowns: Array | None
     t: Array | None
     q: Array | None
     v: Array | None
@@ -157,17 +171,16 @@ class Answer:
     stage_u: Array | None
     stage_p: Array | None
     stage_y: Array | None
+    stage_y_rates: Array | None
     stage_psi_q: Array | None
     stage_psi_p: Array | None
+    stage_psi_y: Array | None
     price_q: Array | None
     price_v: Array | None
     price_y: Array | None
     price_stage_v: Array | None
     price_stage_u: Array | None
     price_path: Array | None
-    price_unknowns: dict[str, float]
-    price_horizon: float | None
-    def estimated_error(self) -> float: ...
 
 __version__: str
 
@@ -176,7 +189,7 @@ def solvers() -> list[str]: ...
 def problem_names() -> list[str]: ...
 def load_problem_libraries(files: list[str]) -> list[str]: ...
 def check_parameter(name: str, value: float, lower: float, upper: float, whole: bool) -> None: ...
-def solve(problem: ProblemHandle, asked: Asked, start: Answer | None) -> Answer: ...
+def solve(problem: ProblemHandle, asked: Asked, start: Motion | None, callback: Callable[..., Any] | None) -> Answer: ...
 def solve_batch(problem: ProblemHandle, asked: BatchAsked, count: int, parameters: list[str], values: Array,
                 first: Array, last: Array) -> dict[str, Any]: ...
 def run(name: str, arguments: list[str], raises: bool) -> int: ...

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import html
 import inspect
 import json
 import os
@@ -12,8 +13,10 @@ from typing import Any, Iterator, Sequence
 
 from . import _core
 from ._core import Error
+from .names import Experiment
 from .problem import Problem
 from .solving import AnyProblem, handle_of
+from .words import in_words_of_python
 
 
 class Table:
@@ -43,8 +46,36 @@ class Table:
 
         return pandas.DataFrame(self.rows, columns=self.columns)
 
+    _most_shown = 10
+
+    def _shown(self):
+        """The columns that have an entry, and texts of the first rows."""
+        columns = [name for name in self.columns if any(row[name] is not None for row in self.rows)]
+        return columns, [[_text(row[name]) for name in columns] for row in self.rows[:self._most_shown]]
+
     def __repr__(self):
-        return f"<a table of {len(self)} rows: {', '.join(self.columns)}>"
+        columns, rows = self._shown()
+        most = 8  # columns that a line has room for
+        lines = [columns[:most], *(row[:most] for row in rows)]
+        widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
+        text = [f"<a table of {len(self)} rows and {len(self.columns)} columns>"]
+        text += ["  ".join(entry.ljust(width) for entry, width in zip(line, widths)).rstrip() for line in lines]
+        if len(self) > len(rows):
+            text.append(f"... {len(self) - len(rows)} more rows")
+        if len(columns) > most:
+            text.append(f"further columns: {', '.join(columns[most:])}")
+        return "\n".join(text) if self.rows else f"<a table of 0 rows: {', '.join(self.columns)}>"
+
+    def _repr_html_(self) -> str:
+        columns, rows = self._shown()
+        lines = [f"<tr>{''.join(f'<{kind}>{html.escape(entry)}</{kind}>' for entry in line)}</tr>"
+                 for kind, line in [("th", columns), *(("td", row) for row in rows)]]
+        more = f"<p>{len(self) - len(rows)} more rows</p>" if len(self) > len(rows) else ""
+        return f"<table>{''.join(lines)}</table>{more}"
+
+
+def _text(value):
+    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)[:60]
 
 
 class Results(Table):
@@ -90,7 +121,9 @@ def read_table(file: str | os.PathLike[str], problems: Sequence[str] | None = No
 def load_library(*files: str | os.PathLike[str]) -> None:
     """Loads libraries of problems that dmocbench_add_problems has made in CMake; their problems are then known by name.
     Problems that cannot be used are warned of and left out."""
-    for reason in _core.load_problem_libraries([os.fspath(file) for file in files]):
+    with in_words_of_python():
+        reasons = _core.load_problem_libraries([os.fspath(file) for file in files])
+    for reason in reasons:
         warnings.warn(reason, stacklevel=2)
 
 
@@ -108,6 +141,19 @@ def register(problem: AnyProblem) -> _core.ProblemHandle:
     return handle
 
 
+_repeated = {"over", "set", "option", "library", "join"}
+"""Options that take one value each time; others take several, with commas between them."""
+
+
+_without_folder = {"list", "new"}
+_folder_of = {"report": "--from"}
+"""Options of programs in the place of --out."""
+
+
+def _word(value):
+    return str(int(value)) if isinstance(value, float) and value.is_integer() and abs(value) < 2**53 else str(value)
+
+
 def _arguments(options):
     arguments = []
     for name, value in options.items():
@@ -117,25 +163,30 @@ def _arguments(options):
         if isinstance(value, bool):
             arguments.append(option if value else "--no-" + option[2:])
         elif isinstance(value, (list, tuple, range)):
-            arguments += [option, ",".join(str(entry) for entry in value)]
+            words = [_word(entry) for entry in value]
+            for word in words if name in _repeated else [",".join(words)]:
+                arguments += [option, word]
         else:
-            arguments += [option, str(value)]
+            arguments += [option, _word(value)]
     return arguments
 
 
-def run(experiment: str, problem: AnyProblem | Sequence[AnyProblem] | None = None, *,
+def run(experiment: Experiment, problem: AnyProblem | Sequence[AnyProblem] | None = None, *,
         out: str | os.PathLike[str] = "results", name: str | None = None, arguments: Sequence[Any] = (),
         **options: Any) -> Results | None:
     """Runs an experiment as the program does, on a problem, a name or a list of them, and returns its `Results`.
 
-    options as on the command line: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False.
-    It writes the same files into the folder `out`. arguments: further words of a command line, where an option is
-    repeated. Throws Error where the program would print a sentence, KeyboardInterrupt on Ctrl-C.
+    experiment: its name; help(dmocbench.names.Experiment) and `python3 -m dmocbench --help` list them. out: the folder of the
+    files that it writes, as the program does; name: how their names begin.
+    options as on the command line, without dashes: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False,
+    over=["length=0.9:1.1:3", "mass=1:2:2"]; run("solve", arguments=["--help"]) prints them all. arguments: further words of a
+    command line. Throws Error where the program would print a sentence, KeyboardInterrupt on Ctrl-C.
     """
-    known = [entry for entry, _ in _core.programs()]
+    known = [program for program, _ in _core.programs()]
     if experiment not in known:
         raise Error(f"there is no experiment {experiment}; there are {', '.join(known)}")
-    words = ["--out", os.fspath(out)] + ([] if name is None else ["--name", name])
+    words = [] if experiment in _without_folder else [_folder_of.get(experiment, "--out"), os.fspath(out)]
+    words += [] if name is None else ["--name", name]
     problems = None
     if problem is not None:
         handles = [register(one) for one in (problem if isinstance(problem, (list, tuple)) else [problem])]
@@ -146,7 +197,8 @@ def run(experiment: str, problem: AnyProblem | Sequence[AnyProblem] | None = Non
         for setting in sorted(settings):
             words += ["--set", setting]
     sys.stdout.flush()
-    code = _core.run(experiment, words + _arguments(options) + [str(word) for word in arguments], True)
+    with in_words_of_python():
+        code = _core.run(experiment, words + _arguments(options) + [str(word) for word in arguments], True)
     return _results(os.fspath(out), name or experiment, problems, code == 0)
 
 

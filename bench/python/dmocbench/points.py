@@ -1,4 +1,4 @@
-"""Points at which formulas are stated: x.q.theta, x.q[0], x.v, x.u, x.t."""
+"""Points at which formulas are stated or a solution is read: x.q.theta, x.q[0], x.v, x.u, x.t."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import numpy as np
 
 
 class Named(np.ndarray):
-    """A vector of traced numbers whose entries have names: q.theta is q[0]. Results of computations have no names."""
+    """A vector whose entries have names: q.theta is q[0]; of a table with a row per time, it is the column. Entries are
+    traced numbers in formulas, and floats of a solution. Results of computations have no names."""
 
     def __array_finalize__(self, _source):
         self._names = ()
@@ -21,7 +22,7 @@ class Named(np.ndarray):
     def __getattr__(self, name):
         names = self.__dict__.get("_names", ())
         if name in names:
-            return self[names.index(name)]
+            return self[names.index(name)] if self.ndim == 1 else np.asarray(self)[..., names.index(name)]
         if name.startswith("_") or not names:
             raise AttributeError(f"{self.__dict__.get('_kind', 'this vector')} has no attribute {name}")
         raise AttributeError(f"{self._kind} has no entry {name}; it has {', '.join(names)}")
@@ -29,12 +30,18 @@ class Named(np.ndarray):
 
 def named(entries, names, kind):
     """The entries as a vector with these names."""
-    vector = np.empty(len(entries), dtype=object).view(Named)
+    vector = np.empty(len(entries), dtype=object)
     for i, entry in enumerate(entries):
         vector[i] = entry
-    vector._names = tuple(names)
-    vector._kind = kind
-    return vector
+    return with_names(vector, names, kind)
+
+
+def with_names(array, names, kind):
+    """The array with these names of its last axis."""
+    view = array.view(Named)
+    view._names = tuple(names)
+    view._kind = kind
+    return view
 
 
 class Point:

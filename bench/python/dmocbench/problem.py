@@ -251,12 +251,12 @@ class motion:
 
     def __init__(self, t: Any, q: Any, v: Any = None, u: Any = None, y: Any = None):
         self.t = np.asarray(t, dtype=float)
+        if self.t.ndim != 1 or len(self.t) < 2 or not np.all(np.diff(self.t) > 0.0):
+            raise Error("motion: t must be at least two times that ascend")
         self.q = _table(q, self.t, "q")
         self.v = np.gradient(self.q, self.t, axis=0) if v is None else _table(v, self.t, "v")
         self.u = None if u is None else _table(u, self.t, "u")
         self.y = None if y is None else _table(y, self.t, "y")
-        if self.t.ndim != 1 or len(self.t) < 2 or np.any(np.diff(self.t) <= 0.0):
-            raise Error("guess: t must be at least two times that ascend")
 
     def at(self, t, horizon):
         """(q, v, u, y) at a time; None where there is no table."""
@@ -266,10 +266,10 @@ class motion:
 
 
 def _table(values, t, name):
-    table = np.asarray(values, dtype=float)
+    table = np.atleast_1d(np.asarray(values, dtype=float))
     table = table.reshape(-1, 1) if table.ndim == 1 else table
     if table.ndim != 2 or len(table) != len(t):
-        raise Error(f"guess: {name} has {len(table)} rows, expected one for each of the {len(t)} times")
+        raise Error(f"motion: {name} has {len(table)} rows, expected one for each of the {len(t)} times")
     return table
 
 

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+import html
 import inspect
-from typing import Any, Mapping, Union
+import types
+from typing import Any, Callable, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
-from . import _core
+from . import _core, plotting
 from ._core import Error
-from .problem import Problem
+from .names import CostForm, Derivatives, Method, Refinement, Solver, Tableau
+from .points import Point, with_names
+from .problem import Problem, motion
+from .words import arguments_of_solve, in_words_of_python, spelt
 
 
 class NamedProblem:
     """A problem that is built in, or that a library has, with values of its parameters: problem("cart_pole", mass=2)."""
 
     def __init__(self, name, **values):
-        self._handle = _core.ProblemHandle.named(name, {key: float(value) for key, value in values.items()})
+        with in_words_of_python():
+            self._handle = _core.ProblemHandle.named(name, {key: float(value) for key, value in values.items()})
 
     def handle(self):
         return self._handle
@@ -33,8 +39,15 @@ class NamedProblem:
         """The values of all parameters by name."""
         return dict(self._handle.parameters)
 
+    def __reduce__(self):
+        return _named_problem, (self.name, self.parameters())
+
     def __repr__(self):
         return f"<problem {self.name}{' ' if self._handle.settings else ''}{self._handle.settings}>"
+
+
+def _named_problem(name, values):
+    return NamedProblem(name, **values)
 
 
 def problem(name: str, **values: float) -> NamedProblem:
@@ -56,13 +69,15 @@ def handle_of(problem: AnyProblem) -> _core.ProblemHandle:
     return problem.handle()
 
 
-def _fill(asked, given):
+def _fill(request, given):
     for name, value in given.items():
+        if isinstance(getattr(request, name), int) and isinstance(value, float) and value.is_integer():
+            value = int(value)
         try:
-            setattr(asked, name, value)
+            setattr(request, name, value)
         except TypeError:
-            raise Error(f"{name}={value!r} is of the wrong type, expected one like {getattr(asked, name)!r}") from None
-    return asked
+            raise Error(f"{name}={value!r} is of the wrong type, expected one like {getattr(request, name)!r}") from None
+    return request
 
 
 class Stages:
@@ -77,12 +92,12 @@ class Stages:
     psi_q: np.ndarray | None
     psi_p: np.ndarray | None
 
-    def __init__(self, answer: _core.Answer):
-        self._answer = answer
+    def __init__(self, arrays: _core.Motion | None):
+        self._arrays = arrays
 
     def __getattr__(self, name: str) -> Any:
         if name in type(self).__annotations__:
-            return getattr(self._answer, "stage_" + name)
+            return None if self._arrays is None else getattr(self._arrays, "stage_" + name)
         raise AttributeError(f"stages have no {name}; they have {', '.join(type(self).__annotations__)}")
 
 
@@ -109,8 +124,10 @@ class Prices:
         self._answer = answer
 
     def __getattr__(self, name: str) -> Any:
-        if name in type(self).__annotations__:
+        if name in ("unknowns", "horizon"):
             return getattr(self._answer, "price_" + name)
+        if name in type(self).__annotations__:
+            return None if self._answer.motion is None else getattr(self._answer.motion, "price_" + name)
         raise AttributeError(f"prices have no {name}; they have {', '.join(type(self).__annotations__)}")
 
 
@@ -144,7 +161,10 @@ class Solution:
     replay_error: float | None
     largest_violation: float | None
     coordinates: list[str]
+    coordinate_units: list[str]
     controls: list[str]
+    control_units: list[str]
+    picture: tuple[list[str], np.ndarray]
     t: np.ndarray | None
     q: np.ndarray | None
     v: np.ndarray | None
@@ -158,10 +178,12 @@ class Solution:
     integrals: np.ndarray | None
     integral_prices: np.ndarray | None
 
-    def __init__(self, answer: _core.Answer):
+    def __init__(self, answer: Any):
         self._answer = answer
 
     def __getattr__(self, name: str) -> Any:
+        if name in _arrays:
+            return None if self._answer.motion is None else getattr(self._answer.motion, name)
         if name in type(self).__annotations__:
             return getattr(self._answer, name)
         if name.startswith("_"):
@@ -176,12 +198,13 @@ class Solution:
     @property
     def message(self) -> str:
         """The outcome of the solve, in a sentence."""
-        return self._answer.message
+        return spelt(self._answer.message, arguments_of_solve)
 
     def estimated_error(self) -> float:
         """The estimated relative error of q, p and cost, from this answer alone. Throws Error if the solve failed, the
         horizon is free, bounds or path constraints are active, or there are first-order states, unknowns or integrals."""
-        return self._answer.estimated_error()
+        with in_words_of_python(arguments_of_solve):
+            return self._answer.estimated_error()
 
     def __dir__(self):
         return sorted({*super().__dir__(), *type(self).__annotations__})
@@ -189,7 +212,7 @@ class Solution:
     @property
     def stages(self) -> Stages:
         """Values at the stages."""
-        return Stages(self._answer)
+        return Stages(self._answer.motion)
 
     @property
     def prices(self) -> Prices:
@@ -204,23 +227,75 @@ class Solution:
     def column(self, name: str) -> np.ndarray | None:
         """A coordinate or a first-order state at the nodes, or a control at the stages, by its name."""
         for names, table in ((self.coordinates, self.q), (self.first_order_states, self.y),
-                             (self.controls, self._answer.stage_u)):
+                             (self.controls, self.stages.u)):
             if name in names:
                 return None if table is None else table[:, names.index(name)]
         there = self.coordinates + self.first_order_states + self.controls
         raise Error(f"there is no {name}; there are {', '.join(there)}")
 
-    def to_pandas(self) -> Any:
-        """The nodes as a DataFrame of pandas: t, q, v, p and y by names."""
+    def at(self, t: Any) -> Point:
+        """The trajectory at a time, or at an array of times, as a point x: x.q, x.v, x.u, x.y, by index or by name, as in
+        formulas; a row per time of an array. q is piecewise cubic and v its derivative; u is linear between the stages, or the
+        polynomial through the stages of an interval; y is linear between the nodes. Throws Error outside of the horizon."""
+        if self._answer.motion is None:
+            raise Error(f"{self.status}: the solution has no trajectory")
+        times = np.asarray(t, dtype=float)
+        tables = self._answer.motion.at(times.ravel())
+        names = (self.coordinates, self.coordinates, self.controls, self.first_order_states)
+        q, v, u, y = (with_names(table.reshape(*times.shape, table.shape[-1]), known, kind)
+                      for table, known, kind in zip(tables, names, "qvuy"))
+        return Point(q, v, u, t, y)
+
+    def plot(self, *names: str) -> Any:
+        """Draws coordinates, first-order states and controls over time with matplotlib, a panel for each unit: lines are the
+        trajectory (`at`), dots its nodes and stages. names: only these. Returns the axes, as an array; in a script,
+        matplotlib.pyplot.show() opens the window, and axes[0].figure.savefig("solution.png") writes a file."""
+        return plotting.plot(self, *names)
+
+    def animate(self, shape: Callable[[Any], Any] | None = None, *, frames: int = 100, seconds: float | None = None) -> Any:
+        """A matplotlib animation of the motion. shape: a function of a point x (`at`) that returns the points (x, y) of a
+        line, such as the joints of an arm; without one the points of the problem's picture. seconds: how long it plays, by
+        default as long as the horizon. Keep a reference to what it returns; its save("motion.gif") writes a file, and
+        IPython.display.HTML(animation.to_jshtml()) shows it in a notebook."""
+        return plotting.animate(self, shape, frames=frames, seconds=seconds)
+
+    def to_pandas(self, at: str = "nodes") -> Any:
+        """A DataFrame of pandas, by names. at="nodes": a row per node with t, q, rate_NAME, momentum_NAME, y and the controls
+        at the nodes (`at`); at="stages": a row per stage with t, q, rate_NAME, momentum_NAME, y and the controls as solved."""
         import pandas
 
-        columns = {"t": self.t}
-        for prefix, table in (("", self.q), ("rate_", self.v), ("momentum_", self.p)):
-            if table is None:
-                raise Error(f"{self.status}: the solution has no motion")
+        if at not in ("nodes", "stages"):
+            raise Error(f'at={at!r} is neither "nodes" nor "stages"')
+        part: Any = self if at == "nodes" else self.stages
+        if part.t is None:
+            raise Error(f"{self.status}: the solution has no trajectory")
+        columns = {"t": part.t}
+        for prefix, table in (("", part.q), ("rate_", part.v), ("momentum_", part.p)):
             columns.update({prefix + name: table[:, i] for i, name in enumerate(self.coordinates)})
-        columns.update({name: self.column(name) for name in self.first_order_states})
+        columns.update({name: part.y[:, i] for i, name in enumerate(self.first_order_states)})
+        controls = self.at(self.t).u if at == "nodes" else self.stages.u
+        columns.update({name: np.asarray(controls)[:, i] for i, name in enumerate(self.controls)})
         return pandas.DataFrame(columns)
+
+    def __copy__(self) -> Solution:
+        return Solution(self._answer)  # which never changes
+
+    def __deepcopy__(self, _memo: Any) -> Solution:
+        return Solution(self._answer)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All numbers, and what is computed on first use. The problem is not part of it."""
+        if isinstance(self._answer, _Kept):
+            return dict(vars(self._answer))
+        state = {name: getattr(self._answer, name) for name, value in vars(_core.Answer).items() if isinstance(value, property)}
+        try:
+            state["error"] = self.estimated_error()
+        except Error as reason:
+            state["error"] = str(reason)
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._answer = _Kept(**state)
 
     def __repr__(self):
         def text(value, form):
@@ -242,6 +317,31 @@ class Solution:
             lines.append("  Try " + advice.format(**self._answer.advice))
         return "\n".join(lines)
 
+    def _repr_html_(self) -> str:
+        first, *further = (html.escape(line.strip()) for line in repr(self).split("\n"))
+        table = ""
+        if self.t is not None and self.q is not None:
+            begin, end = self.at(self.t[0]), self.at(self.t[-1])
+            units = self.coordinate_units or [""] * len(self.coordinates)
+            lines = [*zip(self.coordinates, units, begin.q, end.q),
+                     *zip(self.first_order_states, [""] * len(begin.y), begin.y, end.y)]
+            rows = "".join(f"<tr><td>{html.escape(name)}</td><td>{html.escape(unit)}</td><td>{a:.6g}</td><td>{b:.6g}</td></tr>"
+                           for name, unit, a, b in lines)
+            table = f"<table><tr><th></th><th>unit</th><th>t = 0</th><th>t = {self.t[-1]:.6g}</th></tr>{rows}</table>"
+        return f"<b>{first}</b><br>{'<br>'.join(further)}{table}"
+
+
+_arrays = {"t", "q", "v", "p", "y", "psi_q", "psi_p", "psi_y", "integrals", "integral_prices"}
+
+
+class _Kept(types.SimpleNamespace):
+    """What a pickled solution consists of, in the place of the answer of C++."""
+
+    def estimated_error(self):
+        if isinstance(self.error, str):
+            raise Error(self.error)
+        return self.error
+
 
 # What may help after a failed or doubtful solve, by the remedy that its answer names.
 _remedies = {
@@ -262,30 +362,95 @@ _remedies = {
 }
 
 
-def solve(problem: AnyProblem, method: str = "dmoc", *, intervals: int = 128, tableau: str = "gauss", stages: int = 1,
-          solver: str = "auto", start: Solution | None = None, accuracy: float | None = None, refinement: str = "h",
-          nodes: Any = None, tolerance: float | None = None, most_iterations: int | None = None,
-          most_seconds: float = 0.0, derivatives: str = "tape", form: str = "bolza", verbose: bool = False,
-          options: Mapping[str, Any] | None = None) -> Solution:
-    """Solves a problem and returns a `Solution`, whose status shows whether it converged.
+class Iteration(NamedTuple):
+    """One iteration of a solver, as a callback of `solve` gets it."""
 
-    problem: an instance of a class derived from Problem, or the name of a built-in problem. method: one of `methods()`.
-    intervals: N of a uniform grid; nodes: relative node times from 0 to 1 instead. start: a Solution to begin with,
-    else the guess of the problem. accuracy: refines the grid ("h"), or also the number of stages ("hp"), until the
-    estimated relative error is at most that; iterations and seconds are then of all grids together. most_seconds: of the
-    call, its set-up and all grids together, 0 for no limit; then the status is "time limit", and the answer the last one.
-    options: the solver's, by name. Throws Error on misuse.
+    solver: str
+    """The solver that runs; "auto" tries several in turn."""
+    number: int
+    """From 1 on; it begins anew with every grid and solver."""
+    cost: float
+    """The cost at the iterate."""
+    violation: float
+    """The largest violation of a constraint of the discrete program."""
+    stationarity: float
+    """The largest entry of the gradient of the Lagrangian, as the solver measures it."""
+
+
+Start = Union["Solution", motion, Sequence[Any]]
+"""Where a solve begins: a Solution, a `motion`, or the arrays (t, q), (t, q, v), (t, q, v, u) or (t, q, v, u, y)."""
+
+
+def _arrays_of(start, handle):
+    """The trajectory of a start, for C++."""
+    if start is None:
+        return None
+    if isinstance(start, Solution):
+        if start._answer.motion is None:
+            raise Error(f"{start.status}: the solution to start from has no trajectory")
+        return start._answer.motion
+    if isinstance(start, (tuple, list)):
+        if not 2 <= len(start) <= 5:
+            raise Error(f"start= has {len(start)} arrays, expected (t, q), (t, q, v), (t, q, v, u) or (t, q, v, u, y)")
+        start = motion(*start)
+    if not isinstance(start, motion):
+        raise Error(f"start= takes a Solution, a motion or arrays (t, q, v, u), not {type(start).__name__}")
+    count = len(start.t)
+    u = np.zeros((count, len(handle.controls))) if start.u is None else start.u
+    y = np.zeros((count, 0)) if start.y is None else start.y
+    return _core.Motion.of_nodes(start.t - start.t[0], start.q, start.v, u, y)
+
+
+def solve(problem: AnyProblem, method: Method = "dmoc", *, intervals: int = 128, tableau: Tableau = "gauss", stages: int = 1,
+          solver: Solver = "auto", start: Start | None = None, accuracy: float | None = None,
+          refinement: Refinement = "h", nodes: Any = None, tolerance: float | None = None,
+          most_iterations: int | None = None, most_seconds: float = 0.0, derivatives: Derivatives = "tape",
+          form: CostForm = "bolza", verbose: bool = False, options: Mapping[str, Any] | None = None,
+          callback: Callable[[Iteration], Any] | None = None) -> Solution:
+    """Solves a problem and returns a `Solution`, whose status shows whether it converged. Throws Error on misuse.
+
+    problem: an instance of a class derived from Problem, the class, a `problem(...)` or the name of a built-in problem.
+    method: the transcription. "dmoc"; "hamiltonian" or "tangent" collocation; "multiple_shooting_rk4_1" and
+        "single_shooting_rk4_1", where the last parts are the integrator, rk4 or midpoint, and its steps per interval;
+        "galerkin_1_1", where the last parts are the points of the quadrature and the control nodes. `methods()` lists them.
+    intervals: N, the number of intervals of a uniform grid.
+    tableau: "gauss", "lobatto" or "lobatto_shared" (one control where two intervals meet): the times of the stages in an
+        interval. Shooting has its own integrator and takes from it the stages of the control only.
+    stages: s, the stages per interval: 1 to 4 with "gauss", 2 to 4 with "lobatto". The order is 2s or 2s - 2.
+    solver: "auto" (interior_point, then ipopt, then another start), "interior_point" (ours, which uses the structure of the
+        program), "ipopt", "sqp" (ours, an active-set method) or "nlopt" (SLSQP, for small programs).
+    start: where the solve begins, else at the guess of the problem: a Solution, also of another grid, method or problem with
+        the same coordinates and controls, whose costates are used too; a `motion`; or arrays (t, q, v, u), of which v and u
+        may be left out, t ascending, a row of the others per time.
+    accuracy: the estimated relative error of q, p and cost at which to stop, 1e-14 to 0.1: the grid is refined until it is
+        reached, and iterations and seconds are of all grids together. None: one grid.
+    refinement: what accuracy= refines: "h", the steps, or "hp", also the stages, up to three.
+    nodes: relative times of the nodes from 0 to 1, ascending, in the place of intervals=.
+    tolerance: for the residual of the optimality conditions of the scaled program, by default 1e-10.
+    most_iterations: of the solver, by default 500; then the status is "iteration limit".
+    most_seconds: of the call, its set-up and all grids together, 0 for no limit; then the status is "time limit", and the
+        solution the last one.
+    derivatives: how the solver gets them: "tape" (exact, the fastest), "adolc" or "adolc_whole" (by ADOL-C, where it was
+        built in), "finite_differences" (central), "forward_differences" or "dense_differences".
+    form: how the cost is stated: "bolza" (a sum), or "mayer" (one more unknown per node, the cost so far).
+    verbose: prints the solver's own output, and a line per grid with accuracy=.
+    options: of the solver, by name, such as {"mu_strategy": "adaptive"} for "ipopt".
+    callback: called with an `Iteration` after each iteration; if it returns a true value, the solve ends with the status
+        "interrupted", and the solution is the last iterate.
     """
-    if start is not None and not isinstance(start, Solution):
-        raise Error(f"start= takes a Solution, not {type(start).__name__}; state a guess in the problem")
+    handle = handle_of(problem)
     given = {"method": method, "intervals": intervals, "tableau": tableau, "stages": stages, "solver": solver,
              "accuracy": accuracy, "refinement": refinement, "most_seconds": most_seconds, "derivatives": derivatives,
              "form": form, "verbose": verbose, "options": {key: str(value) for key, value in (options or {}).items()}}
     for name, value in (("nodes", nodes), ("tolerance", tolerance), ("most_iterations", most_iterations)):
         if value is not None:
             given[name] = value
-    asked = _fill(_core.Asked(), given)
-    return Solution(_core.solve(handle_of(problem), asked, start._answer if start is not None else None))
+    request = _fill(_core.Asked(), given)
+    if callback is not None and not callable(callback):
+        raise Error(f"callback= takes a function of an Iteration, not {callback!r}")
+    watch = None if callback is None else lambda *entries: callback(Iteration(*entries))
+    with in_words_of_python(arguments_of_solve):
+        return Solution(_core.solve(handle, request, _arrays_of(start, handle), watch))
 
 
 class Batch:
@@ -315,7 +480,7 @@ class Batch:
 
 
 def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = None, start: Any = None, end: Any = None,
-                method: str = "dmoc", intervals: int = 64, tableau: str = "gauss", stages: int = 1,
+                method: Method = "dmoc", intervals: int = 64, tableau: Tableau = "gauss", stages: int = 1,
                 tolerance: float | None = None, most_iterations: int | None = None, most_seconds: float = 0.0,
                 threads: int = 0, motions: bool = False) -> Batch:
     """Solves many instances of one problem, eight side by side in vector registers, on all processors.
@@ -343,5 +508,6 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
              "motions": motions, "most_seconds": most_seconds}
     given.update({name: value for name, value in (("tolerance", tolerance), ("most_iterations", most_iterations))
                   if value is not None})
-    asked = _fill(_core.BatchAsked(), given)
-    return Batch(_core.solve_batch(handle, asked, count, list(columns), values, *tables), n, m)
+    request = _fill(_core.BatchAsked(), given)
+    with in_words_of_python(arguments_of_solve):
+        return Batch(_core.solve_batch(handle, request, count, list(columns), values, *tables), n, m)

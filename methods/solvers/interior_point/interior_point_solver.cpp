@@ -26,6 +26,7 @@
 #include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/interior_point/optimality_errors.hpp"
+#include "methods/solvers/iteration_scope.hpp"
 #include "methods/solvers/named_options.hpp"
 
 namespace dmocbench {
@@ -279,8 +280,14 @@ class InteriorPointRun final : public PreparedRun {
   }
 
   void report(const char* kind) {
-    if (!options_.verbose) return;
+    if (!options_.verbose && !iterations_are_watched()) return;
     const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
+    report_iteration({.solver = "interior_point",
+                      .number = iterations_,
+                      .objective = values_.objective,
+                      .violation = errors.violation,
+                      .stationarity = errors.stationarity});
+    if (!options_.verbose) return;
     fmt::print(
         "{:4} {:>7}  cost {:.10e}  violation {:.1e}  stationarity {:.1e}  "
         "complementarity {:.1e}  mu {:.1e}  shift {:.1e}  step {:.1e}\n",

@@ -13,6 +13,7 @@
 #include "methods/kkt/linearisation.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/iteration_scope.hpp"
 #include "methods/solvers/named_options.hpp"
 #include "methods/solvers/run_alone.hpp"
 #include "methods/solvers/sqp/globalisation.hpp"
@@ -101,6 +102,13 @@ class SequentialRun {
     now.primal = at_.point;
     now.multipliers = multipliers_;
     judge_residuals(program_.uncounted(), now);
+    if (majors_ > 0) {
+      report_iteration({.solver = "sqp",
+                        .number = majors_,
+                        .objective = at_.objective,
+                        .violation = now.constraint_violation.value_or(0.0),
+                        .stationarity = now.kkt_residual.value_or(0.0)});
+    }
     return scaled_residual(program_.uncounted(), options_.tolerance, now) <= 1.0;
   }
 

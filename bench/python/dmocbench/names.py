@@ -1,0 +1,32 @@
+"""The names that arguments accept, for editors and type checkers. A test compares them with the names in C++."""
+
+from __future__ import annotations
+
+from typing import Literal, Union
+
+Method = Union[Literal["dmoc", "hamiltonian", "tangent", "multiple_shooting_rk4_1", "multiple_shooting_midpoint_1",
+                       "single_shooting_rk4_1", "single_shooting_midpoint_1", "galerkin_1_1"], str]
+"""A transcription: DMOC, collocation of Hamilton's or of the Euler-Lagrange equations, shooting with an explicit
+integrator, Galerkin. The numbers of the last ones, as in multiple_shooting_rk4_4, may vary."""
+
+Tableau = Literal["gauss", "lobatto", "lobatto_shared"]
+"""A family of Butcher tableaus."""
+
+Solver = Literal["auto", "interior_point", "ipopt", "sqp", "nlopt"]
+"""A method for nonlinear programs."""
+
+Derivatives = Literal["tape", "adolc", "adolc_whole", "finite_differences", "forward_differences", "dense_differences"]
+"""How solvers get derivatives. adolc and adolc_whole need a build with ADOL-C."""
+
+CostForm = Literal["bolza", "mayer"]
+"""How the cost is stated."""
+
+Refinement = Literal["h", "hp"]
+"""What is refined for an accuracy: steps, or steps and stages."""
+
+Experiment = Literal["adaptive", "certify", "claims", "coercivity", "cold_start", "consistency", "consistency_order",
+                     "convergence", "derivatives", "equivalence", "invariants", "iterations", "list", "local_minima",
+                     "low_thrust", "misprints", "new", "objective", "primitives", "profile", "read-sol", "report",
+                     "savings_by_solver", "sequence", "shooting", "smoothness", "solve", "step_control", "study", "sweep",
+                     "write-nl"]
+"""A program of the suite."""

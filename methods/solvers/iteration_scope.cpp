@@ -1,0 +1,28 @@
+#include "methods/solvers/iteration_scope.hpp"
+
+#include <utility>
+
+namespace dmocbench {
+
+namespace {
+
+/// The innermost scope of a thread; null outside of all scopes.
+const IterationScope*& watching_scope() {
+  thread_local const IterationScope* scope = nullptr;
+  return scope;
+}
+
+}  // namespace
+
+IterationScope::IterationScope(std::function<void(const Iteration&)> watch)
+    : watch_(std::move(watch)), outer_(std::exchange(watching_scope(), this)) {}
+
+IterationScope::~IterationScope() { watching_scope() = outer_; }
+
+bool iterations_are_watched() noexcept { return watching_scope() != nullptr; }
+
+void report_iteration(const Iteration& iteration) {
+  if (const IterationScope* const scope = watching_scope()) scope->watch_(iteration);
+}
+
+}  // namespace dmocbench
