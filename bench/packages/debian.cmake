@@ -59,7 +59,7 @@ libdmocbench-dev makes of one header each.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-dmocbench)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-pandas)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "dmocbench, python3-matplotlib, python3-pandas")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "optimal control by DMOC and collocation, in Python
 State an optimal control problem of a mechanical system as a Python class,
