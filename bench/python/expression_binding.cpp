@@ -183,22 +183,26 @@ Expression required(py::handle object, const char* function) {
 void bind_smooth(py::module_& module) {
   module.def(
       "smooth_abs", [](const py::object& x, double eps) { return smooth_abs(required(x, "smooth_abs"), eps); },
-      py::arg("x"), py::arg("eps"), "sqrt(x**2 + eps**2): above |x| by at most eps, at x = 0.");
+      py::arg("x"), py::arg("eps"),
+      "sqrt(x**2 + eps**2): above |x| by at most eps, which has the unit of x, at x = 0.");
   module.def(
       "smooth_sign", [](const py::object& x, double eps) { return smooth_sign(required(x, "smooth_sign"), eps); },
-      py::arg("x"), py::arg("eps"), "x/sqrt(x**2 + eps**2): from -1 to 1.");
+      py::arg("x"), py::arg("eps"),
+      "x/sqrt(x**2 + eps**2): from -1 to 1; half of the step is made between x = -0.6 eps and 0.6 eps.");
   module.def(
       "smooth_max",
       [](const py::object& x, const py::object& y, double eps) {
         return smooth_max(required(x, "smooth_max"), required(y, "smooth_max"), eps);
       },
-      py::arg("x"), py::arg("y"), py::arg("eps"), "Above the larger of both by at most eps/2, where they are equal.");
+      py::arg("x"), py::arg("y"), py::arg("eps"),
+      "Above the larger of both by at most eps/2, where they are equal; eps has their unit.");
   module.def(
       "smooth_min",
       [](const py::object& x, const py::object& y, double eps) {
         return smooth_min(required(x, "smooth_min"), required(y, "smooth_min"), eps);
       },
-      py::arg("x"), py::arg("y"), py::arg("eps"), "Below the smaller of both by at most eps/2, where they are equal.");
+      py::arg("x"), py::arg("y"), py::arg("eps"),
+      "Below the smaller of both by at most eps/2, where they are equal; eps has their unit.");
   module.def(
       "smooth_if_else",
       [](const py::object& x, const py::object& a, const py::object& b, double eps) {
@@ -206,7 +210,7 @@ void bind_smooth(py::module_& module) {
         return smooth_if_else(required(x, name), required(a, name), required(b, name), eps);
       },
       py::arg("x"), py::arg("a"), py::arg("b"), py::arg("eps"),
-      "a where x is some eps above 0, b where it is as much below, and a transition between.");
+      "a where x is several eps above 0, b where it is several eps below; eps has the unit of x.");
   py::class_<Spline>(module, "Spline",
                      "The natural cubic spline through points, as a function of numbers and formulas.")
       .def(py::init<std::vector<double>, std::vector<double>>(), py::arg("x"), py::arg("y"))

@@ -31,7 +31,7 @@ struct Text {
 };
 
 std::string within(const Text& text, Binding least) {
-  return text.binding < least ? "(" + text.words + ")" : text.words;
+  return text.binding < least ? fmt::format("({})", text.words) : text.words;
 }
 
 std::string_view name_of_function(Operation operation) {
@@ -97,7 +97,7 @@ void name_inputs(const ExpressionVector& entries, const std::string& prefix, con
     const Schedule alone(std::span(&entries[i], 1));
     if (alone.steps().size() != 1 || alone.steps().front().operation != Operation::input) continue;
     const std::string& name = names[static_cast<std::size_t>(i)];
-    input_names()[alone.steps().front().input_index] = prefix.empty() ? name : prefix + "." + name;
+    input_names()[alone.steps().front().input_index] = prefix.empty() ? name : fmt::format("{}.{}", prefix, name);
   }
 }
 

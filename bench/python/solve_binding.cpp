@@ -26,6 +26,7 @@
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
 
 namespace dmocbench::python {
 
@@ -95,6 +96,8 @@ class Watch {
 
   [[nodiscard]] bool wants_iterations() const { return !callback_.is_none(); }
   [[nodiscard]] bool must_stop() const { return is_over_ || call_.is_interrupted(); }
+  /// Whether the callback has ended the solve.
+  [[nodiscard]] bool has_ended() const { return is_over_; }
 
   void operator()(const Iteration& iteration) {
     in_python([&] {
@@ -163,6 +166,17 @@ SolvedCase solve_on_grids(const Case& the_case, const Start& start, const Asked&
   return solve_accurately(the_case, start, adaptive, std::ref(watch));
 }
 
+/// After the end by a callback, which stops the reading of the trajectory too.
+void read_last_iterate(SolvedCase& solved) {
+  const Solution& solution = solved.solution;
+  if (solved.trajectory || !solved.program || solution.primal.size() == 0 || !solution.primal.allFinite()) return;
+  try {
+    solved.trajectory = read_trajectory(*solved.program, solution.primal, solution.multipliers);
+  } catch (const Error&) {  // there is none through this point, as where its momenta are not defined
+    return;
+  }
+}
+
 std::unique_ptr<Answer> solve(const ProblemHandle& handle, const Asked& asked, const Trajectory* from,
                               const py::object& callback) {
   return without_gil([&](Call& call) {
@@ -171,13 +185,17 @@ std::unique_ptr<Answer> solve(const ProblemHandle& handle, const Asked& asked, c
     Watch watch(call, callback, problem.cost_scale(), asked.verbose);
     const SolverOptions options = solver_options(asked, watch);
     const auto solver = make_solver(asked.solver, options, asked.options);
-    const StopScope scope(options.stop_requested, 0.0);
-    std::optional<IterationScope> watched;
-    if (watch.wants_iterations()) watched.emplace(std::ref(watch));
-    const Start start = from == nullptr ? Start{.motion = guessed_motion(problem)} : start_from(*from, problem);
     auto answer = std::make_unique<Answer>();
-    answer->solved = asked.accuracy ? solve_on_grids(the_case, start, asked, options, watch)
-                                    : solve_case(the_case, start, *solver, asked.tolerance, 1);
+    {
+      const StopScope scope(options.stop_requested, 0.0);
+      const IterationScope watched(watch.wants_iterations() ? std::function<void(const Iteration&)>(std::ref(watch))
+                                                            : nullptr);
+      const Start start = from == nullptr ? Start{.motion = guessed_motion(problem)} : start_from(*from, problem);
+      answer->solved = asked.accuracy ? solve_on_grids(the_case, start, asked, options, watch)
+                                      : solve_case(the_case, start, *solver, asked.tolerance, 1);
+    }
+    if (watch.has_ended() && !asked.accuracy) answer->solved.solution.message = sentence_of(Status::interrupted);
+    if (watch.has_ended()) read_last_iterate(answer->solved);
     return answer;
   });
 }

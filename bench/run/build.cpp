@@ -16,12 +16,12 @@ std::string compiler() {
 }
 
 std::filesystem::path own_file() {
+  static const char of_this_file = 0;
   Dl_info unused{};
-  link_map* object = nullptr;
-  const bool is_found = ::dladdr1(reinterpret_cast<const void*>(&own_file), &unused, reinterpret_cast<void**>(&object),
-                                  RTLD_DL_LINKMAP) != 0;
-  const bool is_module = is_found && object->l_name[0] != '\0';  // the program itself has no name there
-  return is_module ? std::filesystem::path(object->l_name) : std::filesystem::read_symlink("/proc/self/exe");
+  void* object = nullptr;
+  if (::dladdr1(&of_this_file, &unused, &object, RTLD_DL_LINKMAP) == 0) object = nullptr;
+  const char* const name = object == nullptr ? "" : static_cast<const link_map*>(object)->l_name;
+  return *name != '\0' ? std::filesystem::path(name) : std::filesystem::read_symlink("/proc/self/exe");
 }
 
 }  // namespace dmocbench

@@ -19,10 +19,10 @@ IterationScope::IterationScope(std::function<void(const Iteration&)> watch)
 
 IterationScope::~IterationScope() { watching_scope() = outer_; }
 
-bool iterations_are_watched() noexcept { return watching_scope() != nullptr; }
+bool iterations_are_watched() noexcept { return watching_scope() != nullptr && watching_scope()->watch_; }
 
 void report_iteration(const Iteration& iteration) {
-  if (const IterationScope* const scope = watching_scope()) scope->watch_(iteration);
+  if (iterations_are_watched()) watching_scope()->watch_(iteration);
 }
 
 }  // namespace dmocbench

@@ -18,7 +18,7 @@ struct Iteration {
 /// to end makes `SolverOptions::stop_requested` true.
 class IterationScope {
  public:
-  /// Takes the place of the scope around, until it is destroyed.
+  /// Takes the place of the scope around, until it is destroyed. An empty `watch` gets no reports.
   explicit IterationScope(std::function<void(const Iteration&)> watch);
   ~IterationScope();
   IterationScope(const IterationScope&) = delete;
@@ -33,7 +33,7 @@ class IterationScope {
   const IterationScope* outer_;
 };
 
-/// Whether this thread has a scope: what is computed for reports alone may be left out without.
+/// Whether iterations of this thread are reported; without, what is computed for reports alone may be left out.
 [[nodiscard]] bool iterations_are_watched() noexcept;
 /// Reports to the innermost scope of this thread, if there is one.
 void report_iteration(const Iteration& iteration);

@@ -157,6 +157,30 @@ class Watching(unittest.TestCase):
                 solution = db.solve(restated.CartPole(), solver=solver, intervals=16,
                                     callback=lambda one: seen.append(one) or one.number == 2)
                 self.assertEqual((solution.status, len(seen)), ("interrupted", 2))
+                if solver != "nlopt":  # whose answer is the nearest point that it has visited
+                    self.assertAlmostEqual(solution.cost / seen[-1].cost, 1.0, places=6)
+
+    def test_may_solve_another_problem_which_it_does_not_see(self):
+        others, seen = [], []
+
+        def look(iteration):
+            seen.append(iteration.number)
+            others.append(db.solve(PendulumSwingUp(), intervals=16).cost)
+
+        solution = db.solve(restated.CartPole(), intervals=16, callback=look)
+        self.assertEqual(seen, list(range(1, solution.iterations + 1)))
+        self.assertEqual(set(others), {db.solve(PendulumSwingUp(), intervals=16).cost})
+
+    def test_ends_an_accuracy_and_keeps_the_grid_before(self):
+        grids = []
+
+        def third_grid(iteration):
+            grids.extend([iteration] if iteration.number == 1 else [])
+            return len(grids) == 3
+
+        solution = db.solve(restated.CartPole(), intervals=32, accuracy=1e-8, callback=third_grid)
+        self.assertEqual((solution.status, len(grids)), ("interrupted", 3))
+        self.assertIsNotNone(solution.cost)
 
     def test_raises_what_it_raises(self):
         def fail(iteration):
