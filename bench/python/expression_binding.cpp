@@ -111,6 +111,7 @@ void bind_class(py::module_& module) {
 }
 
 py::type_error neither_number_nor_formula(const char* function, py::handle argument) {
+  // NOLINTNEXTLINE(modernize-return-braced-init-list): the constructor is explicit
   return py::type_error(fmt::format("{} takes a number, a formula or an array of them, not {}", function,
                                     Py_TYPE(argument.ptr())->tp_name));
 }

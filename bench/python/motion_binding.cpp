@@ -118,8 +118,8 @@ auto at(const Trajectory& trajectory, const Eigen::VectorXd& times) {
   const double end = trajectory.node_times[trajectory.intervals()];
   constexpr double rounding = 1e-12;
   for (const double t : times) {
-    if (!(t >= -rounding * end && t <= (1.0 + rounding) * end))
-      throw Error(fmt::format("there is no time {:.6g}; the horizon is [0, {:.6g}]", t, end));
+    const bool is_inside = t >= -rounding * end && t <= (1.0 + rounding) * end;  // false of NaN
+    if (!is_inside) throw Error(fmt::format("there is no time {:.6g}; the horizon is [0, {:.6g}]", t, end));
   }
   const Motion motion = smooth_motion(trajectory);
   const Eigen::Index n = trajectory.q.cols();

@@ -102,6 +102,7 @@ PythonProblem::PythonProblem(const py::object& original)
   for (const auto& [name, value] : values) set_parameter(name, value);
 }
 
+// NOLINTNEXTLINE(bugprone-exception-escape): the constructor has made the reader that is cast
 PythonProblem::~PythonProblem() {
   if (Py_IsInitialized() == 0) {  // the objects ended with Python
     object_.release();

@@ -36,7 +36,7 @@ class PythonProblem final : public Problem {
   /// Of an object, whose function `_bound` makes the copy. Holds the GIL. Throws as Python does where something is
   /// missing.
   explicit PythonProblem(const pybind11::object& original);
-  ~PythonProblem() override;
+  ~PythonProblem() override;  // NOLINT(bugprone-exception-escape): see its definition
   PythonProblem(const PythonProblem&) = delete;
   PythonProblem& operator=(const PythonProblem&) = delete;
   PythonProblem(PythonProblem&&) = delete;

@@ -155,7 +155,7 @@ SolverOptions solver_options(const Asked& asked, const Watch& watch) {
 SolvedCase solve_on_grids(const Case& the_case, const Start& start, const Asked& asked, const SolverOptions& options,
                           Watch& watch) {
   AdaptiveOptions adaptive;
-  adaptive.accuracy = *asked.accuracy;
+  adaptive.accuracy = asked.accuracy.value_or(adaptive.accuracy);
   adaptive.refinement = refinement_named(asked.refinement);
   adaptive.solver = asked.solver;
   adaptive.solver_options = options;

@@ -217,6 +217,7 @@ class Shown(unittest.TestCase):
         self.assertNotIn("none", table._repr_html_())
         self.assertRegex(repr(table), r"(?s)12 rows and 3 columns.*<1> +0.333333\n.*2 more rows$")
         self.assertIn("0 rows: name", repr(db.Table(["name"], [])))
+        self.assertRegex(repr(db.Table(["same", "other"], [{"same": 1, "other": 1}, {"same": 1, "other": 2}])), r"\nother  same\n")
 
     @unittest.skipIf(missing("pandas"), "pandas is not installed")
     def test_as_data_frames_with_the_controls(self):

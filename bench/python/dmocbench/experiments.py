@@ -49,8 +49,9 @@ class Table:
     _most_shown = 10
 
     def _shown(self):
-        """The columns that have an entry, and texts of the first rows."""
+        """The columns that have an entry, those that differ between rows first, and texts of the first rows."""
         columns = [name for name in self.columns if any(row[name] is not None for row in self.rows)]
+        columns.sort(key=lambda name: len({str(row[name]) for row in self.rows}) == 1)
         return columns, [[_text(row[name]) for name in columns] for row in self.rows[:self._most_shown]]
 
     def __repr__(self):

@@ -412,7 +412,8 @@ def solve(problem: AnyProblem, method: Method = "dmoc", *, intervals: int = 128,
     problem: an instance of a class derived from Problem, the class, a `problem(...)` or the name of a built-in problem.
     method: the transcription. "dmoc"; "hamiltonian" or "tangent" collocation; "multiple_shooting_rk4_1" and
         "single_shooting_rk4_1", where the last parts are the integrator, rk4 or midpoint, and its steps per interval;
-        "galerkin_1_1", where the last parts are the points of the quadrature and the control nodes. `methods()` lists them.
+        "galerkin_1_1", where the last parts are the degree of q and the control nodes per interval, and tableau= and stages=
+        are the quadrature. `methods()` lists them.
     intervals: N, the number of intervals of a uniform grid.
     tableau: "gauss", "lobatto" or "lobatto_shared" (one control where two intervals meet): the times of the stages in an
         interval. Shooting has its own integrator and takes from it the stages of the control only.
