@@ -113,7 +113,7 @@ std::vector<Step> steps_of(const Study& study, const std::string& call) {
     return step;
   };
   return {experiment("solve", {"--method", "dmoc", "--start", "common", "--name", "motion_" + study.problem}),
-          experiment("convergence", {"--intervals", study.intervals, "--solver", "auto"}),
+          experiment("convergence", {"--intervals", study.intervals}),
           experiment("invariants", {}),
           experiment("local_minima",
                      {"--starts", std::to_string(study.starts), "--intervals", std::to_string(second_finest(study))}),
@@ -128,7 +128,7 @@ int run_all(CommandLine& line) {
   line.option("--set", study.settings, "parameter=value of the problem; may be repeated");
   add_library_option(line, study.libraries);
   line.group("Experiments");
-  line.option("--tableau", study.tableau, "the family of Butcher tableaus of all experiments");
+  line.option("--tableau", study.tableau, "the family of Butcher tableaus; invariants compares all families");
   line.number("--stages", study.stages, 1, 4, "its number of stages");
   line.option("--intervals", study.intervals, "grids of convergence; local_minima uses the second finest");
   line.number("--starts", study.starts, 1, 100000, "starts of local_minima per method");

@@ -81,6 +81,8 @@ int measure_all(CommandLine& line) {
   line.number("--rounds", rounds, 0, 10000, "number of timed repetitions of the whole refinement");
   line.option("--solver", solver, "solver, as `list` names them");
   line.flag("--quick", is_quick, "the uneven problems alone, unless --problem names others");
+  line.ignored_unless(
+      "--quick", [&asked] { return asked.problems == all_problems; }, "--problem names the problems");
   TableRun run("adaptive", line, TableRun::Resumes::yes);
   static_cast<void>(make_solver(solver));  // rejects unknown names before anything is solved
   const bool is_named = asked.problems != all_problems;

@@ -173,7 +173,7 @@ class Certify final : public ExperimentOf<Measured> {
                  "finest answer's intervals replayed one by one, and the indirect method where it applies. "
                  "NAME_references.csv has a row per problem: the routes, how many digits they share, and whether they "
                  "confirm the reference that the problem states.",
-             .options = {.problems = {"all"}, .methods = {"dmoc"}, .intervals = "64,128"},
+             .options = {.problems = {"all"}, .methods = {"dmoc"}, .solvers = {"ipopt"}, .intervals = "64,128"},
              .further_files = {"_references.csv"},
              .problems_are_independent = true,
              .polishes = true}) {}
@@ -192,6 +192,9 @@ class Certify final : public ExperimentOf<Measured> {
   }
   void add_options(CommandLine& line) override {
     line.list("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages");
+    for (const char* const option : {"--tableau", "--stages"})
+      line.ignored_unless(
+          option, [] { return false; }, "--routes replaces it");
     line.flag("!--no-indirect", with_indirect_, "leave the indirect method out");
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

@@ -144,17 +144,25 @@ class ColdStart final : public Experiment {
   void add_options(CommandLine& line) override {
     line.list(
         "--starts", starts_,
-        "starts per case on the paper's problems: a number for all solvers, SOLVER=NUMBER for one; indirect=NUMBER "
-        "for the indirect method");
-    line.list("--suite-starts", suite_starts_, "the same on the other problems, without the indirect method");
+        "starts per case: a number for all solvers, SOLVER=NUMBER for one; indirect=NUMBER for the indirect method on "
+        "the paper's problems; default: 1000 on the paper's problems, 100 on others");
+    line.list("--suite-starts", suite_starts_, "the same for problems other than the paper's; default: as --starts");
+    line.ignored_unless(
+        "--suite-starts", [this] { return has_problem(false); }, "all problems are the paper's; see --starts");
+    line.ignored_unless(
+        "--starts", [this] { return suite_starts_.empty() || has_problem(true); }, "--suite-starts replaces it");
     line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
     line.number("--amplitude", amplitude_, 0.0, 10.0,
                 "of the random curves, relative to the range of each coordinate and the size of each control");
   }
   /// All methods, solvers and grids start from the same curves.
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
-    paper_counts_ = StartCounts("--starts", starts_);
-    suite_counts_ = StartCounts("--suite-starts", suite_starts_);
+    using Words = std::vector<std::string>;
+    paper_counts_ = StartCounts("--starts", starts_.empty() ? Words{"1000"} : starts_);
+    suite_counts_ = !suite_starts_.empty() ? StartCounts("--suite-starts", suite_starts_)
+                                           : StartCounts("--starts", starts_.empty() ? Words{"100"} : starts_);
+    note_unchosen_solvers("--starts", starts_);
+    note_unchosen_solvers("--suite-starts", suite_starts_);
     std::vector<Case> cases = from_starts(
         chosen, [this](const Case& the_case) { return starts_of(the_case); },
         [this](const Motion& motion, const Problem& problem, std::size_t start) {
@@ -189,9 +197,21 @@ class ColdStart final : public Experiment {
   }
 
  private:
-  [[nodiscard]] static bool is_of_paper(const std::string& problem) {
-    const std::vector<std::string> paper = paper_problem_names();
-    return std::ranges::find(paper, problem) != paper.end();
+  /// Whether a chosen problem is one of the paper's, or is another one.
+  [[nodiscard]] bool has_problem(bool of_paper) const {
+    const std::vector<std::string>& names = card().options.problems;
+    return names == std::vector<std::string>{"all"} ||
+           std::ranges::any_of(names, [&](const std::string& name) { return is_of_paper(name) == of_paper; });
+  }
+  /// States which counts of single solvers no case follows.
+  void note_unchosen_solvers(const char* option, const std::vector<std::string>& words) const {
+    for (const std::string& word : words) {
+      const std::string solver = word.substr(0, std::min(word.find('='), word.size()));
+      if (solver == word) continue;
+      const bool is_followed = solver == StartCounts::indirect ? option == std::string("--starts") && has_problem(true)
+                                                               : std::ranges::count(card().options.solvers, solver) > 0;
+      if (!is_followed) remark(fmt::format("{} {} is ignored: no case is solved by {}", option, word, solver));
+    }
   }
   [[nodiscard]] long long starts_of(const Case& the_case) const {
     return (is_of_paper(the_case.problem->name()) ? paper_counts_ : suite_counts_).of(the_case.solver);
@@ -230,8 +250,8 @@ class ColdStart final : public Experiment {
   /// The largest excess of the cost over the reference, relative, of an answer on the best branch.
   static constexpr double objective_tolerance = 0.02;
 
-  std::vector<std::string> starts_{"1000"};
-  std::vector<std::string> suite_starts_{"100"};
+  std::vector<std::string> starts_;
+  std::vector<std::string> suite_starts_;
   StartCounts paper_counts_;
   StartCounts suite_counts_;
   std::uint64_t seed_ = 1;

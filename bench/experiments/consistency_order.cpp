@@ -207,6 +207,7 @@ int measure_all(CommandLine& line) {
   line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling");
   TableRun run("consistency_order", line);
   const std::vector<long long> steps = parse_intervals("--intervals", intervals);
+  remark(remark_on_ranges("--intervals", intervals));
   const auto selected = run.selected(asked);
   Results results;
   std::vector<ExactTransform> transforms;

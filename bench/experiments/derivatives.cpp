@@ -61,7 +61,7 @@ class Derivatives final : public ExperimentOf<Measured> {
                  "residual, and cost and accuracy of a solve with them. Column hessian: exact is the back end's "
                  "Hessian, limited_memory Ipopt's quasi-Newton one, not by central differences. Dense differences are "
                  "for N up to 64. Solves by differences or without an exact Hessian end after 150 iterations.",
-             .options = {.derivatives = derivative_back_end_names(), .intervals = "16:1024"},
+             .options = {.solvers = {"ipopt"}, .derivatives = derivative_back_end_names(), .intervals = "16:1024"},
              .takes_turns = true,
              .compares_tolerances = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
@@ -91,6 +91,8 @@ class Derivatives final : public ExperimentOf<Measured> {
     std::ranges::copy_if(chosen, std::back_inserter(within), [](const Case& c) {
       return c.derivatives != "dense_differences" || c.grid.intervals() <= most_dense_intervals;
     });
+    if (within.size() < chosen.size() && options().derivatives != derivative_back_end_names())
+      remark(fmt::format("dense_differences is left out above N = {}", most_dense_intervals));
     std::vector<Case> cases = vary(within, [&](const Case& c) {
       const bool has_limited_memory = c.solver == "ipopt" && c.derivatives != "finite_differences";
       std::vector<std::string> labels;

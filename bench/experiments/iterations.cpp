@@ -1,4 +1,5 @@
 // Iteration counts, evaluations and times of solves: fig:kepler_iterations and fig:twolink_iterations.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -56,15 +57,20 @@ class Iterations final : public ExperimentOf<Measured> {
   void add_options(CommandLine& line) override {
     line.list("--crash", crashes_,
               "first basis of sqp: none (all slacks; phase 1 brings every row in), basis (chosen for free)");
+    line.ignored_unless(
+        "--crash", [this] { return std::ranges::count(options().solvers, "sqp") > 0; }, "only sqp has a first basis");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const std::vector<std::string> crashes = chosen_of("--crash", {"none", "basis"}, crashes_);
     std::vector<Case> cases =
         vary(chosen, [&](const Case& c) { return c.solver == "sqp" ? crashes : std::vector<std::string>{""}; });
-    std::erase_if(cases, [](const Case& the_case) {
+    const std::size_t left_out = std::erase_if(cases, [](const Case& the_case) {
       return the_case.solver == "nlopt" && free_variable_count(*the_case.transcribe()) > most_free_variables_for_slsqp;
     });
+    if (left_out > 0 && !cases.empty())
+      remark(fmt::format("nlopt is left out above {} free variables, in {} of the cases", most_free_variables_for_slsqp,
+                         left_out));
     if (!cases.empty()) return cases;
     throw Error(fmt::format("--intervals: no grid is small enough for nlopt; it is left out above {} free variables",
                             most_free_variables_for_slsqp));

@@ -79,6 +79,9 @@ class LocalMinima final : public ExperimentOf<Measured> {
         "--plane", plane_, 2, 316,
         "instead of random curves M x M starts: the guess with bulges sin(pi t/T) in q_1 and q_2 whose sizes go "
         "from -amplitude to amplitude in M steps");
+    for (const char* const option : {"--starts", "--seed"})
+      line.ignored_unless(
+          option, [this] { return plane_ == 0; }, "--plane chooses the starts");
   }
   /// All methods and grids start from the same curves.
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

@@ -67,6 +67,9 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
 
   void add_options(CommandLine& line) override {
     line.list("--factorisation", factorisations_, "how interior_point solves its linear systems");
+    line.ignored_unless(
+        "--factorisation", [this] { return std::ranges::count(options().solvers, "interior_point") > 0; },
+        "only interior_point offers a choice");
   }
 
   /// Solvers but ours have no factorisation to choose.

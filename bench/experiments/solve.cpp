@@ -95,6 +95,14 @@ class Solve final : public ExperimentOf<Measured> {
     trace_.add_to(line);
     line.flag("--costates,!--no-costates", takes_costates_,
               "use the costates of --start FILE as multipliers, for --solver interior_point and auto");
+    line.ignored_unless(
+        "--costates",
+        [this] {
+          const auto uses = [](const std::string& solver) { return solver == "interior_point" || solver == "auto"; };
+          const bool is_file = options().start != "common" && options().start != "guess";
+          return is_file && std::ranges::any_of(options().solvers, uses);
+        },
+        "only interior_point and auto use costates, from --start FILE");
     accuracy_.add_to(line);
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

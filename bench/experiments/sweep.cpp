@@ -27,8 +27,9 @@ class Sweep final : public ExperimentOf<Instance> {
              .description =
                  "Solves a problem for many values of its parameters and end states, one row per instance. The values "
                  "are a grid, every combination of all --over, or random samples (--samples). All instances start from "
-                 "one motion of the unchanged problem (--start common), or each from its own guess. Instances that are "
-                 "not solved keep their rows.",
+                 "one trajectory of the unchanged problem (--start common), so that neighbouring instances tend to "
+                 "share a local minimum, or each from its own guess (--start guess), as solve_batch in Python does. "
+                 "The two ways may end in different minima. Instances that are not solved keep their rows.",
              .options = {.problems = {"two_link_manipulator"},
                          .methods = {"dmoc"},
                          .solvers = {"auto"},
@@ -46,6 +47,8 @@ class Sweep final : public ExperimentOf<Instance> {
     line.number("--samples", samples_, 0, most_instances,
                 "number of instances drawn at random, uniformly from each NAME=LOWER:UPPER; 0: a grid");
     line.number("--seed", seed_, 0, 0xffffffffU, "seed of the samples; the same seed gives the same instances");
+    line.ignored_unless(
+        "--seed", [this] { return samples_ > 0; }, "only --samples draws instances");
   }
   [[nodiscard]] Columns<Instance> columns() const override {
     std::vector<std::string> names;
@@ -90,6 +93,11 @@ class Sweep final : public ExperimentOf<Instance> {
     output.summary.say(fmt::format("sweep: cost from {:.7g} (instance {}) to {:.7g} (instance {})",
                                    solved.front().needed("objective"), solved.front().text("instance"),
                                    solved.back().needed("objective"), solved.back().text("instance")));
+    output.summary.say(options().start == "guess"
+                           ? "sweep: each instance started from its own guess; from one trajectory (--start common) "
+                             "instances may end in other minima"
+                           : "sweep: all instances started from one trajectory; from their own guesses (--start "
+                             "guess), as by solve_batch in Python, they may end in other minima");
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <array>
 #include <ctime>
 #include <iomanip>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -94,6 +95,19 @@ std::string duration_in_words(const ResultsFolder& results) {
   constexpr double minute = 60.0;
   const double seconds = *last - *first;
   return seconds < 2.0 * minute ? fmt::format("{:.1f} s", seconds) : fmt::format("{:.1f} minutes", seconds / minute);
+}
+
+/// The place of a quantity among the orders of a line: orders of the solution precede all others.
+std::size_t rank_of(const std::string& quantity) {
+  constexpr std::array<std::string_view, 4> first{"state", "control", "costate", "objective"};
+  return static_cast<std::size_t>(std::ranges::find(first, quantity) - first.begin());
+}
+
+/// The smallest rank of a line's orders; above all others without orders.
+std::size_t rank_of_line(const Json& line) {
+  std::size_t rank = std::numeric_limits<std::size_t>::max();
+  for (const Json& order : line.at("orders")) rank = std::min(rank, order.at("rank").get<std::size_t>());
+  return rank;
 }
 
 /// A fitted order as "state 2.01 ± 0.02", "state 2.01" where two grids give no error, "costate: floor" without a fit.
@@ -242,7 +256,9 @@ PageModel measured_model(const ResultsFolder& results) {
                 {"finest", 0.0},
                 {"cost", ""}};
       }
-      if (has_orders) line["orders"].push_back({{"table", file}, {"text", order_in_words(row)}});
+      if (has_orders)
+        line["orders"].push_back(
+            {{"table", file}, {"text", order_in_words(row)}, {"rank", rank_of(row.text("quantity"))}});
       if (!has_solves) continue;
       line["rows"] = line["rows"].get<int>() + 1;
       if (is_unsolved(row)) continue;
@@ -257,8 +273,11 @@ PageModel measured_model(const ResultsFolder& results) {
   Json model = Json::array();
   for (auto& [scheme, line] : lines) {
     line["solves"] = line["rows"] > 0 ? fmt::format("{} of {}", line["solved"].dump(), line["rows"].dump()) : "";
+    std::ranges::stable_sort(line["orders"].get_ref<Json::array_t&>(), {},
+                             [](const Json& order) { return order.at("rank").get<std::size_t>(); });
     model.push_back(std::move(line));
   }
+  std::ranges::stable_sort(model.get_ref<Json::array_t&>(), {}, rank_of_line);
   return model;
 }
 

@@ -23,8 +23,13 @@ using PageModel = nlohmann::ordered_json;
 /// screen. Null without claims.
 [[nodiscard]] PageModel claims_model(const ResultsFolder& results);
 
-/// Lines for a folder without claims: fitted orders, cost on the finest grid and solves, by problem and method.
+/// Lines for a folder without claims: fitted orders, cost on the finest grid and solves, by problem and method. Orders
+/// of state, control, costate and cost come first, and so do the lines that have them.
 [[nodiscard]] PageModel measured_model(const ResultsFolder& results);
+
+/// For every problem of a convergence run: which method needs the fewest unknowns for the smallest state error that all
+/// methods reach, and by how much, as a `text` with the `table` that it is computed from.
+[[nodiscard]] PageModel recommendations_model(const ResultsFolder& results);
 
 /// `problems` that the folder solves, each with its motions, statement, optimum and the methods that reach it; those
 /// unknown to the program have a motion only. `others` counts the problems that are not there. Null if no motion was

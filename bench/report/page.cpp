@@ -111,6 +111,7 @@ std::string digest_of_script() {
 std::string report_page(const ResultsFolder& results, const std::string& folder) {
   const Json model{{"claims", claims_model(results)},
                    {"measured", results.claims.empty() ? measured_model(results) : Json()},
+                   {"recommendations", results.claims.empty() ? recommendations_model(results) : Json()},
                    {"gallery", gallery_model(results)},
                    {"figures", figures_model(results, folder)},
                    {"figure_count", results.figures.size()},

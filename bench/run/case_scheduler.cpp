@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -43,7 +44,9 @@ CaseScheduler::CaseScheduler(Experiment& experiment, RunPlan& plan, const Column
     if (!progress_.is_shown() && !is_quiet_) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
   };
   const NamedOptions named = named_options(options_);
-  for (const std::string& solver : options_.solvers) static_cast<void>(make_solver(solver, solver_options_, named));
+  std::set<std::string> solvers;
+  for (const Case& the_case : cases_) solvers.insert(the_case.solver);
+  for (const std::string& solver : solvers) static_cast<void>(make_solver(solver, solver_options_, named));
 }
 
 void CaseScheduler::solve_all() {

@@ -46,6 +46,26 @@ std::string*& complaint_of_thread() {
   return complaint;
 }
 
+/// Of the program that runs in this thread.
+std::string& name_of_program() {
+  thread_local std::string name = "dmocbench";
+  return name;
+}
+
+/// The name of the program within its scope; Python runs one program within another.
+class NameScope {
+ public:
+  explicit NameScope(const std::string& name) : outer_(std::exchange(name_of_program(), name)) {}
+  ~NameScope() { name_of_program() = outer_; }
+  NameScope(const NameScope&) = delete;
+  NameScope& operator=(const NameScope&) = delete;
+  NameScope(NameScope&&) = delete;
+  NameScope& operator=(NameScope&&) = delete;
+
+ private:
+  std::string outer_;
+};
+
 int report_error(const std::string& name, const std::string& sentence) {
   if (std::string* const complaint = complaint_of_thread()) {
     *complaint = one_line(sentence);
@@ -90,6 +110,11 @@ std::string one_line(std::string_view text) {
   }
   if (text.size() > longest) line += fmt::format(" ... ({} more bytes)", text.size() - longest);
   return line;
+}
+
+void remark(const std::string& sentence) {
+  if (sentence.empty()) return;
+  static_cast<void>(std::fputs((name_of_program() + ": " + one_line(sentence) + "\n").c_str(), stderr));
 }
 
 void print_line(const std::string& text) { fmt::print("{}\n", one_line(text)); }
@@ -170,6 +195,11 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
   note(app_.add_flag(names, value, help)->group(group_), role);
 }
 
+void CommandLine::ignored_unless(const std::string& name, std::function<bool()> is_followed,
+                                 const std::string& reason) {
+  conditions_.push_back({name, std::move(is_followed), reason});
+}
+
 void CommandLine::note(const CLI::Option* option, OptionRole role) {
   if (role == OptionRole::result) for_results_.push_back(option);
 }
@@ -189,6 +219,9 @@ std::vector<std::string> CommandLine::parse() {
   app_.parse(argc_, argv_);
   check_environment();
   order_by_one_thread();
+  for (const auto& [name, is_followed, reason] : conditions_) {
+    if (app_.count(name) > 0 && !is_followed()) remark(fmt::format("{} is ignored: {}", name, reason));
+  }
   return {argv_, argv_ + argc_};
 }
 
@@ -225,7 +258,8 @@ std::string name_in_usage(const std::string& name, std::string_view call) {
 
 /// The mistake in a command line; for a mistyped option also the name that was likely meant.
 std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& error) {
-  const auto unknown = app.remaining();
+  auto unknown = app.remaining();
+  if (unknown.size() > 1) std::erase(unknown, "--");
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || unknown.empty()) return error.what();
   const std::string option = unknown.front().substr(0, unknown.front().find('='));
   std::vector<std::string> names;
@@ -242,7 +276,9 @@ std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& 
     const bool is_letter = option == fmt::format("-{}", letter) || option == fmt::format("--{}", letter);
     if (is_letter && std::ranges::find(names, name) != names.end()) meant = name;
   }
-  return meant.empty() ? error.what() : fmt::format("there is no option {} (did you mean {}?)", option, meant);
+  if (!meant.empty()) return fmt::format("there is no option {} (did you mean {}?)", option, meant);
+  return option.starts_with('-') ? fmt::format("there is no option {}", option)
+                                 : fmt::format("{} is not an option", as_shown(option));
 }
 
 }  // namespace
@@ -256,6 +292,7 @@ int run_program(const std::string& name, const std::string& description, int arg
   occupy_closed_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe without a reader: locks and parts are removed
+  const NameScope scope(name);
   try {
     CommandLine line(app, argc, argv);
     const int code = body(line);

@@ -51,6 +51,9 @@ class CommandLine {
   void flag(const std::string& names, bool& value, const std::string& help, OptionRole role = OptionRole::result);
   /// The group of `--help` that options belong to from here on.
   void group(const std::string& name) { group_ = name; }
+  /// For an option that some runs do not follow: where it is given and `is_followed` returns false once all options are
+  /// read, a `remark` states that it is ignored, and the reason.
+  void ignored_unless(const std::string& name, std::function<bool()> is_followed, const std::string& reason);
   /// Text after the options in `--help`.
   void footer(const std::string& text) { footer_ = text; }
   /// The options of a call that `--help` shows as an example; without one it shows the name of the program alone.
@@ -65,6 +68,12 @@ class CommandLine {
  private:
   friend int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                          const std::function<int(CommandLine&)>& body);
+  /// One option of `ignored_unless`.
+  struct Condition {
+    std::string name;
+    std::function<bool()> is_followed;
+    std::string reason;
+  };
   /// Takes note of an option's role.
   void note(const CLI::Option* option, OptionRole role);
   CommandLine(CLI::App& app, int argc, char** argv) : app_(app), argc_(argc), argv_(argv) {}
@@ -84,6 +93,7 @@ class CommandLine {
   std::string meaning_of_1_ = "a row could not be measured";
   std::vector<std::string> lists_;               ///< options with commas between their values
   std::vector<const CLI::Option*> for_results_;  ///< options that change rows
+  std::vector<Condition> conditions_;
 };
 
 /// The groups of `--help` that most programs have: which problem, and where results go.
@@ -98,6 +108,10 @@ inline constexpr const char* group_of_output = "Output";  ///< where results go
 
 /// Prints `one_line` of a text, and ends the line.
 void print_line(const std::string& text);
+
+/// Prints a sentence about an option that the running program does not follow as given, on standard error and with the
+/// program's name in front; the run goes on. An empty sentence is not printed.
+void remark(const std::string& sentence);
 
 /// Runs a program: `body` declares its options, parses them and returns the exit code. Every error becomes one line on
 /// standard error, with the program's `name` in front, and exit code 2, as does standard output that cannot be written;

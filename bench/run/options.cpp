@@ -63,13 +63,30 @@ std::vector<std::string> in_order(const std::string& kind, const std::vector<std
   return names;
 }
 
+/// The chosen problems in the order of the registry. Throws `Error` on an unknown name.
+std::vector<std::string> known_in_order(const std::vector<std::string>& names) {
+  try {
+    return in_order("problem", names, problem_names());
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}, or load the library of the problem with --library", error.what()));
+  }
+}
+
+/// The chosen solvers in the order of the registry; where none is chosen, the usual one of a problem.
+std::vector<std::string> solvers_for(const Problem& problem, const std::vector<std::string>& chosen) {
+  if (!chosen.empty()) return in_order("solver", chosen, solver_names());
+  return {is_of_paper(problem.name()) ? "ipopt" : "auto"};
+}
+
 std::vector<Grid> make_grids(const ExperimentOptions& options) {
   if (!options.grid_file.empty()) {
     const std::vector<double> times = parse_node_times(read_file(options.grid_file));
     return {Grid::from_nodes(Eigen::Map<const Eigen::VectorXd>(times.data(), std::ssize(times)))};
   }
   std::vector<Grid> grids;
-  for (const long long count : parse_intervals("--intervals", options.intervals)) grids.push_back(Grid::uniform(count));
+  const std::vector<long long> counts = parse_intervals("--intervals", options.intervals);
+  remark(remark_on_ranges("--intervals", options.intervals));
+  for (const long long count : counts) grids.push_back(Grid::uniform(count));
   return grids;
 }
 
@@ -131,7 +148,14 @@ std::vector<FamilyAndStages> chosen_stages(const ExperimentOptions& options) {
     }
   }
   for (const int stages : options.stages) {
-    if (std::ranges::count(schemes, stages, &FamilyAndStages::second) > 0) continue;
+    if (std::ranges::count(schemes, stages, &FamilyAndStages::second) > 0) {
+      for (const std::string& family : families) {
+        if (std::ranges::count(schemes, FamilyAndStages(family, stages)) == 0)
+          remark(fmt::format("--stages {} is left out for {}, which supports {}", stages, family,
+                             fmt::join(tableau_stages(family), ", ")));
+      }
+      continue;
+    }
     throw Error(fmt::format("--stages: {} supports {} stages, not {}", families.front(),
                             fmt::join(tableau_stages(families.front()), ", "), stages));
   }
@@ -235,6 +259,11 @@ std::vector<std::shared_ptr<const Problem>> in_chosen_forms(const std::shared_pt
 
 }  // namespace
 
+bool is_of_paper(const std::string& problem) {
+  const std::vector<std::string> names = paper_problem_names();
+  return std::ranges::find(names, problem) != names.end();
+}
+
 void add_options(CommandLine& line, ExperimentOptions& options) {
   line.group(group_of_problem);
   line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
@@ -270,6 +299,8 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
               "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed");
   line.option("--grid", options.grid_file,
               "file with relative node times from 0 to 1, one per line; replaces --intervals");
+  line.ignored_unless(
+      "--intervals", [&options] { return options.grid_file.empty(); }, "--grid replaces it");
   line.group("Start");
   line.option("--start", options.start,
               "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a CSV "
@@ -278,7 +309,9 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
       "--start-seconds", options.start_seconds, 0.0, 1e6,
       "time limit for finding the common start of a problem (and tableau); afterwards solves start at the guess");
   line.group("Solver");
-  line.list("--solver", options.solvers, "solvers, as `list` names them");
+  line.list("--solver", options.solvers,
+            std::string("solvers, as `list` names them") +
+                (options.solvers.empty() ? "; default: ipopt for the paper's two problems, auto for others" : ""));
   line.list("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them");
   line.option("--tolerance", options.tolerance, "tolerance for the KKT residual of the scaled program");
   line.option("--iterations", options.most_iterations, "largest number of iterations of a solver");
@@ -301,12 +334,23 @@ void add_jobs_option(CommandLine& line, ExperimentOptions& options) {
 
 void add_tolerances_option(CommandLine& line, ExperimentOptions& options) {
   line.list("--tolerances", options.tolerances, "several tolerances, a row for each; overrides --tolerance");
+  line.ignored_unless(
+      "--tolerance", [&options] { return options.tolerances.empty(); }, "--tolerances replaces it");
 }
 
 void add_batch_option(CommandLine& line, ExperimentOptions& options) {
   line.flag("--batch,!--no-batch", options.batch,
             "solve cases of interior_point that differ only in start, parameters or ends eight at a time, without "
             "times; not with --seconds, --option, --verbose or --repeats");
+  line.ignored_unless(
+      "--batch",
+      [&options] {
+        const bool is_plain = options.most_seconds <= 0.0 && options.passed_on.empty() && !options.verbose &&
+                              options.repeats == 1 && options.derivatives == ExperimentOptions().derivatives;
+        const auto is_ours = [](const std::string& name) { return name == "interior_point" || name == "auto"; };
+        return !options.batch || (is_plain && std::ranges::any_of(options.solvers, is_ours));
+      },
+      "batches take interior_point and auto, without --seconds, --option, --verbose, --repeats and --derivatives");
 }
 
 void add_part_options(CommandLine& line, ExperimentOptions& options) {
@@ -362,7 +406,7 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
     if (is_chosen) throw Error(refusal.reason);
     if (all) faults->push_back(refusal.reason);
   }
-  const std::vector<std::string> chosen = all ? problem_names() : in_order("problem", names, problem_names());
+  const std::vector<std::string> chosen = all ? problem_names() : known_in_order(names);
   problems.reserve(chosen.size());
   for (const std::string& name : chosen) problems.push_back(make_unchecked_problem(name));
   for (const std::string& setting : settings) {
@@ -405,7 +449,7 @@ std::vector<std::shared_ptr<const Problem>> ProblemOptions::selected() const {
 
 std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const std::vector<ChosenScheme> schemes = chosen_schemes(options);
-  const auto solvers = in_order("solver", options.solvers, solver_names());
+  if (!options.solvers.empty()) static_cast<void>(in_order("solver", options.solvers, solver_names()));
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
   const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());
   require_name_of_table(options.name);
@@ -413,12 +457,14 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const std::vector<Grid> grids = make_grids(options);
   const CostForm form = cost_form_named(options.form);
   std::vector<Case> cases;
+  std::set<std::string> left_out;
   const bool all = options.problems == std::vector<std::string>{"all"};
   std::vector<std::shared_ptr<const Problem>> problems;
   for (const auto& problem : selected_problems(options.problems, options.settings)) {
     std::ranges::move(in_chosen_forms(problem, options), std::back_inserter(problems));
   }
   for (const auto& problem : problems) {
+    const std::vector<std::string> solvers = solvers_for(*problem, options.solvers);
     // Of all problems those with holonomic constraints are left out where a method lacks them; alone they are refused.
     const TracedProblem traced(*problem);
     const auto is_offered = [&](const ChosenScheme& scheme) {
@@ -441,7 +487,10 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
       }
     }
     for (const ChosenScheme& scheme : schemes) {
-      if (!is_offered(scheme)) continue;
+      if (!is_offered(scheme)) {
+        left_out.insert(fmt::format("{} by {}", problem->name(), scheme.method));
+        continue;
+      }
       const auto& [method, tableau, stages] = scheme;
       for (const std::string& solver : solvers) {
         for (const std::string& derivatives : back_ends) {
@@ -452,6 +501,8 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
       }
     }
   }
+  if (!left_out.empty())
+    remark(fmt::format("--problem all leaves out, for their holonomic constraints: {}", fmt::join(left_out, ", ")));
   return cases;
 }
 
@@ -476,6 +527,19 @@ std::vector<long long> parse_intervals(std::string_view option, std::string_view
     }
   } while (!rest.empty());
   return {counts.begin(), counts.end()};
+}
+
+std::string remark_on_ranges(std::string_view option, std::string_view text) {
+  std::vector<std::string> remarks;
+  while (!text.empty()) {
+    const std::string_view entry = take_part(text, ',');
+    const std::size_t colon = entry.find(':');
+    if (colon == std::string_view::npos) continue;
+    const std::vector<long long> counts = parse_intervals(option, entry);
+    if (counts.back() == parse_count(option, entry.substr(colon + 1))) continue;
+    remarks.push_back(fmt::format("{} {} takes {}", option, entry, fmt::join(counts, ", ")));
+  }
+  return remarks.empty() ? "" : fmt::format("{}: a range doubles its start", fmt::join(remarks, "; "));
 }
 
 std::vector<double> parse_node_times(std::string_view text) {

@@ -24,7 +24,7 @@ struct ExperimentOptions {
   std::vector<std::string> quadratures = {};            ///< of galerkin; empty: the tableaus
   std::vector<int> points = {};                         ///< of its quadratures; empty: s, of Lobatto s + 1
   std::vector<int> control_nodes = {};                  ///< of galerkin; empty: s
-  std::vector<std::string> solvers{"ipopt"};            ///< names of solvers
+  std::vector<std::string> solvers = {};                ///< empty: ipopt for the paper's problems, auto for others
   std::vector<std::string> derivatives{"tape"};         ///< names of back ends
   std::string intervals = {};                           ///< numbers of intervals, as on the command line
   std::filesystem::path grid_file = {};                 ///< relative node times; replaces `intervals`
@@ -51,6 +51,9 @@ struct ExperimentOptions {
 
 /// The numbers in `tolerances`. Throws `Error` if one is not a number or out of range.
 [[nodiscard]] std::vector<double> chosen_tolerances(const ExperimentOptions& options);
+
+/// Whether a problem is one of the two of the paper's section 4.
+[[nodiscard]] bool is_of_paper(const std::string& problem);
 
 /// Registers the options with their help.
 void add_options(CommandLine& line, ExperimentOptions& options);
@@ -98,6 +101,10 @@ struct ProblemOptions {
 /// or a mixture; ascending, each once, at most 1000. Throws `Error` that names the option and quotes the entry if one
 /// is not a whole number between 1 and Grid::most_intervals, or a range ends below its start or holds its start alone.
 [[nodiscard]] std::vector<long long> parse_intervals(std::string_view option, std::string_view text);
+
+/// States which numbers the ranges of such a list take whose end is not reached by doubling, as "--intervals 16:100
+/// takes 16, 32, 64"; empty if there is no such range.
+[[nodiscard]] std::string remark_on_ranges(std::string_view option, std::string_view text);
 
 /// Relative node times, one per line, from a file. Throws `Error` that names the line if one is not a number.
 [[nodiscard]] std::vector<double> parse_node_times(std::string_view text);

@@ -255,6 +255,13 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     line.exit_code_1(wants_motions ? "a row is not solved, or is not a motion"
                                    : "a curve has no usable row (its rows have the reasons)");
     add_options(line, experiment.options());
+    line.ignored_unless(
+        "--start-seconds",
+        [&card] {
+          const std::string& start = card.options.start;
+          return start == "common" || (start == "guess" && card.branches == BranchReport::of_any_start);
+        },
+        "only --start common is searched for");
     RunSummary summary;
     summary.add_to(line);
     line.group("Work");

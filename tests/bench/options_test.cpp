@@ -31,6 +31,13 @@ TEST(Intervals, ARangeDoublesUpToItsEnd) {
   EXPECT_EQ(intervals("7:7"), (Counts{7}));
 }
 
+TEST(Intervals, ARangeThatDoublingDoesNotEndIsStatedWithTheNumbersThatItTakes) {
+  for (const char* text : {"8:1024", "7:7", "3:12,48", "16,48,64"})
+    EXPECT_EQ(remark_on_ranges("--intervals", text), "");
+  EXPECT_EQ(remark_on_ranges("--intervals", "5,16:100,8:17"),
+            "--intervals 16:100 takes 16, 32, 64; --intervals 8:17 takes 8, 16: a range doubles its start");
+}
+
 TEST(Intervals, AListIsSortedAndEachEntryOccursOnce) {
   EXPECT_EQ(intervals("48,16"), (Counts{16, 48}));
   EXPECT_EQ(intervals("16,16"), (Counts{16}));
@@ -87,6 +94,20 @@ TEST(Intervals, MoreThanFitIntoMemoryAreRefused) {
   const auto counts = std::views::iota(1, 1002);
   expect_error_naming({"--intervals", "1000"},
                       [&] { static_cast<void>(intervals(fmt::format("{}", fmt::join(counts, ",")))); });
+}
+
+TEST(Solvers, AreThoseOfSolveUnlessTheProblemIsThePapers) {
+  ExperimentOptions options{.problems = {"cart_pole", "two_link_manipulator"}, .intervals = "16", .name = "any"};
+  for (const Case& the_case : expand_cases(options))
+    EXPECT_EQ(the_case.solver, is_of_paper(the_case.problem->name()) ? "ipopt" : "auto");
+  options.solvers = {"sqp"};
+  for (const Case& the_case : expand_cases(options)) EXPECT_EQ(the_case.solver, "sqp");
+}
+
+TEST(Problems, ThatAreUnknownMayBeInALibrary) {
+  const ExperimentOptions options{.problems = {"crane_lift"}, .intervals = "16", .name = "any"};
+  expect_error_naming({"there is no problem \"crane_lift\"", "--library"},
+                      [&] { static_cast<void>(expand_cases(options)); });
 }
 
 ExperimentOptions by_galerkin(std::vector<int> stages) {

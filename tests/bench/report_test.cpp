@@ -244,6 +244,70 @@ TEST(Report, TellsOrdersAndSolvesWhereNobodyHasJudged) {
   EXPECT_FALSE(has(lines(), "arm by DMOC"));
 }
 
+/// A folder with the cost of equal accuracy: the methods need these numbers of variables for equal errors.
+ResultsFolder folder_with_costs(const std::vector<std::pair<std::string, int>>& variables, int solved_of_last = 2) {
+  ResultsFolder results;
+  std::string solves = "problem,method,tableau,stages,solver,derivatives,status,intervals\n";
+  std::string costs = "problem,tableau,stages,solver,derivatives,quantity,error,method,variables\n";
+  for (const auto& [method, count] : variables) {
+    const bool is_last = method == variables.back().first;
+    for (int grid = 0; grid < 2; ++grid)
+      solves += fmt::format("arm,{},gauss,1,auto,tape,{},{}\n", method,
+                            is_last && grid >= solved_of_last ? "time limit" : "solved", 16 << grid);
+    for (const char* const quantity : {"state", "replay"}) {
+      for (const int tenfold : {1, 10})
+        costs += fmt::format("arm,gauss,1,auto,tape,{},{},{},{}\n", quantity, 0.1 / tenfold, method, count * tenfold);
+    }
+  }
+  results.tables.push_back({"convergence.csv", "convergence", Table::from_csv(solves)});
+  results.tables.push_back({"convergence_equal_accuracy.csv", "convergence", Table::from_csv(costs)});
+  return results;
+}
+
+TEST(Report, RecommendsTheMethodThatNeedsTheFewestVariablesWhicheverItIs) {
+  const std::vector<std::string> methods{"dmoc", "hamiltonian", "tangent"};
+  for (std::size_t best = 0; best < methods.size(); ++best) {
+    std::vector<std::pair<std::string, int>> variables;
+    for (std::size_t i = 0; i < methods.size(); ++i) variables.emplace_back(methods[i], i == best ? 10 : 20);
+    const Json all = recommendations_model(folder_with_costs(variables));
+    ASSERT_EQ(all.size(), 1U);
+    const auto text = all[0].at("text").get<std::string>();
+    EXPECT_TRUE(has(text, "Use " + methods[best] + " for arm: at a state error of 1.0e-02")) << text;
+    EXPECT_TRUE(has(text, " needs 100 free variables")) << text;
+    EXPECT_TRUE(has(text, "200 (2.00 times as many)")) << text;
+  }
+}
+
+TEST(Report, RecommendsNoMethodWithoutADifferenceOrACommonError) {
+  const auto text = [](const ResultsFolder& results) {
+    return recommendations_model(results).at(0).at("text").get<std::string>();
+  };
+  EXPECT_TRUE(has(text(folder_with_costs({{"dmoc", 100}, {"tangent", 104}})), "No method is ahead for arm"));
+  EXPECT_TRUE(has(text(folder_with_costs({{"dmoc", 100}, {"tangent", 200}}, 1)),
+                  "With tangent, 1 of 2 grids have a usable solution."));
+  ResultsFolder without_states = folder_with_costs({{"dmoc", 100}});
+  std::string costs = without_states.tables.back().table.csv();
+  for (std::size_t at = costs.find("state"); at != std::string::npos; at = costs.find("state")) costs[at] = 'x';
+  without_states.tables.back().table = Table::from_csv(costs);
+  EXPECT_TRUE(has(text(without_states), "No method is recommended for arm"));
+}
+
+TEST(Report, ShowsTheOrdersOfTheSolutionBeforeAllOthers) {
+  ResultsFolder results;
+  const std::string head = "problem,method,tableau,stages,quantity,slope,standard_error,verdict\n";
+  results.tables.push_back({"a_slopes.csv", "a", Table::from_csv(head + "arm,dmoc,,,gap,2,0.1,slope\n")});
+  results.tables.push_back(
+      {"b_slopes.csv", "b",
+       Table::from_csv(head + "arm,dmoc,gauss,1,momentum,2,0.1,slope\narm,dmoc,gauss,1,objective,2,0.1,slope\n"
+                              "arm,dmoc,gauss,1,state,2,0.1,slope\n")});
+  std::vector<std::string> quantities;
+  for (const Json& line : measured_model(results)) {
+    for (const Json& order : line.at("orders")) quantities.push_back(order.at("text").get<std::string>());
+  }
+  EXPECT_EQ(quantities, (std::vector<std::string>{"state 2.000 ± 0.1", "objective 2.000 ± 0.1", "momentum 2.000 ± 0.1",
+                                                  "gap 2.000 ± 0.1"}));
+}
+
 TEST(Report, RunsNothingThatStandsInATableAClaimOrAMotion) {
   const std::string hostile = "\"></summary><script>alert(1)</script>'&{{script}}";
   ResultsFolder results = folder_with(Table::from_csv("problem,<img>\n<script>alert(1)</script>,</table>\nb,c\n"));

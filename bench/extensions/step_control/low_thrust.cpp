@@ -127,6 +127,7 @@ Measured measured(const ReferenceTransfer& reference, const std::string& method,
 
 std::vector<int> whole_numbers(const char* option, const std::string& text) {
   const std::vector<long long> parsed = parse_intervals(option, text);
+  remark(remark_on_ranges(option, text));
   return {parsed.begin(), parsed.end()};
 }
 
