@@ -487,7 +487,8 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
     """Solves many instances of one problem, eight side by side in vector registers, on all processors.
 
     parameters: a dict of names to arrays, one number per instance; start, end: arrays of states (q, v), a row of 2n
-    numbers per instance. Missing values are the problem's. Both ends and the horizon must be fixed. most_seconds: of the
+    numbers per instance. Missing values are the problem's. Both ends and the horizon must be fixed. Each instance starts
+    at its own guess; run("sweep") starts all from one trajectory and may end in other minima. most_seconds: of the
     whole batch, 0 for no limit; instances that are not solved by then are a "time limit". Returns a `Batch`. Throws Error
     on misuse.
     """
