@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bench/claims/claim.hpp"
 #include "bench/claims/result_tables.hpp"
 #include "bench/report/model.hpp"
 #include "bench/report/words.hpp"
@@ -62,7 +63,8 @@ Json evidence_of(const Json& claim, const ResultsFolder& results) {
 /// "build/bench/claims --out results" for "build/bench/convergence --out results ...", "dmocbench claims" for
 /// "dmocbench convergence": the command that judges the tables of a run.
 std::string command_that_judges(const Json& metadata) {
-  const auto words = metadata.at("command_line").get<std::vector<std::string>>();
+  auto words = metadata.at("command_line").get<std::vector<std::string>>();
+  std::ranges::transform(words, words.begin(), without_folders);
   const std::string judge = words.front().substr(0, words.front().find_last_of("/ ") + 1) + "claims";
   const auto out = std::ranges::find(words, "--out");
   return words.end() - out < 2 ? judge : fmt::format("{} --out {}", judge, *(out + 1));
@@ -106,6 +108,7 @@ Json values_of(const Json& claim) {
 Json item_of(Json claim, const ResultsFolder& results) {
   const Json evidence = evidence_of(claim, results);
   claim["problem_words"] = in_words(text(claim, "problem"));
+  claim["verdict_words"] = verdict_in_words(text(claim, "verdict"), text(claim, "whose"));
   claim["first"] = claim.at("measured").empty() ? "" : text(claim.at("measured").front(), "text");
   claim["values"] = values_of(claim);
   claim["commands"] = commands_of(evidence, results);
@@ -117,7 +120,8 @@ bool is_reproduced(const Json& entry) {
   return std::ranges::all_of(entry.at("items"), [](const Json& item) { return item.at("verdict") == "reproduced"; });
 }
 
-/// The claims with the same name and statement are one entry; those that are not reproduced come first.
+/// The claims with the same name and statement are one entry; opposite findings of one name stand together, and those
+/// that are not reproduced come first.
 Json entries_of(const std::vector<Json>& items) {
   std::vector<Json> entries;
   for (const Json& item : items) {
@@ -127,11 +131,14 @@ Json entries_of(const std::vector<Json>& items) {
     if (same != entries.end()) {
       (*same)["items"].push_back(item);
     } else {
-      entries.push_back({{"name", text(item, "name")},
-                         {"name_words", in_words(text(item, "name"))},
-                         {"claim", item.at("claim")},
-                         {"states", item.at("states")},
-                         {"items", {item}}});
+      const auto last = std::find_if(entries.rbegin(), entries.rend(),
+                                     [&item](const Json& entry) { return entry.at("name") == item.at("name"); });
+      const Json entry{{"name", text(item, "name")},
+                       {"name_words", in_words(text(item, "name"))},
+                       {"claim", item.at("claim")},
+                       {"states", item.at("states")},
+                       {"items", {item}}};
+      entries.insert(last == entries.rend() ? entries.end() : last.base(), entry);
     }
   }
   std::ranges::stable_partition(entries, std::not_fn(is_reproduced));
@@ -148,13 +155,38 @@ Json reason_of(const Json& entry) {
   return "";
 }
 
-/// How many items have which verdict.
+/// How many items have which verdict, in the order of `all_verdicts`, then the others.
 Json score_of(const std::vector<Json>& items) {
-  std::map<std::string, int> counts;
-  for (const Json& item : items) ++counts[text(item, "verdict")];
+  std::vector<std::string> verdicts;
+  for (const ClaimVerdict verdict : all_verdicts) verdicts.emplace_back(name_of(verdict));
+  for (const Json& item : items) {
+    if (std::ranges::count(verdicts, text(item, "verdict")) == 0) verdicts.push_back(text(item, "verdict"));
+  }
   Json score = Json::array();
-  for (const auto& [verdict, count] : counts) score.push_back({{"verdict", verdict}, {"count", count}});
+  for (const std::string& verdict : verdicts) {
+    const auto count = std::ranges::count(items, verdict, [](const Json& item) { return text(item, "verdict"); });
+    if (count == 0) continue;
+    score.push_back({{"verdict", verdict}, {"count", count}});
+    score.back()["words"] = verdict_in_words(verdict, text(items.front(), "whose"), static_cast<std::size_t>(count));
+  }
   return score;
+}
+
+/// The titles of the paper's sections.
+std::string title_of_section(const std::string& number) {
+  static const std::map<std::string, const char*, std::less<>> titles{
+      {"2.1", "Variational mechanics"},
+      {"2.2", "Discrete mechanics"},
+      {"2.3", "Discrete and continuous Lagrangian systems"},
+      {"3.3", "Discrete and continuous optimal control"},
+      {"3.4", "Correspondence with Runge-Kutta methods"},
+      {"3.5", "Adjoint systems"},
+      {"3.6", "Convergence"},
+      {"4.1", "Implementation"},
+      {"4.2.1", "Low-thrust orbital transfer"},
+      {"4.2.2", "Two-link manipulator"}};
+  const auto found = titles.find(number);
+  return found == titles.end() ? "" : found->second;
 }
 
 /// The place of a claim on the page: the paper's by sections, then findings, misprints, extensions.
@@ -173,16 +205,12 @@ std::pair<std::size_t, std::string> group_of(const Json& claim) {
 PageModel claims_model(const ResultsFolder& results) {
   if (results.claims.empty()) return {};
   std::map<std::pair<std::size_t, std::string>, std::vector<Json>> groups;
-  std::vector<Json> of_paper;
-  Json model{{"by_name", Json::object()}, {"open", Json::array()}, {"groups", Json::array()}};
+  std::vector<Json> statements;
+  Json model{{"open", Json::array()}, {"groups", Json::array()}};
   for (const Json& claim : results.claims) {
     const Json item = item_of(claim, results);
     groups[group_of(claim)].push_back(item);
-    if (text(claim, "whose") == "paper") of_paper.push_back(item);
-    Json& named = model["by_name"][text(claim, "name")];
-    if (named.is_null())
-      named = {{"states", item.at("states")}, {"section", section_of(claim)}, {"items", Json::array()}};
-    named["items"].push_back(item);
+    if (text(claim, "whose") == "paper") statements.push_back(item);
   }
   for (const auto& [place, items] : groups) {
     const Json entries = entries_of(items);
@@ -194,25 +222,29 @@ PageModel claims_model(const ResultsFolder& results) {
     }
     std::string id = place.second;
     std::ranges::replace(id, ' ', '-');
-    model["groups"].push_back(
-        {{"title", place.second},
-         {"id", id},
-         {"number", place.second.substr(std::min(place.second.find_first_of("0123456789"), place.second.size()))},
-         {"of_paper", is_of_paper},
-         {"all", items.size()},
-         {"score", score_of(items)},
-         {"entries", entries}});
+    const std::string number =
+        place.second.substr(std::min(place.second.find_first_of("0123456789"), place.second.size()));
+    model["groups"].push_back({{"title", place.second},
+                               {"id", id},
+                               {"number", number},
+                               {"subject", title_of_section(number)},
+                               {"of_paper", is_of_paper},
+                               {"all", items.size()},
+                               {"score", score_of(items)},
+                               {"entries", entries}});
   }
-  model["statements"] = of_paper.size();
+  model["statements"] = statements.size();
   model["reproduced"] =
-      std::ranges::count(of_paper, "reproduced", [](const Json& item) { return text(item, "verdict"); });
-  model["score"] = score_of(of_paper);
+      std::ranges::count(statements, "reproduced", [](const Json& item) { return text(item, "verdict"); });
+  model["score"] = score_of(statements);
   return model;
 }
 
 std::string section_of(const Json& claim) {
   const std::string where = text(claim, "where");
-  return where.substr(0, where.find(','));
+  const std::size_t number = where.find_first_of("0123456789");
+  if (number == std::string::npos) return where.substr(0, where.find(','));
+  return "section " + where.substr(number, where.find_first_not_of("0123456789.", number) - number);
 }
 
 }  // namespace dmocbench

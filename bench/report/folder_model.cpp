@@ -123,7 +123,9 @@ std::string order_in_words(const Row& row) {
 
 std::string command_of(const Json* metadata) {
   if (metadata == nullptr) return "";
-  return fmt::format("{}", fmt::join(metadata->at("command_line").get<std::vector<std::string>>(), " "));
+  auto words = metadata->at("command_line").get<std::vector<std::string>>();
+  std::ranges::transform(words, words.begin(), without_folders);
+  return fmt::format("{}", fmt::join(words, " "));
 }
 
 bool is_unsolved(const Row& row) { return !is_solved(status_named(row.text("status"))); }

@@ -19,9 +19,13 @@ using PageModel = nlohmann::ordered_json;
 
 /// `groups` of the claims as claims.json has them, by section of the paper, then by whose they are: a statement about
 /// several problems is one of the `entries`, with an item for each problem. `open` are the entries of the paper that
-/// are not reproduced for all problems, `by_name` all entries by the claim's name, for the questions of the first
-/// screen. Null without claims.
+/// are not reproduced for all problems. Null without claims.
 [[nodiscard]] PageModel claims_model(const ResultsFolder& results);
+
+/// The answers to the questions of the first screen, in order: `question`, `answer`, what limits it (`but`), `number`
+/// and `unit`, the verdicts on which it rests, and `cells`, a small picture of each of the paper's problems. A question
+/// whose tables are missing is left out.
+[[nodiscard]] PageModel answers_model(const ResultsFolder& results);
 
 /// Lines for a folder without claims: fitted orders, cost on the finest grid and solves, by problem and method. Orders
 /// of state, control, costate and cost come first, and so do the lines that have them.
@@ -65,13 +69,13 @@ inline constexpr std::size_t most_rows = 1000;
 /// Warnings, the extent of the comparison, machine, date, and the unsolved cases.
 [[nodiscard]] PageModel run_model(const ResultsFolder& results);
 
-/// The command line in a run's metadata; empty without metadata.
+/// The command line in a run's metadata, without the folders of absolute paths; empty without metadata.
 [[nodiscard]] std::string command_of(const nlohmann::ordered_json* metadata);
 
 /// Whether the row is a solve that ended otherwise than solved; for tables that have a status.
 [[nodiscard]] bool is_unsolved(const Row& row);
 
-/// "section 3.4" of a claim about "section 3.4, th:equi".
+/// "section 3.4" of a claim about "section 3.4, th:equi", the first of several sections.
 [[nodiscard]] std::string section_of(const nlohmann::ordered_json& claim);
 
 /// Whether a table has all of these columns.

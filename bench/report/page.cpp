@@ -16,8 +16,7 @@
 
 DMOCBENCH_EMBEDDED_FILE(page, "plots/report/page.mustache");
 DMOCBENCH_EMBEDDED_FILE(first_screen, "plots/report/first_screen.mustache");
-DMOCBENCH_EMBEDDED_FILE(answer, "plots/report/answer.mustache");
-DMOCBENCH_EMBEDDED_FILE(verdicts, "plots/report/verdicts.mustache");
+DMOCBENCH_EMBEDDED_FILE(small_picture, "plots/report/small_picture.mustache");
 DMOCBENCH_EMBEDDED_FILE(claims, "plots/report/claims.mustache");
 DMOCBENCH_EMBEDDED_FILE(claim, "plots/report/claim.mustache");
 DMOCBENCH_EMBEDDED_FILE(problems, "plots/report/problems.mustache");
@@ -35,10 +34,9 @@ namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
 /// Templates within the page by the names by which they read each other; names of values differ from these.
-constexpr std::array<std::pair<const char*, const char*>, 9> templates{
+constexpr std::array<std::pair<const char*, const char*>, 8> templates{
     {{"first_screen_part", dmocbench_file_first_screen},
-     {"answer_part", dmocbench_file_answer},
-     {"verdicts_part", dmocbench_file_verdicts},
+     {"small_picture_part", dmocbench_file_small_picture},
      {"claims_part", dmocbench_file_claims},
      {"claim_part", dmocbench_file_claim},
      {"problems_part", dmocbench_file_problems},
@@ -109,7 +107,10 @@ std::string digest_of_script() {
 }  // namespace
 
 std::string report_page(const ResultsFolder& results, const std::string& folder) {
+  const Json answers = results.claims.empty() ? Json::array() : answers_model(results);
   const Json model{{"claims", claims_model(results)},
+                   {"answers", answers},
+                   {"heads", answers.empty() ? Json::array() : answers.front().at("cells")},
                    {"measured", results.claims.empty() ? measured_model(results) : Json()},
                    {"recommendations", results.claims.empty() ? recommendations_model(results) : Json()},
                    {"gallery", gallery_model(results)},

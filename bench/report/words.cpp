@@ -1,7 +1,9 @@
 #include "bench/report/words.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/format.h>
@@ -21,7 +23,34 @@ std::string galerkin_in_words(const Family& family, std::string_view method) {
                      in_words(spaces.substr(bar + 1)));
 }
 
+/// "10⁻¹²" of -12.
+std::string power_of_ten(int exponent) {
+  constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = "10";
+  for (const char letter : fmt::format("{}", exponent))
+    text += letter == '-' ? "⁻" : digits[static_cast<std::size_t>(letter - '0')];
+  return text;
+}
+
 }  // namespace
+
+std::string scientific(double value) {
+  const std::string text = fmt::format("{:.0e}", value);  // "3e-12"
+  const std::size_t e = text.find('e');
+  return e == std::string::npos ? text : text.substr(0, e) + "·" + power_of_ten(std::stoi(text.substr(e + 1)));
+}
+
+std::string tick(double value) {
+  const bool is_short = value >= 0.01 && value <= 9999.0;
+  return is_short ? fmt::format("{:g}", value) : power_of_ten(static_cast<int>(std::lround(std::log10(value))));
+}
+
+std::string verdict_in_words(std::string_view verdict, std::string_view whose, std::size_t count) {
+  const bool is_own = whose == "ours" || whose == "extension";
+  if (verdict == "reproduced" && is_own) return count == 1 ? "holds" : "hold";
+  if (verdict == "differs" && is_own) return count == 1 ? "does not hold" : "do not hold";
+  return verdict == "differs" && count != 1 ? "differ" : std::string(verdict);
+}
 
 std::string in_words(std::string_view name) {
   std::string words(name);
@@ -55,6 +84,15 @@ std::string link_to_file(std::string_view path) {
     }
   }
   return link;
+}
+
+std::string without_folders(const std::string& word) {
+  const std::size_t equals = word.find("=/");
+  const std::size_t begin = word.starts_with('/') ? 0 : equals == std::string::npos ? equals : equals + 1;
+  const std::size_t end = word.find_last_not_of('/');  // of the name, without "/" at the end
+  if (begin >= word.size() || end == std::string::npos || end < begin) return word;
+  const std::size_t name = word.rfind('/', end) + 1;
+  return word.substr(0, begin) + word.substr(name, end + 1 - name);
 }
 
 std::string base64(std::string_view bytes) {

@@ -1,4 +1,4 @@
-// The page is readable without this; it adds filters, figures and tables that unpack when opened, moving trajectories, small pictures.
+// The page is readable without this; it adds filters, figures and tables that unpack when opened, moving trajectories.
 "use strict";
 const all = (selector, inside = document) => [...inside.querySelectorAll(selector)];
 const node = (tag, set = {}, ...children) => { const made = Object.assign(document.createElement(tag), set); made.append(...children); return made; };
@@ -246,59 +246,5 @@ for (const form of all(".filter")) {
   form.addEventListener("submit", (event) => event.preventDefault());
   form.hidden = false;
 }
-
-// --- Small pictures of the first screen: what they show is in the attributes of their figures
-const method_words = { dmoc: "DMOC", hamiltonian: "Hamiltonian", tangent: "tangent-space" };
-const superscript = (text) => text.replace(/[-\d]/g, (letter) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(letter)]);
-async function plot(figure) {
-  const { plot: kind, table, where, x, y, by, last } = figure.dataset, data = await table_of(table);
-  if (!data) return;
-  const place = new Map(data.columns.map((column, i) => [column.name, i])), wanted = where.split(" ").map((condition) => condition.split("="));
-  const number = (row, column) => Number(row[place.get(column)] || NaN);
-  let rows = data.rows.filter((row) => wanted.every(([column, text]) => row[place.get(column)] === text));
-  if (last) rows = rows.filter((row) => number(row, last) === Math.max(...rows.map((other) => number(other, last))));
-  const methods = Object.keys(method_words).map((method) => [method, rows.filter((row) => row[place.get("method")] === method)]).filter(([, own]) => own.length);
-  if (!methods.length) return;
-  const svg = drawn("svg", { class: "small", viewBox: "0 0 268 88", role: "img", "aria-label": figure.querySelector("figcaption").textContent }, figure);
-  figure.querySelector("figcaption").hidden = false;
-  figure.querySelector("figcaption").after(svg);
-  (kind === "curves" ? curves : bars)(svg, methods, (row) => [number(row, x), number(row, y)], (row) => number(row, x) / (by ? number(row, by) : 1));
-}
-function curves(svg, methods, point) {
-  const series = methods.map(([method, rows]) => [method, rows.map(point).filter(([x, y]) => x > 0 && y > 0).sort((a, b) => a[0] - b[0])]).filter(([, points]) => points.length);
-  const every = series.flatMap(([, points]) => points);
-  if (every.length < 2) return svg.remove();
-  const scale = (values, from, to) => { const low = Math.log(Math.min(...values)), size = Math.log(Math.max(...values)) - low || 1; return (v) => +(from + (Math.log(v) - low) / size * (to - from)).toFixed(1); };
-  const xs = every.map(([x]) => x), ys = every.map(([, y]) => y), X = scale(xs, 38, 186), Y = scale(ys, 68, 12);
-  const ends = (values) => [...new Set([Math.ceil(Math.log10(Math.min(...values))), Math.floor(Math.log10(Math.max(...values)))])].filter((power) => 10 ** power <= Math.max(...values));
-  for (const power of ends(ys)) {
-    drawn("path", { class: "grid", d: `M32 ${Y(10 ** power)}H190` }, svg);
-    drawn("text", { class: "tick", x: 28, y: Y(10 ** power) + 3.5, "text-anchor": "end" }, svg, "10" + superscript(String(power)));
-  }
-  for (const x of [Math.min(...xs), Math.max(...xs)]) drawn("text", { class: "tick", x: X(x), y: 85, "text-anchor": "middle" }, svg, x);
-  for (const [method, points] of series) {
-    const group = drawn("g", { class: method }, svg), at = points.map(([x, y]) => [X(x), Y(y)]);
-    drawn("polyline", { points: at.join(" ") }, group);
-    for (const [cx, cy] of at) drawn("use", { href: "#mark-" + method, x: cx, y: cy }, group);
-  }
-  // Names stand at the ends of the curves, below each other where the curves meet.
-  const names = series.map(([method, points]) => ({ method, y: Y(points.at(-1)[1]) + 4 })).sort((a, b) => a.y - b.y);
-  for (let i = names.length - 1, lowest = 84; i >= 0; --i, lowest = names[i + 1].y - 11) names[i].y = Math.min(names[i].y, lowest);
-  names.forEach(({ method, y }, i) => { if (i > 0) names[i].y = Math.max(y, names[i - 1].y + 11); drawn("text", { class: "direct " + method, x: 196, y: names[i].y }, svg, method_words[method]); });
-}
-function bars(svg, methods, point, value) {
-  const shown = methods.map(([method, rows]) => [method, rows.map(value).filter(Number.isFinite)]).filter(([, values]) => values.length).map(([method, values]) => [method, values.reduce((a, b) => a + b) / values.length]);
-  const most = Math.max(1, ...shown.map(([, v]) => v));
-  svg.setAttribute("viewBox", `0 0 268 ${27 * shown.length + 4}`);
-  shown.forEach(([method, v], i) => {
-    const group = drawn("g", { class: method }, svg), y = 4 + 27 * i, width = 118 * v / most;
-    drawn("use", { href: "#mark-" + method, x: 6, y: y + 8 }, group);
-    drawn("text", { class: "direct", x: 15, y: y + 12 }, group, method === "tangent" ? "tangent" : method_words[method]);
-    drawn("rect", { x: 98, y, width, height: 15, rx: 1.5 }, group);
-    drawn("text", { class: "value", x: 104 + width, y: y + 12 }, group, +v.toPrecision(3));
-  });
-}
-all("figure[data-plot] p").forEach(keep_numbers);
-for (const figure of all("figure[data-plot]")) plot(figure);
 
 open_target();
