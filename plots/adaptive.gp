@@ -21,8 +21,8 @@ do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_adaptive", 680)
     figure_title = title_text(problem_label(problem).": steps of adapted grids",\
-        "Paper: “Adaptive Time Steps”, section 5. DMOC, Gauss with s stages, an error of 1e-8 of q, p and cost relative to their ranges.",\
-        "Above: length of every step; below: the motion at the nodes for s = 3.")
+        paper_note(problem, "section 5")."DMOC, Gauss with s stages, an error of 1e-8 of q, p and cost relative to their ranges.",\
+        "Above: length of every step; below: the trajectory at the nodes for s = 3.")
     eval title_above
     eval place(90, 750, 310, top_of_panels(figure_title) + 15)
     set xrange [0:T_max]
@@ -53,8 +53,8 @@ quantities = "state momentum costate objective"
 do for [kind in kinds] {
   eval begin_figure(kind, "adaptive_effectivity", 800)
   figure_title = title_text("Estimated error over true error",\
-      "Paper: “Adaptive Time Steps”, section 5. Every problem, one and two stages, uniform grids with N = 64 and 128 and grids adapted to 1e-4 or 1e-6.",\
-      "True errors: against the indirect solution, above rounding; broken lines: 0.3 and 3.")
+      "Paper: section 5. Every problem, s = 1 and 2, uniform grids with N = 64 and 128 and adapted grids.",\
+      "True errors: against the indirect solution, above round-off; broken lines: 0.3 and 3.")
   eval panels(2, 2, 80, 25, 115, 20, 45)
   do for [quantity in quantities] {
     eval power_axis("xy")

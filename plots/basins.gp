@@ -40,11 +40,11 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
   has(where) = system(rows_awk("-v take=all -v distinct=problem -v where='".group.",".where."'", basins)) ne ""
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_basins", 490)
-    figure_title = title_text(problem_label(problem).": where the starts of a plane end",\
-        sprintf("Paper: “Global Minima”, section 5. Cold starts by %s: the guess with bulges sin(πt/T) in both coordinates; N = %s,"\
-        ." %d × %d starts per method.",\
+    figure_title = title_text(problem_label(problem).": which minimum each starting point reaches",\
+        paper_note(problem, "section 5").sprintf("Cold starts by %s: the guess with bulges sin(πt/T) in both coordinates; N = %s,"\
+        ." %d × %d starts.",\
         solver_label(entry(word(distinct(basins, "solver", group, ""), 1), "solver")), entry(group, "intervals"), places, places),\
-        "Dark: not solved, or no motion. Grey: an answer whose intervals, replayed one by one, do not join.")
+        "Dark: not solved. Grey: too coarse, integrating each interval misses the next node.")
     eval panels(1, words(methods), 85, 15, 140, 20, 0)
     set xrange [B_min - half:B_max + half]
     set yrange [B_min - half:B_max + half]

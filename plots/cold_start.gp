@@ -1,4 +1,4 @@
-# Cold starts: how many end in a solved, confirmed and best motion, problem by problem and across the library, and how
+# Cold starts: how many end in a solved, confirmed and best solution, problem by problem and across the library, and how
 # many within a budget of evaluations or time.
 #   gnuplot -e "results='results'" plots/cold_start.gp
 # Reads cold_start_shares.csv and cold_start_profiles.csv.
@@ -14,14 +14,12 @@ eval require(profiles, "problem,method,tableau,stages,solver,intervals,start_kin
 width_of(method) = method_style(method) == 1 ? 4 : method_style(method) == 2 ? 2.4 : 1.2
 counted = "solved confirmed best"
 counted_points = "6 7 9"
-counted_labels = "'solved' 'solved and confirmed' 'on the best branch'"
+counted_labels = "'solved' 'solved and confirmed' 'in the best minimum'"
 place_in(list, text) = sum [k = 1:words(list)] (word(list, k) eq text ? k : 0)
 values(column, where) = values_of(distinct(shares, column, where, ""), column)
 values_of(found, column) = words(found) == 0 ? "" : system("echo '".found."' | sed 's/".column."=//g'")
 steps_of(where, measure, method) = rows(profiles, where.",measure=".measure.",method=".method, "")
-what_is_counted = "Solved: an optimum of the discrete program. Confirmed: each interval, replayed alone, joins the next."\
-    ." Best: and its cost is the reference’s."
-perturbed = "The guess, and that guess with random curves of up to ".told("cold_start", "amplitude")." of its range."
+what_is_counted = "Confirmed: integrating each interval meets the next node. Best: confirmed, with the reference cost."
 drawn_starts(where) = values_of(distinct(shares, "starts", where, ""), "starts")
 
 # --- A problem by several solvers ------------------------------------------------------------------------------------
@@ -38,8 +36,8 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_cold_start", 940)
     figure_title = title_text(problem_label(problem).": shares of cold starts, N = ".entry(scheme, "intervals"),\
-        "Paper: “Global Minima”, section 5. ".what_is_counted,\
-        perturbed." Bars are 95 % intervals (Wilson). Tolerance ".told("cold_start", "tolerance").".")
+        paper_note(problem, "section 5").what_is_counted, "Bars: 95 % intervals (Wilson). Tolerance "\
+        .told("cold_start", "tolerance").".")
     eval title_above
     eval place(85, 755, 480, top_of_panels(figure_title))
     unset logscale
@@ -86,30 +84,50 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
 
 # --- Across the library ----------------------------------------------------------------------------------------------
 where = "solver=interior_point"
-problems = values("problem", where)
-if (words(problems) < 3) { exit }
+all_problems = values("problem", where)
+if (words(all_problems) < 3) { exit }
 methods = values("method", where)
+# The smallest or largest share of all methods on a problem.
+extreme(problem, column, sign) = number(system(rows_awk("-v where='".where.",problem=".problem."'", shares)\
+    ." | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"".column."\") c = i; next }\
+      n == 0 || ".sign." * $c > ".sign." * e { e = $c; n = 1 } END { print e + 0 }'"))
+# Problems where all starts, or none, do the same with every method are named below the figure.
+problems = ""; never = ""; always = "";
+do for [problem in all_problems] {
+  if (extreme(problem, "confirmed_share", "1") == 0) {
+    never = joined(never, problem_label(problem))
+  } else { if (extreme(problem, "best_share", "-1") == 1) { always = joined(always, problem_label(problem)) }
+  else { problems = problems." ".problem } }
+}
 count = words(problems)
+if (count == 0) { exit }
+listed(text, names) = strlen(names) == 0 ? "" : wrapped(text.": ".names.".", 118, "\n")."\n"
+notes = listed("All starts end in the best minimum with every method", always)\
+    .listed("No start has a confirmed solution (grid too coarse, or not solved)", never)
 y_of(problem, method) = count + 1 - place_in(problems, problem) - 0.22 * (place_in(methods, method) - 2)
 mean_where = "problem=every_problem,".where
 do for [kind in kinds] {
-  eval begin_figure(kind, "library_cold_start", 290 + 30 * count)
+  bottom = 130 + 16 * lines_in(notes)
+  eval begin_figure(kind, "library_cold_start", 150 + bottom + 34 * count)
   figure_title = title_text("Every problem: shares of cold starts by interior point, N = "\
-      .word(values("intervals", where), 1), "Paper: “Global Minima”, section 5. ".what_is_counted, "95 % intervals (Wilson), "\
-      .word(drawn_starts(where.",problem=".word(problems, count)), 1)." starts a problem and method, "\
-      .word(drawn_starts(where.",problem=".word(problems, 1)), 1)." on the paper’s problems.")
+      .word(values("intervals", where), 1), "Paper: section 5. ".what_is_counted, "95 % intervals (Wilson), "\
+      .word(drawn_starts(where.",problem=".word(all_problems, words(all_problems))), 1)." starts a problem and method, "\
+      .word(drawn_starts(where.",problem=".word(all_problems, 1)), 1)." on the paper’s problems.")
   eval title_above
+  set label 1 notes at screen 0.02, screen upwards(bottom - 80) left font ",12"
   do for [c = 2:3] {
-    eval place(c == 2 ? 265 : 520, c == 2 ? 500 : 755, 105, top_of_panels(figure_title) + 20)
+    eval place(c == 2 ? 275 : 525, c == 2 ? 505 : 755, bottom, top_of_panels(figure_title) + 20)
     unset logscale; unset mxtics
     set xtics nomirror 0, 0.2, 1; set format x "%.1f"
     set xrange [-0.02:1.02]
     set yrange [0.4:count + 0.6]
     set ytics nomirror scale 0 () font ",12"
-    do for [i = 1:count] { set ytics add ((c == 2 ? problem_label(word(problems, i)) : "") count + 1 - i) }
+    do for [i = 1:count] {
+      set ytics add ((c == 2 ? wrapped(problem_label(word(problems, i)), 30, "\n") : "") count + 1 - i)
+    }
     set xlabel "share ".word(counted_labels, c)
     set ylabel ""
-    if (c == 2) { eval key_below } else { unset key }
+    if (c == 2) { eval key_below } else { unset key; unset label 1 }
     plot for [method in methods] for [problem in problems] rows(shares, where.",problem=".problem.",method=".method, "")\
            using (column(word(counted, c)."_share")):(y_of(problem, method)):(column(word(counted, c)."_lower")):\
            (column(word(counted, c)."_upper")) with xerrorbars linecolor rgb method_colour(method) linewidth 1.4 dashtype 1\

@@ -18,10 +18,8 @@ do for [where in problems_of("consistency", "momentum_defect_max")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_momentum", 620)
     figure_title = title_text(problem_label(problem).": change of the momentum against the force",\
-        of_paper(problem, "fig:kepler\\_J", "fig:twolink\\_obj b)").for_paper(problem,\
-            "Paper: equal to numerical accuracy for DMOC and Hamiltonian collocation",\
-            "Paper: tangent-space collocation is less consistent than the other two").conditions("consistency").".",\
-        "DMOC’s momenta are differences of positions over h: its curve shows their rounding and the residual of the solver.")
+        of_paper(problem, "fig:kepler\\_J", "fig:twolink\\_obj b)").conditions("consistency").".",\
+        "DMOC’s momenta are differences of positions over h: its curve shows their round-off and the residual of the solver.")
     eval panels(1, 2, 95, 20, 135, 80, 0)
     do for [quantity in quantities] {
       eval measure("consistency", where, "intervals", quantity)

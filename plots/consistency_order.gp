@@ -36,8 +36,7 @@ do for [problem_word in problems_of("consistency_order", "error")] {
       eval begin_figure(kind, problem."_".figure, 1000)
       figure_title = title_text(problem_label(problem)\
           .": DMOC’s discrete objects against the exact ones, r the order of the tableau",\
-          "Paper: section 2.3, definition and th:ordercalculation, state hʳ⁺¹ for all of them (eq:DMOC\\_orderL,"\
-          ." eq:DMOC\\_orderf, eq:DMOC\\_orderLeg).",\
+          paper_note(problem, "section 2.3, th:ordercalculation: hʳ⁺¹ for all of them"),\
           "Legends show fitted slopes. Grey guides: C hʳ dashed, C hʳ⁺¹ dotted. No solve: both end points are given.")
       eval panels(3, 1, 105, 205, 84, 0, 40)
       do for [quantity in of_figure(figure)] {

@@ -57,9 +57,9 @@ do for [name in "convergence convergence_512"] {
       set title title_text(problem_label(problem).": error of the ".quantity." over the step",\
           (quantity eq "state" ? of_paper(problem, "fig:kepler\\_error, left", "fig:twolink\\_error a)")\
               : of_paper(problem, "fig:kepler\\_error, right", "fig:twolink\\_error b)"))\
-              .for_paper(problem, "Paper: order 2 against N = 1024, h = 2.9e-3", "Paper: order 2 against N = 512, h = 1.9e-3")\
-              ."Here against ".reference_words(name, where).".",\
-          sentence(conditions(name)).labelled("Slopes are fitted over ", sentence(fitted)))
+              .for_paper(problem, "Order 2 against N = 1024", "Order 2 against N = 512")\
+              ."Against ".reference_words(name, where).".",\
+          sentence(conditions(name)).labelled("Slopes: ", sentence(fitted)))
       set xlabel step_label(problem)
       set ylabel (quantity eq "state" ? state_label(problem) : control_label(problem))
       do for [kind in kinds] {
@@ -71,7 +71,7 @@ do for [name in "convergence convergence_512"] {
              for [k = 1:words(coarse_curves)] coarse_rows(name, word(coarse_curves, k), error)\
              using (column("step")):(column(error))\
              with points linetype method_style(entry(word(coarse_curves, k), "method")) pointtype 6 notitle,\
-             keyentry with points linetype 8 pointtype 6 title (strlen(coarse_curves) > 0 ? "no motion: too coarse, or violates between stages" : ""),\
+             keyentry with points linetype 8 pointtype 6 title (strlen(coarse_curves) > 0 ? "too coarse, or violates between stages" : ""),\
              for [k = 1:one_stage] y_guide * (x / x_guide)**2 with lines linetype 8 title "C h²",\
              for [k = 1:(one_stage && h_ref > 0)] x > h_ref\
              ? y_guide * (x**2 - h_ref**2) / (x_guide**2 - h_ref**2) : NaN with lines linetype 9\
@@ -108,7 +108,7 @@ do for [problem_word in problems_of(name, "state_error")] {
   eval set_range("y", y_low, y_high, 3)
   set title title_text(problem_label(problem).": error of the state over the step, Gauss tableaus with s stages",\
       "Against ".reference_words(name, where).". ".conditions(name).".",\
-      "A curve without a slope has too few grids between the coarse ones and its floor of rounding.")
+      "A curve without a slope has too few grids above round-off.")
   set xlabel step_label(problem)
   set ylabel state_label(problem)
   do for [kind in kinds] {

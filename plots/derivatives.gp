@@ -48,9 +48,9 @@ do for [problem_word in problems] {
     eval begin_figure(kind, problem."_derivatives", 930)
     figure_title = title_text(problem_label(problem)\
         .": solves by exact derivatives and by differences, ".solver_label(entry(scheme, "solver")),\
-        "Paper: “Automatic Differentiation”, section 4.1. ".timed_conditions("derivatives").".",\
-        "Bars: quartiles of the rounds.".(strlen(further) > 0 ? " Dashed: quasi-Newton Hessian, tolerance ".entry(loosest, "tolerance")."." : "")\
-        ." Open markers: not solved to that tolerance; the time spent and the residual reached.")
+        paper_note(problem, "section 4.1").timed_conditions("derivatives").".",\
+        (told("derivatives", "repeats") eq "1" ? "" : "Bars: quartiles. ").(strlen(further) > 0 ? "Dashed: quasi-Newton, tolerance ".entry(loosest, "tolerance")."." : "")\
+        ." Open: not solved, the time spent and the residual reached.")
     eval panels(2, columns_of_panels, 95, 15, 185, 12, 25)
     do for [q = 1:2] {
       quantity = word(quantities, q)

@@ -1,5 +1,5 @@
 # Energy and modified energy of the midpoint rule ("Conservation of a Modified Energy"): the truncated modified energies
-# along free motions, and both energies against the work of the forces along optimal motions.
+# along free motions, and both energies against the work of the forces along optimal trajectories.
 #   gnuplot -e "results='results'" plots/energy_work.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
@@ -29,12 +29,12 @@ do for [where in has_free_motions ? problems_of("invariants_modified_energy", "d
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_modified_energy", 740)
     set title title_text(problem_label(problem).", no force: range of the modified energy",\
-        "Paper: “Conservation of a Modified Energy”, section 3.3. Midpoint rule; the series after one, two and three terms.",\
-        "One motion, simulated in long double; range over its nodes.")
+        paper_note(problem, "section 3.3")."Midpoint rule; the series after one, two and three terms.",\
+        "One trajectory, simulated in long double; range over its nodes.")
     eval power_axis("xy")
     eval step_tics
     set xlabel "step {/:Italic h}, in the problem's unit of time"
-    set ylabel axis_label("max − min over the motion", problem, "energy_unit")
+    set ylabel axis_label("max − min over the trajectory", problem, "energy_unit")
     set bmargin at screen 0.33
     set key at screen 0.17, 0.22 left top Left reverse maxrows auto
     plot for [i in truncations] rows("invariants_modified_energy", of_truncation(problem, "dmoc", i), "drift")\
@@ -55,9 +55,8 @@ do for [where in problems_of("invariants_energy_work", "largest_gap")] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_energy_work", 760)
-    figure_title = title_text(problem_label(problem).": energy against the work of the forces along optimal motions",\
-        "Paper: “Conservation of a Modified Energy”, section 3.3: the relation between a modified energy and the virtual"\
-        ." work. Midpoint rule, each method on its own optimal motion; largest difference over the nodes.", "")
+    figure_title = title_text(problem_label(problem).": energy against the work of the forces along optimal trajectories",\
+        paper_note(problem, "section 3.3")."Midpoint rule, each method on its own optimal trajectory; largest difference over the nodes.", "")
     eval panels(1, 2, 85, 15, 265, 85, 0)
     eval power_axis("xy")
     eval step_tics

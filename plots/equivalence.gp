@@ -12,8 +12,8 @@ eval require(name, "problem,method,tableau,stages,status,branch,intervals,config
 is_gauss(where) = entry(where, "tableau") eq "gauss"
 points_of(where) = is_gauss(where) ? 7 : 6
 dashes_of(where) = is_gauss(where) ? 1 : 2
-colour(where) = int(entry(where, "stages")) == 1 ? blue : int(entry(where, "stages")) == 2 ? vermilion\
-    : int(entry(where, "stages")) == 3 ? green : purple
+colour(where) = number_in(entry(where, "stages")) == 1 ? blue : number_in(entry(where, "stages")) == 2 ? vermilion\
+    : number_in(entry(where, "stages")) == 3 ? green : purple
 tableau_label(where) = entry(where, "tableau")." ".entry(where, "stages")
 # ": slope 3.99" of the differences in q; nothing where they are no more than rounding.
 measured(where) = exists_table("equivalence_slopes") ? system(rows_awk("-v where='".where."'", "equivalence_slopes").\
@@ -33,8 +33,8 @@ do for [problem_word in problems_of(name, "")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_equivalence", 800)
     figure_title = title_text(problem_label(problem).": differences of collocation from DMOC by the same tableau",\
-        "Paper: section 3.4, th:equi: equal solutions of DMOC and Hamiltonian collocation. ".conditions(name)\
-        .", then Newton steps to rounding.",\
+        paper_note(problem, "section 3.4, th:equi").conditions(name)\
+        .", then Newton steps.",\
         "Largest difference over nodes and components, relative to the largest value of the quantity by DMOC.")
     eval panels(2, 1, 95, 250, 80, 0, 45)
     do for [column in "configuration_difference costate_difference"] {
@@ -62,13 +62,16 @@ do for [problem_word in problems_of(name, "")] {
     unset multiplot
     eval end_figure(kind, problem."_equivalence")
 
+    if (words(curves_with("dmoc", "adjoint_residual")) == 0) { continue }
+    has_plain = words(curves_with("dmoc,tableau=lobatto", "adjoint_residual_by_plain_coefficients")) > 0
     eval begin_figure(kind, problem."_adjoint", 620)
     figure_title = title_text(problem_label(problem).": residual of the multipliers in the adjoint Runge-Kutta scheme",\
-        "Paper: section 3.5, th:orderapp, eq:stateco5 to eq:stateco9. ".conditions(name).", then Newton steps to rounding.",\
-        "Triangles: the same multipliers with the coefficients of both costates not exchanged; for Gauss they are equal.")
+        paper_note(problem, "section 3.5, th:orderapp").conditions(name).", then Newton steps.",\
+        has_plain ? "Triangles: the coefficients of both costates not exchanged; for Gauss they are equal." : "")
     eval panels(1, 1, 95, 265, 80, 0, 0)
     unset title
-    eval measure(name, problem_word.",method=dmoc,tableau=lobatto", "intervals", "adjoint_residual_by_plain_coefficients")
+    eval measure(name, problem_word.",method=dmoc".(has_plain ? ",tableau=lobatto" : ""), "intervals",\
+        "adjoint_residual".(has_plain ? "_by_plain_coefficients" : ""))
     eval power_axis("y")
     eval interval_axis
     set xrange [x_low / 1.1:x_high * 1.1]
@@ -99,7 +102,7 @@ do for [problem_word in problems_of(name, "")] {
     eval begin_figure(kind, problem."_control_lagrangian", 600)
     figure_title = title_text(problem_label(problem).": residuals of both forms of the control Lagrangian",\
         "Midpoint rule: Euler-Lagrange equations in q and the multiplier ξ, at the solution of each method.",\
-        conditions(name).", then Newton steps to rounding.")
+        conditions(name).", then Newton steps.")
     eval panels(1, 2, 90, 15, 115, 20, 0)
     unset title
     eval measure(name, problem_word.",method=dmoc", "intervals", "forced_form_residual")

@@ -18,7 +18,7 @@ minor_label(name, problem_word, curve, currency) = method_label(entry(curve, "me
 # How many rows stand in the table, and how many of them are drawn.
 count_of(take, name, where) = int(system(rows_awk("-v take=".take." -v branches=".(take eq "all" ? "any" : "same")\
     ." -v where='".where."'", name)." | wc -l")) - 1
-left_out_text(all, drawn) = all == drawn ? "" : sprintf(" %d of %d solves are not drawn: not solved, or on another branch.",\
+left_out_text(all, drawn) = all == drawn ? "" : sprintf(" %d of %d solves are not drawn.",\
     all - drawn, all)
 
 do for [name in "iterations iterations_limited_memory"] {
@@ -45,11 +45,10 @@ do for [name in "iterations iterations_limited_memory"] {
     set key top left font ",12"
     set title title_text(problem_label(problem).": minor iterations of the SQP method, "\
         .(name eq "iterations" ? "exact" : "quasi-Newton")." Hessian",\
-        of_paper(problem, "fig:kepler\\_iterations: collocation takes 1.7 times as many",\
-            "fig:twolink\\_iterations: collocation takes 1.5 times as many").conditions(name)."."\
+        of_paper(problem, "fig:kepler\\_iterations: 1.7 times as many",\
+            "fig:twolink\\_iterations: 1.5 times as many").conditions(name)."."\
         .left_out_text(count_of("all", name, where), count_of("''", name, where)),\
-        "Lines: free variables (less the constraints, where the first basis is chosen for free) + later major iterations."\
-        .(words(others) > 0 ? " Crosses: answers on another branch, or too coarse." : ""))
+        "Lines: free variables (less constraints, from a free basis) plus later majors.")
     do for [kind in kinds] {
       eval begin_figure(kind, figure_of(problem), 680)
       plot for [curve in slack] rows(name, with_start(curve, "none"), "minor_iterations")\
@@ -103,10 +102,9 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_savings", 640)
     figure_title = title_text(problem_label(problem).": cost of collocation in multiples of DMOC’s",\
-        for_paper(problem, "Paper, section 4.2.1: 1.7 in minor iterations, 5/3 in variables (DMOC has 3/5 of them)",\
-            "Paper, section 4.2.2: 1.5 in minor iterations, 3/2 in variables (DMOC has 2/3 of them)")\
-        ."Dashed: the paper’s 1.".(problem eq "orbital_transfer" ? "7" : "5").". ".\
-        conditions(solves).". Above the line DMOC takes less. Warm solves take few iterations: one more is a large ratio.",\
+        for_paper(problem, "Paper: 1.7 in minor iterations (dashed), 5/3 in variables",\
+            "Paper: 1.5 in minor iterations (dashed), 3/2 in variables")\
+        .conditions(solves).". Above 1 DMOC takes less.",\
         "Replay error: how far from the final state the continuous system ends under the computed control.")
     eval panels(1, 3, 80, 12, 150, 12, 0)
     paper_ratio = problem eq "orbital_transfer" ? 1.7 : problem eq "two_link_manipulator" ? 1.5 : NaN
@@ -141,10 +139,10 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
         if (strlen(distinct(name, "currency", currency, ratio)) > 0) { drawn = drawn." ".c }
       }
       plot 1 with lines linecolor rgb grey linewidth 1 notitle, paper_ratio with lines linetype 8 notitle,\
-           for [c in drawn] rows(name, conditions_of_panel.",currency=".word(currencies, c + 0), ratio)\
+           for [c in drawn] rows(name, conditions_of_panel.",currency=".word(currencies, number_in(c)), ratio)\
              using (column("intervals")):(column(ratio)) with linespoints\
-             linecolor rgb word(currency_colours, c + 0) linewidth 1.5 dashtype 1 pointtype int(word(currency_points, c + 0))\
-             pointsize real(word(currency_sizes, c + 0)) notitle,\
+             linecolor rgb word(currency_colours, number_in(c)) linewidth 1.5 dashtype 1 pointtype int(word(currency_points, number_in(c)))\
+             pointsize real(word(currency_sizes, number_in(c))) notitle,\
            for [c = 1:words(currencies)] keyentry with linespoints linecolor rgb word(currency_colours, c) linewidth 1.5\
              dashtype 1 pointtype int(word(currency_points, c)) pointsize real(word(currency_sizes, c))\
              title word(currency_labels, c)

@@ -29,7 +29,7 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
   methods = ""
   do for [method_word in distinct(shares, "method", group, "")] { methods = methods." ".entry(method_word, "method") }
   count = words(methods)
-  # Confirmed minima by their cost, the best first; then the answers that are no motion, and the unsolved starts.
+  # Confirmed minima by their cost, the best first; then the solutions that are too coarse, and the unsolved starts.
   numbers = values_of(distinct(minima, "minimum", group.",is_motion=yes", ""), "minimum")
   found = words(numbers)
   drawn = found < most_minima ? found : most_minima
@@ -53,18 +53,18 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
   x_of_rest(rest, i) = drawn + (rest eq "unconfirmed" ? 1 : 2) + (i - 0.5 * (count + 1)) * bar
   do for [kind in kinds] {
     eval begin_figure(kind, figure, 860)
-    figure_title = title_text(problem_label(problem).": where the methods end from the guess and perturbed guesses",\
-        sprintf("Paper: “Global Minima”, section 4.1. Cold starts (the guess and perturbed guesses) by %s; tolerance %s; N = %s.%s",\
+    figure_title = title_text(problem_label(problem).": minima reached from the guess and perturbed guesses",\
+        paper_note(problem, "section 4.1").sprintf("Cold starts (the guess and perturbed guesses) by %s; tolerance %s; N = %s.%s",\
         solver_label(entry(word(distinct(shares, "solver", group, ""), 1), "solver")), told("local_minima", "tolerance"), entry(group, "intervals"), found > drawn\
             ? sprintf(" The %d lowest of %d confirmed minima.", drawn, found) : ""),\
-        "Unconfirmed: replayed one by one, the intervals do not join; the answer is no motion.")
+        "Unconfirmed: too coarse, integrating each interval misses the next node.")
     eval title_above
     eval place(90, 755, 425, top_of_panels(figure_title) - 15)
     set xtics nomirror scale 0 () font ",13"
     do for [i = 1:drawn] {
       set xtics add (minimum_tic(group.",minimum=".word(numbers, i), i == 1) i)
     }
-    set xtics add ("un-\nconfirmed" drawn + 1, "not solved,\nor no motion" drawn + 2)
+    set xtics add ("un-\nconfirmed" drawn + 1, "not solved,\nor too coarse" drawn + 2)
     set arrow 1 from first drawn + 0.5, graph 0 to first drawn + 0.5, graph 1 nohead linecolor rgb grey dashtype (4, 4)
     if (highest < 10) { set ytics nomirror 1 } else { set ytics nomirror autofreq }
     set grid noxtics ytics

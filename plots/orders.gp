@@ -45,9 +45,9 @@ do for [problem_word in problems_of(name, "state_error")] {
       figure = problem.(place eq "nodes" ? "_orders" : "_stage_orders")
       eval begin_figure(kind, figure, 1080)
       figure_title = title_text(problem_label(problem).": errors of DMOC at the ".place.", every tableau",\
-          "Paper: sections 3.5 and 3.6, th:orderapp, main\\_theorem: order 2s for s Gauss stages, 2s − 2 for Lobatto.",\
-          "Against the indirect solution. ".conditions(name).", then Newton steps to rounding. No slope: too few"\
-          ." grids above rounding (“floor”), or too few that agree (“unsteady”). Grey: powers of N.")
+          paper_note(problem, "order 2s for Gauss, 2s − 2 for Lobatto"),\
+          "Against the indirect solution. No slope: too few grids above round-off"\
+          ." (“floor”) or that agree (“unsteady”). Grey: powers of N.")
       eval panels(4, 1, 65, 285, 84, 0, 36)
       do for [quantity in panels_here] {
         error = quantity."_error"

@@ -17,10 +17,10 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
     eval begin_figure(kind, problem."_primitives", 580)
     figure_title = title_text(\
         problem_label(problem).": a roadmap of DMOC primitives",\
-        "Paper: “Global Minima”, section 5. ".entry(told_of, "nodes")." nodes, ".entry(told_of, "edges")." edges; a plan takes "\
+        paper_note(problem, "section 5").entry(told_of, "nodes")." nodes, ".entry(told_of, "edges")." edges; a plan takes "\
         .sprintf("%.2g", number(entry(told_of, "plan_milliseconds")))." ms.",\
         "Best of ".entry(told_of, "starts")." starts in the same total time: "\
-        .number_text(entry(told_of, "best_of_starts"), "no motion")."; best known cost: "\
+        .number_text(entry(told_of, "best_of_starts"), "none")."; best known cost: "\
         .number_text(entry(told_of, "reference_cost"), "none").".")
     eval panels(1, 2, 90, 15, 150, 115, 0)
     set autoscale
@@ -35,7 +35,7 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
     unset title
     plot points("node") using "x":"y" with points pointtype 7 pointsize 0.25 linecolor rgb "#B8B8B8" title "nodes",\
          points("before") using "x":"y" with lines linetype 3 title cost_text("path", entry(told_of, "cost_before")),\
-         points("joint") using "x":"y" with points pointtype 6 pointsize 1.3 linecolor rgb green title "its nodes",\
+         points("joint") using "x":"y" with points pointtype 6 pointsize 1.3 linecolor rgb green title "nodes of the path",\
          points("after") using "x":"y" with lines linetype 1\
              title cost_text("after the full solve", entry(told_of, "cost_after"))
     unset key

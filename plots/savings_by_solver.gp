@@ -25,9 +25,8 @@ do for [where in problems_of(name, ratio)] {
     eval begin_figure(kind, problem."_savings_by_solver", 660)
     figure_title = title_text(problem_label(problem)\
         .": time of Hamiltonian collocation in multiples of DMOC",\
-        "Paper: section 3.4, the remark on savings (rem:savings). ".timed_conditions("savings_by_solver").". Above the line DMOC takes less.",\
-        "Bars: 99 % intervals over the rounds. Ipopt reports no time of its linear systems: instead, the time of an"\
-        ." iteration without evaluations.")
+        paper_note(problem, "section 3.4, rem:savings").timed_conditions("savings_by_solver").". Above 1 DMOC takes less.",\
+        "Bars: 99 % intervals over the rounds. Ipopt: time of an iteration without evaluations.")
     eval panels(1, 2, 80, 15, 165, 95, 0)
     # Both panels have one range, which holds all that is drawn.
     low = 1; high = 1
@@ -59,11 +58,11 @@ do for [where in problems_of(name, ratio)] {
       set ylabel "Hamiltonian / DMOC, ".word(panels, panel) offset inwards
       if (panel == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 3 width 2 } else { unset key }
       plot 1 with lines linecolor rgb grey linewidth 1 notitle,\
-           for [w in "1 2 3"] keyentry with linespoints linecolor rgb colour(w + 0) linewidth 1.8 dashtype 1\
-             pointtype point(w + 0) pointsize 0.8 title word(way_labels, w + 0),\
-           for [w in drawn] rows(name, conditions.",".way_of(w + 0).",quantity=".quantity_of(panel, w + 0), ratio)\
-             using (column("intervals")):(column(ratio)) with linespoints linecolor rgb colour(w + 0) linewidth 1.8\
-             dashtype 1 pointtype point(w + 0) pointsize 0.8 notitle,\
+           for [w in "1 2 3"] keyentry with linespoints linecolor rgb colour(number_in(w)) linewidth 1.8 dashtype 1\
+             pointtype point(number_in(w)) pointsize 0.8 title word(way_labels, number_in(w)),\
+           for [w in drawn] rows(name, conditions.",".way_of(number_in(w)).",quantity=".quantity_of(panel, number_in(w)), ratio)\
+             using (column("intervals")):(column(ratio)) with linespoints linecolor rgb colour(number_in(w)) linewidth 1.8\
+             dashtype 1 pointtype point(number_in(w)) pointsize 0.8 notitle,\
            for [k = 1:words(with_bars)] rows(name, conditions.",".way_of(number_in(word(with_bars, k))).",quantity=".quantity_of(panel, number_in(word(with_bars, k))), "ratio_lower")\
              using (column("intervals")):(column(ratio)):(column("ratio_lower")):(column("ratio_upper")) with yerrorbars\
              linecolor rgb colour(number_in(word(with_bars, k))) linewidth 1.4 dashtype 1 pointtype point(number_in(word(with_bars, k))) pointsize 0.8 notitle

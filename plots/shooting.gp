@@ -35,10 +35,9 @@ do for [problem_word in distinct("shooting", "problem", "", "")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_shooting", has_errors ? 940 : 520)
     figure_title = title_text(problem_label(problem).": DMOC and shooting",\
-        "Paper: direct methods in section 3.3. ".(has_errors ? "Errors against the indirect solution; condition" : "Condition")\
-        ." of the KKT matrix with rows and columns brought to one size; ".starts." cold starts (the guess, and perturbed ones)"\
-        ." by Ipopt, N = ".grid.", 95 % intervals (Wilson).",\
-        "rk4 with one step per interval and a constant control (s = 1) where nothing else is said.")
+        paper_note(problem, "section 3.3").(has_errors ? "Errors against the indirect solution. " : "").starts." cold starts by Ipopt,"\
+        ." N = ".grid.".",\
+        "Condition: KKT matrix, rows and columns of one size. One rk4 step and s = 1 unless stated.")
     eval title_above
     if (has_errors) {
       eval place(105, 755, 530, top_of_panels(figure_title))

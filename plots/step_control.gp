@@ -1,5 +1,5 @@
-# Step sizes tied to the motion along ellipses of eccentricity 0.8: the energy over many periods, errors of a period, and
-# the error of the optimal cost of a transfer.
+# Steps tied to the trajectory along ellipses of eccentricity 0.8: the energy over many periods, the error of a period, and the
+# error of the optimal cost of a transfer. Names stand at the curves.
 #   gnuplot -e "results='results'" plots/step_control.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
@@ -10,54 +10,58 @@ eval require("step_control", "eccentricity,rule,sigma,stages,steps_per_period,st
 ellipse = "eccentricity=0.8,stages=1"
 choices = distinct("step_control_energy", "rule,sigma", ellipse, "")
 transfers = distinct("step_control_transfer", "rule,sigma", ellipse, "cost_error")
-colour(choice) = entry(choice, "rule") eq "variational" ? blue : entry(choice, "rule") eq "imposed" ? vermilion\
-    : entry(choice, "rule") eq "from_left" ? green : grey
-dashes_of(choice) = entry(choice, "rule") eq "from_left" ? 2 : 1
-choice_label(choice) = entry(choice, "rule") eq "uniform" ? "uniform steps"\
-    : entry(choice, "rule") eq "variational" ? "h = Δτ σ inside the principle"\
-    : entry(choice, "rule") eq "imposed" ? "h = Δτ σ outside of it" : "h = Δτ σ(q_k), known before the step"
+# One colour for what is compared, DMOC's; the others recede.
+colour(c) = entry(c, "rule") eq "variational" ? blue : entry(c, "rule") eq "uniform" ? "#77818C" : "#4A5560"
+width(c) = entry(c, "rule") eq "variational" ? 3 : 1.8
+dashes(c) = entry(c, "rule") eq "from_left" ? 2 : 1
+points(c) = entry(c, "rule") eq "variational" ? 7 : entry(c, "rule") eq "uniform" ? 5 : entry(c, "rule") eq "imposed" ? 11 : 10
+name_of(c) = entry(c, "rule") eq "uniform" ? "equal steps" : entry(c, "rule") eq "variational" ? "varied with the action"\
+    : entry(c, "rule") eq "imposed" ? "imposed" : "from the last node"
 magnitude(low, high) = abs(low) > abs(high) ? abs(low) : abs(high)
 steps = entry(distinct("step_control_energy", "steps_per_period", ellipse, ""), "steps_per_period")
+# The value at an x of a curve, for its name.
+value_at(table_name, c, x, at, y) = number(system(rows_awk("-v where=".ellipse.",".c.",".x."=".at." -v fields=".y, table_name)))
+far = 199
 
 do for [kind in kinds] {
-  eval begin_figure(kind, "step_control", 940)
-  figure_title = title_text("DMOC (one Gauss stage) with steps proportional to σ along ellipses of eccentricity 0.8",\
-      "Paper: section 5, “Adaptive Time Steps”. σ is the power 3/2 of the distance |q|. All choices take equally many steps. Energies in units of GM/a, a the semi-major axis.",\
-      "The transfer leads from an ellipse to one that is 1.2 times as large, with the least control effort.")
+  eval begin_figure(kind, "step_control", 400)
+  figure_title = title_text("DMOC with steps that follow the trajectory, on ellipses of eccentricity 0.8",\
+      "Paper: section 5. Steps are equal or proportional to the power 3/2 of |q|:", "varied with the action, imposed, or taken"\
+      ." from the last node.")
   eval title_above
-  eval place(100, 745, 505, top_of_panels(figure_title))
-  set key at screen 0.02, screen upwards(370) left bottom vertical maxrows 2 width -3 samplen 2 font ",15"
-  set autoscale
-  unset logscale
-  set xrange [*:*]
-  eval power_axis("xy")
-  set xlabel "period"
-  set ylabel "largest |E − E_0| of a period [GM/a]" offset inwards
-  set title "unforced motion, ".steps." steps per period"
-  plot for [choice in choices] rows("step_control_energy", ellipse.",".choice, "")\
-       using (column("period") + 1):(magnitude(column("energy_smallest"), column("energy_largest")))\
-       with lines linecolor rgb colour(choice) linewidth 2 dashtype dashes_of(choice) title choice_label(choice)
-  unset key
-  eval place(100, 415, 80, 330)
-  unset logscale x
-  set logscale x 2
-  set xtics (32, 64, 128, 256, 512)
-  set format x '%g'
-  set xrange [56:580]
-  set xlabel "steps per period"
-  set ylabel "largest error of (q, v)" offset inwards
-  set title "the first period of the same motion"
-  plot for [choice in choices] rows("step_control", ellipse.",".choice, "state_error")\
-       using "steps_per_period":"state_error"\
-       with linespoints linecolor rgb colour(choice) linewidth 2 dashtype dashes_of(choice) pointtype 7 pointsize 0.7
-  eval place(505, 745, 80, 330)
-  set xrange [28:290]
-  set xlabel "number of intervals N"
-  set ylabel "|J − J*| / J*" offset inwards
-  set title "optimal transfer"
-  plot for [choice in transfers] rows("step_control_transfer", ellipse.",".choice, "cost_error")\
-       using "intervals":"cost_error"\
-       with linespoints linecolor rgb colour(choice) linewidth 2 dashtype dashes_of(choice) pointtype 7 pointsize 0.7
+  unset key; unset label
+  eval power_axis("y"); unset mytics; set ylabel ""
+  # -- energy
+  eval place(62, 292, 75, top_of_panels(figure_title) - 10)
+  unset logscale x; set xrange [0:200]; set xtics 0, 50, 200; set format x "%g"; set yrange [1e-4:1]
+  set xlabel "period"; set title "energy error [GM/a], ".steps." steps each" offset 0, -0.5 font ",13"
+  do for [c in choices] {
+    e = magnitude(value_at("step_control_energy", c, "period", far, "energy_smallest"), value_at("step_control_energy", c, "period", far, "energy_largest"))
+    set label name_of(c) at first 197, first e * (entry(c, "rule") eq "from_left" ? 0.3 : 1.75) right font ",12" textcolor rgb colour(c)
+  }
+  plot for [c in choices] rows("step_control_energy", ellipse.",".c, "") using (column("period") + 1):(magnitude(column("energy_smallest"), column("energy_largest")))\
+       with lines linecolor rgb colour(c) linewidth width(c) dashtype dashes(c)
+  unset label
+  # -- state
+  eval place(350, 522, 75, top_of_panels(figure_title) - 10)
+  set logscale x 2; set xtics (64, 128, 256, 512); set xrange [56:590]; set yrange [1e-3:20]
+  set xlabel "steps per period"; set title "state error after a period" offset 0, -0.5 font ",13"
+  set label "equal steps" at first 560, first 8 right font ",12" textcolor rgb colour("rule=uniform")
+  set label "imposed,\nlast node" at first 62, first 0.75 left font ",12" textcolor rgb colour("rule=imposed")
+  set label "varied" at first 62, first 0.02 left font ",12" textcolor rgb colour("rule=variational")
+  plot for [c in choices] rows("step_control", ellipse.",".c, "state_error") using "steps_per_period":"state_error"\
+       with linespoints linecolor rgb colour(c) linewidth width(c) dashtype dashes(c) pointtype points(c) pointsize 0.5
+  unset label
+  # -- cost
+  eval place(582, 754, 75, top_of_panels(figure_title) - 10)
+  set xtics (32, 64, 128, 256); set xrange [28:300]; set yrange [2e-5:5e4]; set ytics 1e-4, 100, 1e4
+  set xlabel "intervals N"; set title "relative error of the cost" offset 0, -0.5 font ",13"
+  set label "equal steps" at first 98, first 4e3 left font ",12" textcolor rgb colour("rule=uniform")
+  set label "imposed" at first 105, first 0.6 left font ",12" textcolor rgb colour("rule=imposed")
+  set label "varied" at first 31, first 0.006 left font ",12" textcolor rgb colour("rule=variational")
+  plot for [c in transfers] rows("step_control_transfer", ellipse.",".c, "cost_error") using "intervals":"cost_error"\
+       with linespoints linecolor rgb colour(c) linewidth width(c) dashtype dashes(c) pointtype points(c) pointsize 0.5
+  unset label
   unset multiplot
   eval end_figure(kind, "step_control")
 }

@@ -23,7 +23,7 @@ require(name, columns) = sprintf(\
 
 # Rows that may be drawn, as a data file; `where` is problem=a,method=b,..., `need` a column with a value above zero.
 rows(name, where, need) = "< ".rows_awk("-v where='".where."' -v need=".need, name)
-# The same of answers that are no motions (too coarse, or violating constraints between stages): drawn hollow, and used by no fit.
+# The same of solutions that are no trajectories (too coarse, or violating constraints between stages): drawn hollow, and used by no fit.
 coarse_rows(name, where, need) = "< ".rows_awk("-v take=coarse -v where='".where."' -v need=".need, name)
 drawn_rows(name, where, need) = "< ".rows_awk("-v take=drawn -v where='".where."' -v need=".need, name)
 has_coarse(name, where) = system(rows_awk("-v take=coarse -v distinct=method -v where='".where."'", name)) ne ""
@@ -78,9 +78,9 @@ incomplete_run(name) = told(run_of(name), "complete") eq "false" ? what_is_there
 what_is_there(run) = run.".csv: ".(strlen(told(run, "cases")) == 0 ? "its run has not ended"\
     : told(run, "rows")." of ".told(run, "cases")." rows, its run was interrupted")
 incomplete = ""
-start_in_words(start) = start eq "common" ? "Warm start (one motion for all methods)"\
-    : start eq "guess" ? "Cold start (the problem’s guess)" : strlen(start) == 0 ? "" : "Warm start (a motion from a file)"
-# "Warm start (...); tolerance 1e-10", and over how many solves the medians of times go.
+start_in_words(start) = start eq "common" ? "Warm start"\
+    : start eq "guess" ? "Cold start" : strlen(start) == 0 ? "" : "Start from a file"
+# "Warm start; tolerance 1e-10", and over how many solves the medians of times go.
 conditions(name) = joined(start_in_words(told(name, "start")), labelled("tolerance ", told(name, "tolerance")))
 timed_conditions(name) = joined(conditions(name), number_of_solves(told(name, "repeats")))
 number_of_solves(repeats) = strlen(repeats) == 0 ? "" : repeats eq "1" ? "times of single solves"\
@@ -94,6 +94,8 @@ of_paper(problem, orbit, two_link) = for_paper(problem, labelled("Paper: section
 # A sentence about the paper's first problem or about its second; empty for any other.
 for_paper(problem, orbit, two_link) = problem eq "orbital_transfer" ? sentence(orbit)\
     : problem eq "two_link_manipulator" ? sentence(two_link) : ""
+# Where the paper treats what a figure shows; empty for problems that are not the paper's.
+paper_note(problem, where) = for_paper(problem, "Paper: ".where, "Paper: ".where)
 # What errors of a table are measured against.
 reference_words(name, where) = with_grid(or_else(told(name, "reference"), "the finest grid of the same method"),\
     finest_grid(name, where))
@@ -124,7 +126,12 @@ axis_label(text, problem, column) = with_unit(text, described(problem, column))
 load plots."/families.inc"
 family_of(method) = sum [i_family = 1:words(families)] (strstrt(method."_", word(families, i_family)."_") == 1 ? i_family : 0)
 method_label(method) = family_of(method) == 0 ? method\
+    : strstrt(method, "galerkin_") == 1 ? "Galerkin".spaces_label(method[10:*])\
     : family_labels[family_of(method)].integration_label(method[strlen(word(families, family_of(method))) + 2:*])
+# "degree 2, controls 1 shared" of a Galerkin variational integrator, "rk4, 2 steps" of shooting.
+spaces_label(spaces) = strstrt(spaces, "_") == 0 ? "" : ", degree ".spaces[1:strstrt(spaces, "_") - 1].", controls "\
+    .(strstrt(after_bar(spaces), "_") == 0 ? after_bar(spaces) : up_to_bar(after_bar(spaces))." ".after_bar(after_bar(spaces)))
+up_to_bar(text) = text[1:strstrt(text, "_") - 1]
 integration_label(integration) = strstrt(integration, "_") == 0 ? ""\
     : ", ".integration[1:strstrt(integration, "_") - 1].steps_label(after_bar(integration))
 after_bar(text) = text[strstrt(text, "_") + 1:*]
@@ -161,11 +168,12 @@ set tics nomirror out scale 0.8, 0.4 textcolor rgb "#202020"
 set grid xtics ytics linecolor rgb "#DADADA" linewidth 1 dashtype 1
 set key reverse Left samplen 3.5 spacing 1.25 width 1 noautotitle font ",13"
 set style fill solid 1.0 noborder
-# Title: what is drawn in bold, and remarks below; empty ones are left out, long ones go over several lines. A title
+# Title: what is drawn in bold, and two remarks below, together two lines at most (tests/style/figures). A title
 # makes no claim: results are in legends, as numbers of the tables. Remarks hold no indices by _ or ^, which would
 # be smaller than the smallest text.
 remark(line) = strlen(line) == 0 ? "" : "\n{/*0.8 ".wrapped(line, 107, "}\n{/*0.8 ")."}"
-title_text(title, first, second) = "{/:Bold ".wrapped(title, 76, "}\n{/:Bold ")."}".remark(first).remark(second)
+title_text(title, first, second) = "{/:Bold ".wrapped(title, 76, "}\n{/:Bold ")."}"\
+    .remark(first.(strlen(first) * strlen(second) == 0 ? "" : " ").second)
 wrapped(text, most, separator) = strlen(text) <= most ? text : wrapped_at(text, last_space(text, most + 1), most, separator)
 wrapped_at(text, end, most, separator) =\
     end == 0 ? text : text[1:end - 1].separator.wrapped(text[end + 1:*], most, separator)

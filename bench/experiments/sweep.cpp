@@ -51,11 +51,14 @@ class Sweep final : public ExperimentOf<Instance> {
         "--seed", [this] { return samples_ > 0; }, "only --samples draws instances");
   }
   [[nodiscard]] Columns<Instance> columns() const override {
-    std::vector<std::string> names;
-    for (const std::string& over : over_) names.push_back(over.substr(0, over.find('=')));
-    const auto value = [](std::size_t i) { return [i](const Instance& instance) { return instance.values.at(i); }; };
-    return Columns<Instance>{{"instance", "", "number of the instance", &Instance::number, in_key}} +
-           column_group<Instance>(names, "", "value of this quantity", value);
+    Columns<Instance> columns{{"instance", "", "number of the instance", &Instance::number, in_key}};
+    for (std::size_t i = 0; i < over_.size(); ++i) {
+      const std::string name = over_[i].substr(0, over_[i].find('='));
+      const auto unit = units_.find(name);
+      columns.push_back({name, unit == units_.end() ? "" : unit->second, "value of this quantity",
+                         [i](const Instance& instance) { return instance.values.at(i); }});
+    }
+    return columns;
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const std::vector<SweptQuantity> quantities = read_instances();
@@ -63,6 +66,7 @@ class Sweep final : public ExperimentOf<Instance> {
     std::vector<Case> cases = vary(chosen, [&](const Case& /*the_case*/) { return numbers_below(instances_.size()); });
     for (Case& the_case : cases) {
       const std::shared_ptr<const Problem> base = the_case.problem;
+      for (const Parameter& parameter : base->parameters()) units_[parameter.name] = parameter.unit;
       auto& problems = instances[base];
       if (problems.empty()) {
         require_quantities(*base, quantities);
@@ -112,6 +116,7 @@ class Sweep final : public ExperimentOf<Instance> {
   }
 
   std::vector<std::string> over_;
+  std::map<std::string, std::string> units_;  // of the parameters by their names
   long long samples_ = 0;
   std::uint64_t seed_ = 1;
   std::vector<std::vector<double>> instances_;  // the values of the quantities in each

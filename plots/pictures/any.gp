@@ -1,6 +1,7 @@
-# For problems without a picture of their own, motions by several methods, and iterates of solves that failed: coordinates, controls
+# For problems without a picture of their own, trajectories by several methods, and iterates of solves that failed: coordinates, controls
 # and path constraints over time, a panel per unit, in the units of the problem as solved. Bounds are dotted, bounds at one time are
-# bars, path constraints are thick where they are active. Colours are coordinates, dashes are methods. Loaded by motion.gp.
+# bars, path constraints are thick where they are active. Colours are coordinates, dashes are methods; more than four quantities of a
+# unit share panels by three. Loaded by motion.gp.
 eval require(nodes, "t")
 eval require(stages, "t")
 eval plain_axes
@@ -10,13 +11,27 @@ fields_of(program) = system("awk -F, 'NR > 1 { gsub(/[^A-Za-z0-9_,^\\/ .+-]/, \"
 has_quantities = exists_table(quantities)
 header(name, stop) = system("head -n 1 '".table(name)."' | awk -F, '\
     { gsub(/[\\140\"$()\\;|&<>]/, \"_\"); for (i = 2; i <= NF && $i !~ /^".stop."/; ++i) print $i }'")
-# Panels are words such as q:N~m, a kind and a unit.
-panels = has_quantities ? fields_of("gsub(/ /, \"~\", $3); p = $1 \":\" $3; if ($1 != \"t\" && !(p in seen)) print p; seen[p] = 1") : "q: u:"
+# Panels are words such as q1:N~m, a kind, a number and a unit.
+kinds_and_units = has_quantities ? fields_of("gsub(/ /, \"~\", $3); p = $1 \":\" $3; if ($1 != \"t\" && !(p in seen)) print p; seen[p] = 1") : "q: u:"
 kind_of(panel) = panel[1:1]
-unit_of(panel) = system("echo '".panel[3:]."' | tr '~' ' '")
-columns_of(panel) = !has_quantities ? (kind_of(panel) eq "q" ? header(nodes, "v_") : header(stages, "price_"))\
+number_of(panel) = int(panel[2:strstrt(panel, ":") - 1])
+unit_of(panel) = system("echo '".panel[strstrt(panel, ":") + 1:]."' | tr '~' ' '")
+all_columns_of(panel) = !has_quantities ? (kind_of(panel) eq "q" ? header(nodes, "v_") : header(stages, "price_"))\
     : fields_of("if ($1 == \"".kind_of(panel)."\" && $3 == \"".unit_of(panel)."\" && $6 == \"\") print $2")
 table_of(member, panel) = member.(kind_of(panel) eq "q" ? "_nodes" : kind_of(panel) eq "u" ? "_stages" : "_constraints")
+# How many of n share a panel.
+together(n) = n > 4 ? 3 : n
+name_at(names, i) = i > words(names) ? "" : word(names, i)
+some_of(names, first, count) = count == 0 ? "" : name_at(names, first)." ".some_of(names, first + 1, count - 1)
+columns_in(names, k) = some_of(names, 1 + (k - 1) * together(words(names)), together(words(names)))
+columns_of(panel) = columns_in(all_columns_of(panel), number_of(panel))
+panels = ""
+do for [panel in kinds_and_units] {
+  names = all_columns_of(panel[1:1]."1".panel[2:])
+  do for [k = 1:(words(names) + together(words(names)) - 1) / (words(names) > 0 ? together(words(names)) : 1)] {
+    panels = panels." ".panel[1:1].k.panel[2:]
+  }
+}
 kind_label(panel) = kind_of(panel) eq "q" ? "coordinates" : kind_of(panel) eq "u" ? "controls" : "path constraints"
 bound(quantity, field) = has_quantities\
     ? fields_of(sprintf("if ($2 == \"%s\" && $1 != \"t\" && $6 == \"\") print $%d", quantity, field)) : ""
@@ -57,18 +72,18 @@ lines_of_key = (most_names + names_in_line - 1) / names_in_line
 rows_of_panels = (words(panels) + 1) / 2
 height_of_key = 22 * lines_of_key
 figure_title = title_text(problem_label(entry(described, "problem")).(is_open ? ": the last iterate" : words(members) > 1\
-    ? ": the optimal motions by several methods".(has_one_count ? ", N = ".word(counts, 1) : "") : ": the optimal motion and its controls").by_whom, failure, legend_of_methods)
-eval begin_figure(kind, problem."_motion", 110 + (215 + height_of_key) * rows_of_panels + 22 * lines_in(figure_title))
+    ? ": the optimal trajectories by several methods".(has_one_count ? ", N = ".word(counts, 1) : "") : ": the optimal trajectory and its controls").by_whom, failure, legend_of_methods)
+eval begin_figure(kind, problem."_motion", 113 + (227 + height_of_key) * rows_of_panels + 22 * lines_in(figure_title))
 eval sprintf("set multiplot layout %d, 2 title figure_title offset 0, 0.3 margins %g, %g, %g, %g spacing %g, %g", rows_of_panels,\
-    across(80), 1 - across(20), upwards(60), 1 - upwards(22.5 * lines_in(figure_title) + 14 + height_of_key), across(95),\
-    upwards(32 + height_of_key))
+    across(80), 1 - across(20), upwards(75), 1 - upwards(22.5 * lines_in(figure_title) + 14 + height_of_key), across(95),\
+    upwards(44 + height_of_key))
 set key at graph 0.5, graph 1.03 center bottom horizontal maxcols names_in_line samplen 1.5 width 0 font ",12"
 set xrange [T_min:T_max]
 set offsets 0, 0, graph 0.05, graph 0.05
 do for [p = 1:words(panels)] {
   panel = word(panels, p)
   names = columns_of(panel)
-  set ylabel with_unit(kind_label(panel), unit_of(panel))
+  set ylabel with_unit(kind_label(panel), unit_of(panel)) offset inwards
   set xlabel (p + 2 > words(panels) ? time_label : "")
   # Bounds near the curves; others would compress them.
   low = 1e300; high = -1e300

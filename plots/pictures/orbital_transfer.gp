@@ -9,7 +9,7 @@ stats table(picture) using (sqrt(column("x_in_km")**2 + column("y_in_km")**2)) n
 arrow_scale = 0.3 * R_max / largest_thrust
 
 eval begin_figure(kind, problem."_motion", 600)
-eval begin_panels(problem_label(problem).": the optimal motion".by_whom)
+eval begin_panels(problem_label(problem).": the optimal trajectory".by_whom)
 
 # The plane, to scale: the Earth's radius is the distance from its centre less the altitude.
 eval left_square

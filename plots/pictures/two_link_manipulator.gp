@@ -6,7 +6,7 @@ stats table(picture) using (sqrt(column("tip_x_in_m")**2 + column("tip_y_in_m")*
 every_row = even_spacing(int(T_records) - 1, 20)
 
 eval begin_figure(kind, problem."_motion", 600)
-eval begin_panels(problem_label(problem).": the optimal motion".by_whom)
+eval begin_panels(problem_label(problem).": the optimal trajectory".by_whom)
 
 # The plane: base in the origin, elbow, tip.
 eval left_square

@@ -135,8 +135,13 @@ Picture plane_of(const Problem& problem, bool shows_configurations, const Contro
     return {all.at(0), all.at(1)};
   }
   const std::vector<std::string> names = problem.configuration_names();
-  if (names.size() > 1) return {{names[0], "", x.q[0]}, {names[1], "", x.q[1]}};
-  return {{names[0], "", x.q[0]}, {"velocity of " + names[0], "", x.v[0]}};
+  const ProblemCard card = problem.card();
+  std::vector<std::string> units = card.configuration_units;
+  units.resize(names.size());
+  if (names.size() > 1) return {{names[0], units[0], x.q[0]}, {names[1], units[1], x.q[1]}};
+  const bool is_known = !units[0].empty() && card.time_unit.factor == 1.0;  // v is per unit of the problem's time
+  return {{names[0], units[0], x.q[0]},
+          {"velocity of " + names[0], is_known ? units[0] + "/" + card.time_unit.name : "", x.v[0]}};
 }
 
 std::string with_unit(const PictureQuantity& quantity) {
