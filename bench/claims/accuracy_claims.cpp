@@ -95,7 +95,7 @@ Claims accuracy_claims() {
                          "the controls of tangent-space collocation, on every grid",
                          "replayed on the continuous equations, DMOC's controls miss the final state by more than "
                          "the controls of tangent-space collocation, on every grid: the momentum balance that the "
-                         "discrete system keeps does not bound the error of its motion"),
+                         "discrete system keeps does not bound the error of its trajectory"),
        .judge = replay_beside_tangent,
        .condition = "the paper motivates DMOC by effort that is meaningful only if the system responds to the "
                     "forces as computed, and compares no responses; controls are constant over an interval",
@@ -103,18 +103,17 @@ Claims accuracy_claims() {
        .headline = true},
       {.id = "rounding_floor",
        .where = "section 3.3, Implementation",
-       .states = "rounding errors due to staying on Q x Q, on the finest grid",
+       .states = "round-off errors due to staying on Q x Q, on the finest grid",
        .judge = rounding_floor,
-       .condition = "DMOC's momenta are differences of positions divided by h, so that their rounding grows as 1/h",
+       .condition = "DMOC's momenta are differences of positions divided by h, so that their round-off grows as 1/h",
        .evidence = {"consistency.csv", "figures/{}_momentum.svg"},
        .has_verdict = false},
       {.id = "interior_point_beside_ipopt",
        .where = "section 4.1, SQP Method",
-       .states = "interior_point, which solves where the solver is not the question, ends in the minima of Ipopt",
+       .states = "interior_point, the solver of experiments that do not compare solvers, ends in the minima of Ipopt",
        .judge = interior_point_beside_ipopt,
-       .condition =
-           "warm, from a common start; the answers of both are refined by Newton steps, so that the claim is about the "
-           "branch and not about digits",
+       .condition = "warm, from a common start; the solutions of both are refined by Newton steps, so that the claim "
+                    "is about the branch and not about digits",
        .evidence = {"convergence.csv", "convergence_stages.csv"}}};
 }
 

@@ -39,7 +39,7 @@ Finding effective(const ResultTables& tables, const std::string& /*problem*/) {
   const auto is_small = [](const Row& row) { return row.needed("relative_error") <= largest_estimated_error; };
   const Selection judged_rows = measured.where(is_small);
   const Selection large = measured.where([&](const Row& row) { return !is_small(row); });
-  require(!judged_rows.empty(), "adaptive_effectivity.csv has no error between the floor of rounding and 1 %");
+  require(!judged_rows.empty(), "adaptive_effectivity.csv has no error between the floor of round-off and 1 %");
   const auto [least, most] = std::ranges::minmax_element(judged_rows, {}, effectivity_of);
   const std::size_t outside = count_outside(judged_rows);
   const Selection coarse = all.where("status", "too coarse");
@@ -48,8 +48,8 @@ Finding effective(const ResultTables& tables, const std::string& /*problem*/) {
   return found(outside == 0, "estimated over true error from {} to {}", words_of_effectivity(*least),
                words_of_effectivity(*most))
       .also(worded("{} of {} outside of 0.3 to 3", outside, judged_rows.size()))
-      .also(worded("of {} with answers off by more than 1 % {}", large.size(), count_outside(large)))
-      .also(worded("{} below the floor, {} answers too coarse, {} not solved", all.where("verdict", "floor").size(),
+      .also(worded("of {} with solutions off by more than 1 % {}", large.size(), count_outside(large)))
+      .also(worded("{} below the floor, {} solutions too coarse, {} not solved", all.where("verdict", "floor").size(),
                    coarse.size(), unsolved.size()))
       .also(worded("{} problems", measured.distinct("problem").size()));
 }
@@ -132,8 +132,9 @@ Claims adaptive_claims() {
        .states = "from one solve, the error of state, momentum, costate and cost is estimated within a factor of 0.3 "
                  "to 3",
        .judge = effective,
-       .condition = "true errors are measured against the indirect solution, above rounding, for answers whose largest "
-                    "relative error is at most 1 %",
+       .condition =
+           "true errors are measured against the indirect solution, above round-off, for solutions whose largest "
+           "relative error is at most 1 %",
        .evidence = {"adaptive_effectivity.csv", "figures/adaptive_effectivity.svg"}},
       {.id = "adapted_grids_need_fewer_intervals",
        .problems = uneven_problems,

@@ -229,7 +229,7 @@ std::string claims_markdown(const std::vector<JudgedClaim>& claims) {
   std::string text =
       "# Claims, measured\n\nEach verdict is computed by a predicate on the tables next to this file. *Reproduced*: it "
       "holds. *Differs*: it does not. *Undecided*: the interval of the measurement contains the threshold. *Floor*: "
-      "only rounding was measured. *Not judged*: a table, a number or usable rows are missing; failed solves do not "
+      "only round-off was measured. *Not judged*: a table, a number or usable rows are missing; failed solves do not "
       "affect verdicts. *Sure* is *exact* if the verdict depends neither on times nor on random numbers.\n\n" +
       summary_markdown(claims);
   for (const Whose whose : all_sources) {

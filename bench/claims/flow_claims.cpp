@@ -44,7 +44,7 @@ Predicate has_order_of_consistency(const char* one, const char* other) {
     };
     return found(verdict_on_all(orders, is_one_more), "slopes over h by Gauss: {}", joined(orders, ", ", words))
         .also(beyond == 0 ? Words()
-                          : worded("{} slopes with four stages left out, which reach rounding first, in favour of the "
+                          : worded("{} slopes with four stages left out, which reach round-off first, in favour of the "
                                    "claim",
                                    beyond));
   };
@@ -119,9 +119,9 @@ Finding symplectic(const ResultTables& tables, const std::string& /*problem*/) {
   const double structured = std::max(0.0, rows.where(std::not_fn(is_tangent)).max(defect));
   const double tangent = std::max(0.0, rows.where(is_tangent).max(defect));
   return found(structured < within_rounding && tangent > within_rounding,
-               "D'ΩD - Ω in units of rounding: DMOC and Hamiltonian at most {:.1f}, tangent-space up to {:.1e}",
-               Measurement{"largest defect in units of rounding", structured, "dmoc"},
-               Measurement{"largest defect in units of rounding", tangent, "tangent"});
+               "D'ΩD - Ω in units of round-off: DMOC and Hamiltonian at most {:.1f}, tangent-space up to {:.1e}",
+               Measurement{"largest defect in units of round-off", structured, "dmoc"},
+               Measurement{"largest defect in units of round-off", tangent, "tangent"});
 }
 
 /// Of the continuous flow, to what its integration allows.
@@ -130,9 +130,10 @@ Finding continuous_noether(const ResultTables& tables, const std::string& /*prob
   const Selection rows = tables.rows("invariants_flow_momentum");
   const Selection along = rows.where("force", "along");
   const Selection orthogonal = rows.where("force", "orthogonal");
-  require(!along.empty() && !orthogonal.empty(),
-          "invariants_flow_momentum.csv has {} motions with forces along the group action and {} with orthogonal ones",
-          along.size(), orthogonal.size());
+  require(
+      !along.empty() && !orthogonal.empty(),
+      "invariants_flow_momentum.csv has {} trajectories with forces along the group action and {} with orthogonal ones",
+      along.size(), orthogonal.size());
   const auto miss = [](const Row& row) { return std::abs(row.needed("momentum_change") - row.needed("work")); };
   const auto in_tolerances = [&](const Row& row) {
     require(row.needed("tolerance") > 0.0, "{}, column tolerance: it has to be above zero", row.place());
@@ -140,12 +141,11 @@ Finding continuous_noether(const ResultTables& tables, const std::string& /*prob
   };
   const double least_work = -along.max([](const Row& row) { return -std::abs(row.needed("work")); });
   const double change = orthogonal.max([](const Row& row) { return std::abs(row.needed("momentum_change")); });
-  return found(
-             rows.max(in_tolerances) < within_tolerance && least_work > some_work,
-             "{} motions under smooth controls: change of momentum less the integral of the force at most {:.1e}, the "
-             "integral at least {:.1e} along the group action",
-             rows.size(), Measurement{"largest change of momentum less the integral", rows.max(miss)},
-             Measurement{"least integral", least_work})
+  return found(rows.max(in_tolerances) < within_tolerance && least_work > some_work,
+               "{} trajectories under smooth controls: change of momentum less the integral of the force at most "
+               "{:.1e}, the integral at least {:.1e} along the group action",
+               rows.size(), Measurement{"largest change of momentum less the integral", rows.max(miss)},
+               Measurement{"least integral", least_work})
       .also(worded("with orthogonal forces the momentum changes by at most {:.1e}",
                    Measurement{"largest change of momentum", change}));
 }
@@ -158,10 +158,10 @@ Finding lagrangian_form(const ResultTables& tables, const std::string& /*problem
     return row.needed("defect") / row.needed("rounding");
   };
   return found(rows.max(defect) < within_rounding,
-               "D'ΩD - Ω over T = {:g} on {} systems: at most {:.1e}, {:.1f} in units of rounding",
+               "D'ΩD - Ω over T = {:g} on {} systems: at most {:.1e}, {:.1f} in units of round-off",
                Measurement{"horizon", rows.front().needed("horizon")}, rows.size(),
                Measurement{"largest defect", rows.max("defect")},
-               Measurement{"largest defect in units of rounding", rows.max(defect)})
+               Measurement{"largest defect in units of round-off", rows.max(defect)})
       .also(worded("of the form as printed, whose dv^dv vanishes, up to {:.1e}",
                    Measurement{"largest change of the form as printed", rows.max("printed_change")}));
 }
@@ -234,7 +234,7 @@ Claims flow_claims() {
        .states = "along the continuous flow the momentum changes by the integral of the force along the group action, "
                  "and not at all if the force is orthogonal to it",
        .judge = continuous_noether,
-       .condition = "motions integrated as replays are, by an adaptive method of order 7(8)",
+       .condition = "trajectories integrated as replays are, by an adaptive method of order 7(8)",
        .evidence = {"invariants_flow_momentum.csv"}},
       {.id = "lagrangian_form_preserved",
        .problems = simulated,

@@ -139,7 +139,7 @@ Claims galerkin_claims() {
            .evidence = {"convergence_galerkin.csv"}},
           {.id = "galerkin_momentum",
            .where = "section 2.2, eq:noether_force_d",
-           .states = "for every control space the change of momentum equals the work of the forces to rounding",
+           .states = "for every control space the change of momentum equals the work of the forces to round-off",
            .judge = galerkin_keeps_momentum,
            .evidence = {"consistency_galerkin.csv"}}};
 }

@@ -96,7 +96,7 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
                Measurement{"relative difference of J", difference, "hamiltonian"})
       .also(worded("error of tangent over error of dmoc, N = {} to {}: {}", used.front().text("intervals"),
                    used.back().text("intervals"), listed("{:.2f}", ratios)))
-      .also(worded("{} grids at the rounding of J left out", at_floor))
+      .also(worded("{} grids at the round-off of J left out", at_floor))
       .also(left_out(dmoc, used, "not solved by all, in favour of"))
       .because(reason);
 }

@@ -58,8 +58,8 @@ Finding local_minima(const ResultTables& tables, const std::string& /*problem*/)
       return worded("{:.5g}", Measurement{"cost of a minimum", row.needed("objective"), "", problem});
     };
     words.push_back(
-        worded("{}: {:g} solved starts end in {} minima that are motions, {} of them by more than one method, J = {}",
-               problem, Measurement{"solved starts", starts, "", problem}, minima.where("is_motion", "yes").size(),
+        worded("{}: {:g} solved starts end in {} confirmed minima, {} of them by more than one method, J = {}", problem,
+               Measurement{"solved starts", starts, "", problem}, minima.where("is_motion", "yes").size(),
                shared.size(), shared.empty() ? worded("(none)") : joined(shared, ", ", objective)));
     words.push_back(worded("not counted: {} artefacts of the grid", minima.where("is_motion", "no").size()));
   }

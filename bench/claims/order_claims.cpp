@@ -49,7 +49,7 @@ Selection fitted_of(const Selection& orders) {
 /// The rows missing from the orders: orders without a fit, and solves that no fit could use.
 Words not_in(const Selection& orders, const ResultTables& tables, const std::string& problem) {
   return joined({left_out(orders, fitted_of(orders),
-                          "without a fit (few grids above rounding, or no four that agree), in favour of the claim:"),
+                          "without a fit (few grids above round-off, or no four that agree), in favour of the claim:"),
                  unsolved_behind(tables, "convergence_indirect", {{"problem", problem}})},
                 "; ");
 }
@@ -270,7 +270,7 @@ Claims order_claims() {
        .where = "section 3.6, main_theorem",
        .states = "four Gauss stages have order 8 in state, costate and u(x, psi)",
        .judge = order_eight,
-       .condition = "rounding leaves few grids: the fit needs four above it",
+       .condition = "round-off leaves few grids: the fit needs four above it",
        .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}},
       {.id = "order_of_adjoint_scheme",
        .where = "section 3.5, th:orderapp, eq:stateco5-eq:stateco9",

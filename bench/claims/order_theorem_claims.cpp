@@ -14,8 +14,8 @@ Finding exact_transforms_agree(const ResultTables& tables, const std::string& pr
     return std::max(row.needed("left_defect"), row.needed("right_defect")) / row.needed("largest_momentum");
   };
   return found(rows.max(defect) < rounding_of_differences,
-               "largest difference over 8 motions and {} steps, relative to the largest momentum: {:.1e}", rows.size(),
-               Measurement{"largest relative difference", rows.max(defect)});
+               "largest difference over 8 trajectories and {} steps, relative to the largest momentum: {:.1e}",
+               rows.size(), Measurement{"largest relative difference", rows.max(defect)});
 }
 
 /// A quantity and its order of error in (th:ordercalculation).

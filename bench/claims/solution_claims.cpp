@@ -160,7 +160,7 @@ Finding equal_solutions(const ResultTables& tables, const std::string& problem) 
                "{} grids with {} tableaus, largest relative difference: {}, costates {:.0e}", rows.size(),
                rows.group_by({"tableau", "stages"}).size(), largest.words,
                Differences::of("the costates", largest.costates))
-      .also(worded("answers in the other's rows leave {}", rows_agree ? "rounding" : "more than rounding"))
+      .also(worded("each solution satisfies the other method's equations {} round-off", rows_agree ? "to" : "not to"))
       .also(left_out(all, rows));
 }
 
@@ -187,7 +187,7 @@ Finding equal_with_inequalities(const ResultTables& tables, const std::string& /
   require(words.size() > 1, "equivalence_inequalities.csv has usable rows of {} problems; two are needed",
           words.size());
   return found(verdict_on_all(verdicts), "largest relative difference: {}", joined(words, "; "))
-      .also(left_out(all, rows, "no motion, or not refined by Newton steps, in favour of"));
+      .also(left_out(all, rows, "too coarse, or not refined by Newton steps, in favour of"));
 }
 
 /// Noether's theorem of the optimal control problem.
@@ -233,7 +233,7 @@ Finding tangent_differs(const ResultTables& tables, const std::string& problem) 
                "relative difference in q {:.1e} at N = {}, {:.1e} at N = {}", difference(rows.front(), coarse),
                rows.front().text("intervals"), difference(rows.back(), fine), rows.back().text("intervals"))
       .also(worded("slopes {}", joined(orders, ", ", words)))
-      .also(left_out(slopes, orders, "without a fit (few grids above rounding):"))
+      .also(left_out(slopes, orders, "without a fit (few grids above round-off):"))
       .also(left_out(all, rows));
 }
 
@@ -297,7 +297,7 @@ Claims solution_claims() {
        .whose = Whose::paper,
        .states = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
        .judge = equal_solutions,
-       .condition = "fixed ends, no inequality is active, answers are refined by Newton steps",
+       .condition = "fixed ends, no inequality is active, solutions are refined by Newton steps",
        .evidence = equivalence},
       {.id = "equal_solutions_with_inequalities",
        .problems = examples,

@@ -25,11 +25,11 @@ Finding optimal_motions_keep_momentum(const ResultTables& tables, const std::str
   double least = std::numeric_limits<double>::infinity();
   for (const Row& row : tangent) least = std::min(least, deviation(row));
   return found(kept < within_rounding && least > beyond_rounding,
-               "|J_k - J_0| in units of rounding on {} optimal motions by DMOC and Hamiltonian: at most {:.1f}",
-               structured.size(), Measurement{"largest deviation in units of rounding", kept})
+               "|J_k - J_0| in units of round-off on {} optimal trajectories by DMOC and Hamiltonian: at most {:.1f}",
+               structured.size(), Measurement{"largest deviation in units of round-off", kept})
       .also(worded("on {} by tangent-space collocation: {:.1e} to {:.1e}", tangent.size(),
-                   Measurement{"least deviation in units of rounding", least, "tangent"},
-                   Measurement{"largest deviation in units of rounding", tangent.max(deviation), "tangent"}));
+                   Measurement{"least deviation in units of round-off", least, "tangent"},
+                   Measurement{"largest deviation in units of round-off", tangent.max(deviation), "tangent"}));
 }
 
 Finding balanced_about_every_axis(const ResultTables& tables, const std::string& /*problem*/) {
@@ -50,7 +50,7 @@ Finding balanced_about_every_axis(const ResultTables& tables, const std::string&
   require(!polar.empty() && !tangent.empty(),
           "invariants_rotations.csv needs rows in polar coordinates and of tangent");
   return found(std::ranges::all_of(linear, is_balanced),
-               "three axes, {} motions of 400 steps by DMOC and Hamiltonian: largest |change of J - work| {:.1e}",
+               "three axes, {} trajectories of 400 steps by DMOC and Hamiltonian: largest |change of J - work| {:.1e}",
                linear.group_by({"problem", "method"}).size(), Measurement{"largest defect", linear.max(defect)})
       .also(worded("by tangent-space collocation up to {:.1e}",
                    Measurement{"largest defect", tangent.max(defect), "tangent"}))

@@ -158,12 +158,18 @@ PageModel tables_model(const ResultsFolder& results, const std::string& folder) 
   for (const ReportedTable& reported : results.tables) {
     const Table& table = reported.table;
     const Json* const metadata = results.metadata_of(reported.run);
-    const auto unsolved = has_columns(table, {"status"}) ? std::ranges::count_if(table.rows(), is_unsolved) : 0;
+    const auto rows_with = [&](const auto& wanted) {
+      return has_columns(table, {"status"}) ? std::ranges::count_if(table.rows(), wanted) : 0;
+    };
+    const auto coarse =
+        rows_with([](const Row& row) { return is_no_motion(status_named(row.text("status"))); });  // these are solved
+    const auto unsolved = rows_with(is_unsolved) - coarse;
     by_run[reported.run].push_back({{"table", reported.file},
                                     {"file", link_to_file(folder + reported.file)},
                                     {"rows", table.rows().size()},
                                     {"columns", table.columns().size()},
                                     {"unsolved", unsolved > 0 ? Json(unsolved) : Json()},
+                                    {"coarse", coarse > 0 ? Json(coarse) : Json()},
                                     {"cut", table.rows().size() > most_rows ? Json(most_rows) : Json()},
                                     {"command", command_of(metadata)}});
   }

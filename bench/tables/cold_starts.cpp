@@ -55,9 +55,10 @@ struct Effort {
   const char* unit;
   const char* meaning;
 };
-constexpr std::array efforts{Effort{"iterations", "major_iterations", "", "major iterations of the best answers"},
-                             Effort{"evaluations", "evaluations", "", "evaluations of derivatives by the best answers"},
-                             Effort{"seconds", "seconds", "s", "time of the best answers"}};
+constexpr std::array efforts{
+    Effort{"iterations", "major_iterations", "", "major iterations of the best solutions"},
+    Effort{"evaluations", "evaluations", "", "evaluations of derivatives by the best solutions"},
+    Effort{"seconds", "seconds", "s", "time of the best solutions"}};
 constexpr std::array quartiles{std::pair{"_lower_quartile", 0.25}, std::pair{"_median", 0.5},
                                std::pair{"_upper_quartile", 0.75}};
 
@@ -103,14 +104,14 @@ Columns<EndsOfCell> columns_of_ends() {
       Columns<Ends>{
           {"elsewhere", "", "number of confirmed starts that cost more than the reference",
            [](const Ends& ends) { return ends.confirmed.hits - ends.best.hits; }},
-          {"too_coarse", "", "number of solved starts whose answers are not motions on this grid",
+          {"too_coarse", "", "number of solved starts whose solutions are too coarse on this grid",
            [](const Ends& ends) { return ends.solved.hits - ends.confirmed.hits; }},
           {"lost", "", "number of unsolved starts", &Ends::lost},
           {"failures", "", "the statuses of the unsolved starts, each with its number", &Ends::failures},
           {"below_reference", "", "number of the best that cost less than the reference", &Ends::below_reference},
           {"certified_objective", "cost", "the certified optimum of the problem, if known",
            [](const Ends& ends) { return ends.head.number("reference_objective"); }},
-          {"reference_objective", "cost", "cost that answers are compared with",
+          {"reference_objective", "cost", "cost that solutions are compared with",
            from(&Ends::reference, &BestCost::cost)},
           {"reference_kind", "", "certified, or the lowest confirmed cost on the grid",
            from(&Ends::reference, &BestCost::kind)}};

@@ -166,9 +166,9 @@ Columns<FittedCurve> order_columns() {
               from(&Curve::fitted, &Fit::coarse_end)},
              {"fine_end", "", "why no finer grid is used: the same, or floor", from(&Curve::fitted, &Fit::fine_end)},
              {"points", "", "number of grids used", from(&Curve::fit, &Fit::grids, &Selection::size)},
-             {"floor", "", "error at which rounding begins; empty if not measured", from(&Curve::fit, &Fit::floor)},
+             {"floor", "", "error at which round-off begins; empty if not measured", from(&Curve::fit, &Fit::floor)},
              {"verdict", "",
-              "slope; floor (rounding leaves too few grids), few grids, or unsteady (no four grids agree)",
+              "slope; floor (round-off leaves too few grids), few grids, or unsteady (no four grids agree)",
               from(&Curve::fit, &Fit::verdict)},
              {"active", "", "what the active bounds and path constraints read; they lower orders", &Curve::active}};
 }
@@ -219,10 +219,10 @@ std::optional<std::string> note_on_missing_orders(std::span<const FittedCurve> f
   const Row& head = fits.front().head;
   const Fit& fit = fits.front().fit;
   const bool has_few = fit.verdict == "few grids";
-  return fmt::format(
-      "{} {} {} {}: no order is fitted ({}: {} above rounding){}", head.text("problem"), head.text("method"),
-      head.text("tableau"), head.text("stages"), fit.verdict, counted(fit.grids.size(), "grid"),
-      has_few ? "; solve on more grids, at least four in addition to the reference, whose answers are motions" : "");
+  return fmt::format("{} {} {} {}: no order is fitted ({}: {} above round-off){}", head.text("problem"),
+                     head.text("method"), head.text("tableau"), head.text("stages"), fit.verdict,
+                     counted(fit.grids.size(), "grid"),
+                     has_few ? "; use at least four grids besides the reference, all solved and not too coarse" : "");
 }
 
 /// The orders of a curve's largest jump and of its state error on the same grids.
@@ -267,7 +267,7 @@ Columns<JumpsOfCurve> jump_columns() {
              {"coarsest", "", "smallest number of intervals used", from(orders, &TwoOrders::grids, coarsest_of)},
              {"finest", "", "largest number of intervals used", from(orders, &TwoOrders::grids, finest_of)},
              {"points", "", "number of grids used", &JumpsOfCurve::points},
-             {"verdict", "", "slope, floor (rounding leaves too few grids) or few grids", &JumpsOfCurve::verdict}};
+             {"verdict", "", "slope, floor (round-off leaves too few grids) or few grids", &JumpsOfCurve::verdict}};
 }
 
 }  // namespace

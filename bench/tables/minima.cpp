@@ -115,14 +115,14 @@ Columns<Minimum> minimum_columns(const std::vector<std::string>& methods) {
   return head_columns<Minimum>(group_columns, in_key) +
          Columns<Minimum>{
              {"minimum", "", "number of the minimum, from the lowest cost upwards", &Minimum::number, in_key},
-             {"objective", "cost", "the lowest among the answers that are this minimum", &Minimum::objective},
+             {"objective", "cost", "the lowest among the solutions that are this minimum", &Minimum::objective},
              {"is_best", "",
-              "yes for the lowest minimum that is a motion on the finest grid, and for its like on other grids",
+              "yes for the lowest minimum that is confirmed on the finest grid, and for its like on other grids",
               from(&Minimum::is_best, yes_or_no)},
-             {"is_motion", "", "yes if the intervals of some answer, replayed one by one, join",
+             {"is_motion", "", "yes if some solution is confirmed: integrating each interval meets the next node",
               from(&Minimum::answers, is_motion_in_words)},
              {"replay_confirmed", "",
-              "yes if the replay of the whole horizon ends near the final state for some answer",
+              "yes if the replay of the whole horizon ends near the final state for some solution",
               [](const Minimum& minimum) {
                 return yes_or_no(has_at_most(minimum.answers, "replay_error", confirmed_replay));
               }}} +
@@ -143,10 +143,10 @@ Columns<StartInPlane> basin_columns() {
          head_columns<StartInPlane>({"status"}) +
          Columns<StartInPlane>{
              {"minimum", "", "number of the minimum, from the lowest cost upwards", &StartInPlane::number},
-             {"objective", "cost", "the lowest among the answers that are this minimum",
+             {"objective", "cost", "the lowest among the solutions that are this minimum",
               from(&StartInPlane::minimum, &Selection::front,
                    [](const Row& lowest) { return lowest.number("objective"); })},
-             {"is_motion", "", "yes if the intervals of some answer, replayed one by one, join",
+             {"is_motion", "", "yes if some solution is confirmed: integrating each interval meets the next node",
               from(&StartInPlane::minimum, is_motion_in_words)}};
 }
 
@@ -169,7 +169,8 @@ Columns<StartsOfMethod> best_share_columns() {
              {"solved", "", "number of solved starts", &Starts::solved},
              {"unsolved", "", "number of unsolved starts",
               [](const Starts& starts) { return starts.best.trials - starts.solved; }},
-             {"unconfirmed", "", "number of starts that ended in a minimum that is not a motion", &Starts::unconfirmed},
+             {"unconfirmed", "", "number of starts that ended in a minimum that is not confirmed",
+              &Starts::unconfirmed},
              {"best", "", "number of starts that ended in the best minimum", from(&Starts::best, &ShareCount::hits)},
              {"share", "", "best by starts", from(&Starts::best, &ShareCount::share)},
              {"share_lower", "", "lower end of Wilson's 95 % interval of the share",

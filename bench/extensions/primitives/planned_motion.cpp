@@ -183,7 +183,7 @@ void add_motion(const Trajectory& motion, const std::string& part, double time_u
 
 Columns<PicturePoint> picture_columns() {
   return {{"problem", "", "name of the problem", &PicturePoint::problem},
-          {"part", "", "node of the roadmap, joint of the path, or the motion before or after the full solve",
+          {"part", "", "node of the roadmap, joint of the path, or the trajectory before or after the full solve",
            &PicturePoint::part},
           {"t", "", "time in the problem's unit; empty for nodes", &PicturePoint::t},
           {"x", "", "first quantity of the problem's picture, or q_1 where states lie on a lattice", &PicturePoint::x},

@@ -58,7 +58,7 @@ const Columns<PlannedMotion> columns{
      [](const PlannedMotion& p) { return p.path ? std::optional(p.path->edges.size()) : std::nullopt; }},
     {"cost_before", "cost", "cost of the concatenation", [](const PlannedMotion& p) { return cost_of(p.before); }},
     {"status", "", "status of the full solve from there", &PlannedMotion::status},
-    {"cost_after", "cost", "cost of its answer", [](const PlannedMotion& p) { return cost_of(p.after); }},
+    {"cost_after", "cost", "cost of its solution", [](const PlannedMotion& p) { return cost_of(p.after); }},
     {"reference_cost", "cost", "cost of the optimum that the problem states", reference_cost},
     {"excess_before", "", "cost_before / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, cost_of(p.before)); }},
@@ -67,9 +67,9 @@ const Columns<PlannedMotion> columns{
     {"total_seconds", "s", "roadmap, search, concatenation and full solve", &PlannedMotion::seconds},
     {"starts", "", "starts of multi-start in the same time", from(&PlannedMotion::multi_start, &MultiStart::starts)},
     {"solved_starts", "", "number of them that were solved", from(&PlannedMotion::multi_start, &MultiStart::solved)},
-    {"start_motions", "", "1 if they have a best one, 0 if none of the cheapest is a motion",
+    {"start_motions", "", "1 if they have a best one, 0 if none of the cheapest is a trajectory",
      [](const PlannedMotion& p) { return p.multi_start.best ? 1 : 0; }},
-    {"best_of_starts", "cost", "least cost of the starts whose answers are motions",
+    {"best_of_starts", "cost", "least cost of the starts whose solutions are trajectories",
      from(&PlannedMotion::multi_start, &MultiStart::best)},
     {"excess_of_starts", "", "best_of_starts / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, p.multi_start.best); }}};
@@ -154,8 +154,8 @@ int run(int argc, char** argv) {
       "primitives",
       "Roadmaps of short DMOC solves between trims or states: nodes, edges and time to build; the time of a search; "
       "the cost of the path found, before and after a full solve that starts there, compared with the optimum that the "
-      "problem states and the best of many perturbed guesses in the same total time (primitives.csv; motions and nodes "
-      "in primitives_picture.csv).",
+      "problem states and the best of many perturbed guesses in the same total time (primitives.csv; trajectories and "
+      "nodes in primitives_picture.csv).",
       argc, argv, measure_all);
 }
 

@@ -55,7 +55,7 @@ Columns<Record> choice_columns() {
 }
 template <class Record>
 Column<Record> steps_per_period(bool is_key = false) {
-  return {"steps_per_period", "", "steps in a period of the unforced motion", &Record::steps, is_key};
+  return {"steps_per_period", "", "steps in a period of the unforced trajectory", &Record::steps, is_key};
 }
 
 const Columns<Symplecticity> symplecticity_columns =
@@ -68,7 +68,7 @@ const Columns<Symplecticity> symplecticity_columns =
 
 const Columns<Momentum> momentum_columns =
     choice_columns<Momentum>() +
-    Columns<Momentum>{{"number_of_steps", "", "steps of the motion under an arbitrary thrust", &Momentum::steps},
+    Columns<Momentum>{{"number_of_steps", "", "steps of the trajectory under an arbitrary thrust", &Momentum::steps},
                       {"momentum_change", "", "J_N - J_0", from(&Momentum::result, &ControlledSteps::Momentum::change)},
                       {"work", "", "sum of h b_i f·xi", from(&Momentum::result, &ControlledSteps::Momentum::work)},
                       {"defect", "", "max over k of |J_k - J_0 - work|",
@@ -260,7 +260,7 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "step_control",
-      "Step sizes that are proportional to a function of the motion along Kepler ellipses, as a constraint of the "
+      "Step sizes that are proportional to a function of the trajectory along Kepler ellipses, as a constraint of the "
       "variational principle, imposed on plain DMOC, and known before each step: the symplectic form of the extended "
       "map (step_control_symplecticity.csv), momentum against work (step_control_momentum.csv), the energy over many "
       "periods (step_control_energy.csv, step_control_energy_behaviour.csv), errors of a period and of uniform steps "

@@ -31,11 +31,11 @@ Finding symplectic_by_principle(const ResultTables& tables, const std::string& /
   const double from_left = by_rule(rows, "from_left", table).max(defect);
   return found(
       variational < within_rounding && std::min(imposed, from_left) > within_rounding,
-      "D'ΩD - Ω of (q, t, p, -E) in units of rounding: variational at most {:.1f}, imposed up to {:.1e}, known "
+      "D'ΩD - Ω of (q, t, p, -E) in units of round-off: variational at most {:.1f}, imposed up to {:.1e}, known "
       "before the step up to {:.1e}",
-      Measurement{"largest defect in units of rounding", variational, "", "variational"},
-      Measurement{"largest defect in units of rounding", imposed, "", "imposed"},
-      Measurement{"largest defect in units of rounding", from_left, "", "from_left"});
+      Measurement{"largest defect in units of round-off", variational, "", "variational"},
+      Measurement{"largest defect in units of round-off", imposed, "", "imposed"},
+      Measurement{"largest defect in units of round-off", from_left, "", "from_left"});
 }
 
 Finding momentum_by_every_route(const ResultTables& tables, const std::string& /*problem*/) {
@@ -47,8 +47,8 @@ Finding momentum_by_every_route(const ResultTables& tables, const std::string& /
   static_cast<void>(by_rule(rows, "imposed", table));
   const double least_work = -rows.max([](const Row& row) { return -std::abs(row.needed("work")); });
   return found(rows.max("defect") < rounding && least_work > some_work,
-               "{} motions of 400 steps under arbitrary thrust, steps by distance, acceleration and thrust: change of "
-               "momentum less work at most {:.1e}",
+               "{} trajectories of 400 steps under arbitrary thrust, steps by distance, acceleration and thrust: "
+               "change of momentum less work at most {:.1e}",
                rows.size(), Measurement{"largest defect", rows.max("defect")})
       .also(worded("work at least {:.1e}", Measurement{"least work", least_work}));
 }
@@ -138,7 +138,7 @@ Claims step_control_claims() {
        .problems = simulated,
        .where = in_outlook,
        .whose = Whose::extension,
-       .states = "steps tied to the motion leave the extended flow symplectic only if their constraint is part of "
+       .states = "steps tied to the trajectory leave the extended flow symplectic only if their constraint is part of "
                  "the principle",
        .judge = symplectic_by_principle,
        .evidence = {"step_control_symplecticity.csv"}},
@@ -161,8 +161,9 @@ Claims step_control_claims() {
        .problems = simulated,
        .where = in_outlook,
        .whose = Whose::extension,
-       .states = "as part of the principle, steps tied to the motion leave smaller errors than the same number of them "
-                 "outside of it",
+       .states =
+           "as part of the principle, steps tied to the trajectory leave smaller errors than the same number of them "
+           "outside of it",
        .judge = accuracy_by_principle,
        .condition =
            "along Kepler ellipses of eccentricity 0.3 to 0.8, steps by distance or acceleration, E_0 the energy "
