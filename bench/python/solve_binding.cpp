@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <map>
 #include <memory>
@@ -110,6 +111,7 @@ class Watch {
 
   void operator()(const GridAttempt& grid) {
     if (!prints_grids_) return;
+    std::fflush(stdout);  // what the solver has printed comes before
     in_python([&] {
       const std::string error = is_solved(grid.status) ? fmt::format("estimated error {:.1e}", grid.relative)
                                                        : std::string(name_of(grid.status));

@@ -1,9 +1,11 @@
-"""python3 -m dmocbench EXPERIMENT [FILE.py ...] OPTIONS: an experiment, on the problems that the files state too."""
+"""python3 -m dmocbench EXPERIMENT [FILE.py ...] OPTIONS: an experiment, on the problems that the files state too.
+python3 -m dmocbench figures RESULTS: draws the tables in a results folder."""
 
 import importlib.util
 import inspect
 import os
 import sys
+from pathlib import Path
 
 from . import _core
 from .experiments import register
@@ -29,6 +31,15 @@ _without_problems = {"claims", "misprints", "new", "report", "step_control"}
 """Experiments that have no option --problem: the problems of files are known to them all the same."""
 
 
+def draw(words):
+    """Becomes dmocbench-figures: of a wheel, of the build, or of an installation."""
+    for place in ("plots/figures", "../../dmocbench-figures", "../../../../bin/dmocbench-figures"):
+        script = Path(__file__).parent / place
+        if script.exists():
+            os.execv(script, [str(script), *words])
+    raise _core.Error("dmocbench-figures is not installed; it is part of the program dmocbench")
+
+
 def main(words):
     if not words or words[0] in ("-h", "--help"):
         print(__doc__.strip() + "\n")
@@ -36,6 +47,8 @@ def main(words):
             print(f"  {name:<20} {description}")
         return 0
     experiment, rest = words[0], words[1:]
+    if experiment == "figures":
+        draw(rest)
     if experiment not in [name for name, _ in _core.programs()]:
         raise _core.Error(f"there is no experiment \"{experiment}\"; python3 -m dmocbench --help lists them")
     files = [word for word in rest if word.endswith(".py")]
