@@ -289,6 +289,10 @@ void bind_numbers(py::class_<Answer>& answer) {
   number("coordinate_units",
          [](const SolvedCase& solved) { return solved.the_case.problem->card().configuration_units; });
   number("control_units", [](const SolvedCase& solved) { return solved.the_case.problem->card().control_units; });
+  number("time_unit", [](const SolvedCase& solved) {
+    const Unit unit = solved.the_case.problem->card().time_unit;
+    return unit.factor == 1.0 ? unit.name : std::string();  // times are as solved
+  });
   number("first_order_states", [](const SolvedCase& solved) { return solved.the_case.problem->first_order_names(); });
   number("unknowns", [](const SolvedCase& solved) {
     return by_unknown(solved, solved.trajectory ? solved.trajectory->unknowns : Eigen::VectorXd());

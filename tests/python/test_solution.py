@@ -239,6 +239,7 @@ class Shown(unittest.TestCase):
         matplotlib.use("Agg")
         axes = db.solve(PendulumSwingUp(), intervals=16).plot()
         self.assertEqual([axis.get_ylabel() for axis in axes], ["theta [rad]", "tau [N m]"])
+        self.assertEqual(axes[-1].get_xlabel(), "t [s]")
         line = axes[0].lines[0]
         self.assertAlmostEqual(line.get_ydata()[-1], np.pi, places=9)
         motors = db.solve(restated.TwoLinkWithMotors(), intervals=16, stages=2)

@@ -141,6 +141,7 @@ class Answer:
     coordinate_units: list[str]
     controls: list[str]
     control_units: list[str]
+    time_unit: str
     first_order_states: list[str]
     unknowns: dict[str, float]
     picture: tuple[list[str], Array]

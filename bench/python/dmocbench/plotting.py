@@ -60,7 +60,7 @@ def plot(solution: Solution, *names: str) -> Any:
         if len(lines) > 1:
             axis.legend()
     axes[0, 0].set_title(f"{solution.problem} by {solution.method}, {solution.intervals} intervals")
-    axes[-1, 0].set_xlabel("t")
+    axes[-1, 0].set_xlabel("t" + (f" [{solution.time_unit}]" if solution.time_unit else ""))
     return axes[:, 0]
 
 
@@ -110,7 +110,7 @@ def animate(solution: Solution, shape: Shape | None = None, *, frames: int = 100
 
     def show(frame: int) -> Any:
         line.set_data(places[frame, :, 0], places[frame, :, 1])
-        label.set_text(f"{solution.problem}, t = {times[frame]:.3g}")
+        label.set_text(f"{solution.problem}, t = {times[frame]:.3g} {solution.time_unit}".rstrip())
         return line, label
 
     duration = float(times[-1]) if seconds is None else seconds

@@ -164,6 +164,7 @@ class Solution:
     coordinate_units: list[str]
     controls: list[str]
     control_units: list[str]
+    time_unit: str
     picture: tuple[list[str], np.ndarray]
     t: np.ndarray | None
     q: np.ndarray | None
