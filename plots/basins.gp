@@ -50,8 +50,8 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
     set yrange [B_min - half:B_max + half]
     set size ratio 1
     unset grid
-    set xlabel "bulge in q_1 [range of q_1]"
-    set ylabel "bulge in q_2 [range of q_2]" offset inwards
+    set xlabel "bulge of q_1, over its range"
+    set ylabel "bulge of q_2, over its range" offset inwards
     set style fill solid 1.0 noborder
     do for [i = 1:words(methods)] {
       method = word(methods, i)

@@ -45,13 +45,13 @@ do for [problem_word in problems] {
   }
   columns_of_panels = words(methods)
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_derivatives", 930)
+    eval begin_figure(kind, problem."_derivatives", 948)
     figure_title = title_text(problem_label(problem)\
         .": solves by exact derivatives and by differences, ".solver_label(entry(scheme, "solver")),\
         paper_note(problem, "section 4.1").timed_conditions("derivatives").".",\
         (told("derivatives", "repeats") eq "1" ? "" : "Bars: quartiles. ").(strlen(further) > 0 ? "Dashed: quasi-Newton, tolerance ".entry(loosest, "tolerance")."." : "")\
         ." Open: not solved, the time spent and the residual reached.")
-    eval panels(2, columns_of_panels, 95, 15, 185, 12, 25)
+    eval panels(2, columns_of_panels, 95, 15, 203, 12, 25)
     do for [q = 1:2] {
       quantity = word(quantities, q)
       do for [m = 1:columns_of_panels] {
@@ -74,7 +74,7 @@ do for [problem_word in problems] {
         if (q == 1) { set format x "" }
         set ylabel (m > 1 ? "" : q == 1 ? "time of the solver [s]" : "KKT residual, exact derivatives") offset inwards
         if (q == 1 && m == 1) {
-          set key at screen 0.5, screen 0.008 center bottom vertical maxrows 4 width -6 font ",12" samplen 2.5
+          set key at screen 0.5, screen 0.008 center bottom vertical maxrows 5 width -4 font ",12" samplen 2.5
         } else { unset key }
         plot for [i in shown] keyentry with linespoints linecolor rgb colour(number_in(i)) linewidth 1.5 dashtype dashes(number_in(i))\
                  pointtype filled(number_in(i)) pointsize 0.75 title label_of(number_in(i)),\

@@ -30,6 +30,8 @@ pale = "#A0A0A0"
 
 do for [problem_word in problems_of(name, "")] {
   problem = entry(problem_word, "problem")
+  if (strlen(distinct(name, "method", problem_word, "configuration_difference")) == 0\
+      || strlen(distinct(name, "method", problem_word, "costate_difference")) == 0) { continue }
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_equivalence", 800)
     figure_title = title_text(problem_label(problem).": differences of collocation from DMOC by the same tableau",\
@@ -109,6 +111,7 @@ do for [problem_word in problems_of(name, "")] {
     lowest = y_low; highest = y_high
     do for [method in paper_families] {
       do for [column in "forced_form_residual acceleration_form_residual"] {
+        if (strlen(distinct(name, "method", problem_word.",method=".method, column)) == 0) { continue }
         eval measure(name, problem_word.",method=".method, "intervals", column)
         if (y_low < lowest) { lowest = y_low }
         if (y_high > highest) { highest = y_high }
