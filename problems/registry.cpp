@@ -9,10 +9,13 @@
 #include "methods/mechanics/problem_check.hpp"
 #include "problems/acrobot.hpp"
 #include "problems/beam.hpp"
+#include "problems/bouncing_ball.hpp"
+#include "problems/bouncing_hopper.hpp"
 #include "problems/brachistochrone.hpp"
 #include "problems/cannonball.hpp"
 #include "problems/cart_pole.hpp"
 #include "problems/cart_pole_cartesian.hpp"
+#include "problems/compass_gait.hpp"
 #include "problems/container_crane.hpp"
 #include "problems/control_rate.hpp"
 #include "problems/double_integrator.hpp"
@@ -34,15 +37,18 @@
 #include "problems/planar_quadrotor.hpp"
 #include "problems/planar_quadrotor_flip.hpp"
 #include "problems/problem_registry.hpp"
+#include "problems/refraction.hpp"
 #include "problems/rigid_quadrotor.hpp"
 #include "problems/robot_arm.hpp"
 #include "problems/satellite_directors.hpp"
 #include "problems/spherical_pendulum.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
 #include "problems/spring_arm.hpp"
+#include "problems/swing_and_release.hpp"
 #include "problems/two_link_manipulator.hpp"
 #include "problems/two_link_maximal.hpp"
 #include "problems/two_link_with_motors.hpp"
+#include "problems/two_stage_rocket.hpp"
 #include "problems/waypoints.hpp"
 
 namespace dmocbench {
@@ -105,6 +111,12 @@ Registry problems_of_the_suite() {
   registry.add<SatelliteDirectors>();
   registry.add<Waypoints>();
   registry.add<Formation>();
+  registry.add<BouncingBall>();
+  registry.add<BouncingHopper>();
+  registry.add<CompassGait>();
+  registry.add<TwoStageRocket>();
+  registry.add<Refraction>();
+  registry.add<SwingAndRelease>();
   return registry;
 }
 

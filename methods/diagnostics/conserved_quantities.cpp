@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/phase_trajectories.hpp"
 
 namespace dmocbench {
 
@@ -25,6 +30,49 @@ Expression priced_integrals(const TracedProblem::Values& values, const Trajector
   return sum;
 }
 
+/// p·ξ at the nodes.
+Eigen::VectorXd momenta_along(const TracedProblem& traced, const Trajectory& trajectory) {
+  PointFunction generator(
+      traced.configuration_size(), traced.control_size(),
+      [&](const ControlledState& x) { return traced.at(x).symmetry; }, traced.first_order_size());
+  Eigen::VectorXd momentum(trajectory.q.rows());
+  Eigen::VectorXd direction(traced.configuration_size());
+  for (Eigen::Index k = 0; k < momentum.size(); ++k) {
+    generator.evaluate(trajectory.node(k), trajectory.node_times[k], direction);
+    momentum[k] = trajectory.p.row(k).dot(direction);
+  }
+  return momentum;
+}
+
+void summarise(MomentumConsistency& result, double change_at_switches) {
+  result.largest = result.defects.lpNorm<Eigen::Infinity>();
+  result.mean = result.defects.lpNorm<1>() / static_cast<double>(result.defects.size());
+  result.total = std::abs(result.defects.sum() + change_at_switches);
+}
+
+/// The intervals of all phases that have the symmetry, and the changes at the switches between them.
+MomentumConsistency consistency_of_phases(const PhasedProblem& problem, const Trajectory& trajectory) {
+  const std::vector<PhaseTrajectory> parts = phase_trajectories(problem, trajectory);
+  MomentumConsistency all;
+  double change = 0.0;  // at switches
+  std::vector<std::optional<std::pair<double, double>>> ends;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const SharedParameters parameters(problem, *problem.phases()[i].problem);
+    const TracedProblem traced(*problem.phases()[i].problem);
+    ends.emplace_back();
+    if (!traced.has_symmetry()) continue;
+    const MomentumConsistency own = momentum_consistency(*problem.phases()[i].problem, parts[i].motion);
+    const Eigen::VectorXd momentum = momenta_along(traced, parts[i].motion);
+    ends.back() = std::pair(momentum[0], momentum[momentum.size() - 1]);
+    if (i > 0 && ends[problem.preceding(i)]) change += momentum[0] - ends[problem.preceding(i)]->second;
+    all.largest_force = std::max(all.largest_force, own.largest_force);
+    all.defects.conservativeResize(all.defects.size() + own.defects.size());
+    all.defects.tail(own.defects.size()) = own.defects;
+  }
+  summarise(all, change);
+  return all;
+}
+
 }  // namespace
 
 MomentumConsistency momentum_consistency(const Problem& problem, const Trajectory& trajectory) {
@@ -33,27 +81,18 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
   if (!traced.has_symmetry()) {
     throw Error(problem.name() + " states no symmetry, so there is no momentum to watch");
   }
-  const Eigen::Index n = traced.configuration_size();
-  const Eigen::Index m = traced.control_size();
-  const Eigen::Index l = traced.first_order_size();
-  PointFunction generator(
-      n, m, [&](const ControlledState& x) { return traced.at(x).symmetry; }, l);
+  if (const PhasedProblem* const phased = problem.phased()) return consistency_of_phases(*phased, trajectory);
   PointFunction force_along(
-      n, m,
+      traced.configuration_size(), traced.control_size(),
       [&](const ControlledState& x) {
         const TracedProblem::Values values = traced.at(x);
         const ExpressionVector transport = values.symmetry_jacobian * x.v;
         return ExpressionVector::Constant(
             1, values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport));
       },
-      l);
+      traced.first_order_size());
 
-  Eigen::VectorXd momentum(trajectory.q.rows());
-  Eigen::VectorXd direction(n);
-  for (Eigen::Index k = 0; k < momentum.size(); ++k) {
-    generator.evaluate(trajectory.node(k), trajectory.node_times[k], direction);
-    momentum[k] = trajectory.p.row(k).dot(direction);
-  }
+  const Eigen::VectorXd momentum = momenta_along(traced, trajectory);
   MomentumConsistency result;
   result.defects.resize(trajectory.intervals());
   Eigen::VectorXd force(1);
@@ -69,9 +108,7 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
     }
     result.defects[k] = momentum[k + 1] - momentum[k] - work;
   }
-  result.largest = result.defects.lpNorm<Eigen::Infinity>();
-  result.mean = result.defects.lpNorm<1>() / static_cast<double>(result.defects.size());
-  result.total = std::abs(result.defects.sum());
+  summarise(result, 0.0);
   return result;
 }
 

@@ -14,11 +14,14 @@ namespace dmocbench {
 /// The balance between forces and momentum along a discrete motion (eq:noether_force_d).
 struct MomentumConsistency {
   /// Per interval: p_{k+1}·ξ(q_{k+1}) - p_k·ξ(q_k) minus the work of all forces along ξ by the method's own quadrature,
-  /// h Σ b_i [L_q·ξ(Q_i) + L_v·Dξ(Q_i)Q̇_i + f·ξ(Q_i)]. N entries.
+  /// h Σ b_i [L_q·ξ(Q_i) + L_v·Dξ(Q_i)Q̇_i + f·ξ(Q_i)]. N entries, of
+  /// phases N of each that has the symmetry.
   Eigen::VectorXd defects;
-  double largest = 0.0;        ///< largest magnitude of an interval's defect
-  double mean = 0.0;           ///< mean magnitude
-  double total = 0.0;          ///< magnitude of their sum: the balance over the whole horizon
+  double largest = 0.0;  ///< largest magnitude of an interval's defect
+  double mean = 0.0;     ///< mean magnitude
+  /// Magnitude of their sum: the balance over the whole horizon. Of phases with the changes at switches, which vanish
+  /// where the switch has the symmetry.
+  double total = 0.0;
   double largest_force = 0.0;  ///< largest magnitude of the force along ξ at a stage, to compare with
 };
 

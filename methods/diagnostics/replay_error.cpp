@@ -7,14 +7,17 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include "methods/diagnostics/switch_map.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/phase_trajectories.hpp"
 
 namespace dmocbench {
 
@@ -111,26 +114,88 @@ class Replay {
 
 double ReplayError::norm() const { return std::hypot(configuration, velocity, first_order); }
 
-ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance) {
-  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
-  const Eigen::Index n = problem.configuration_size();
-  const Eigen::Index intervals = trajectory.intervals();
-  const ProblemBounds bounds = problem.bounds();
-  const BoundaryState first = end_state(problem.initial_state(), bounds.first, trajectory, 0);
-  const BoundaryState last = end_state(problem.final_state(), bounds.last, trajectory, intervals);
+namespace {
+
+/// Where a motion ends that is integrated from `first` on.
+struct ReplayedEnd {
+  BoundaryState state;
+  double cost;
+};
+
+ReplayedEnd replayed(const Problem& problem, const Trajectory& trajectory, const BoundaryState& first,
+                     double tolerance) {
+  const Eigen::Index n = first.q.size();
   Replay replay(problem, trajectory, tolerance);
   std::vector<double> state = Replay::begin_at(first);
   // Interval by interval: controls jump at the nodes, and a step across a jump has order 1.
-  for (Eigen::Index k = 0; k < intervals; ++k) replay.carry(state, k);
+  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) replay.carry(state, k);
   const Eigen::Map<const Eigen::VectorXd> q(state.data(), n);
   const Eigen::Map<const Eigen::VectorXd> v(state.data() + n, n);
-  const Eigen::Map<const Eigen::VectorXd> y(state.data() + 2 * n, last.y.size());
-  return {.configuration = (q - last.q).norm(),
-          .velocity = (v - last.v).norm(),
-          .first_order = (y - last.y).norm(),
-          .cost = state.back() + final_cost(problem, {q, v, y}, trajectory.node_times[intervals]),
-          .q = q - last.q,
-          .v = v - last.v};
+  const Eigen::Map<const Eigen::VectorXd> y(state.data() + 2 * n, first.y.size());
+  const BoundaryState last{q, v, y};
+  return {last, state.back() + final_cost(problem, last, trajectory.node_times.tail<1>()[0])};
+}
+
+ReplayError distance(const BoundaryState& reached, const BoundaryState& last, double cost) {
+  return {.configuration = (reached.q - last.q).norm(),
+          .velocity = (reached.v - last.v).norm(),
+          .first_order = (reached.y - last.y).norm(),
+          .cost = cost,
+          .q = reached.q - last.q,
+          .v = reached.v - last.v};
+}
+
+ReplayError replay_error_of(const Problem& problem, const Trajectory& trajectory, double tolerance) {
+  const ProblemBounds bounds = problem.bounds();
+  const BoundaryState first = end_state(problem.initial_state(), bounds.first, trajectory, 0);
+  const BoundaryState last = end_state(problem.final_state(), bounds.last, trajectory, trajectory.intervals());
+  const auto [reached, cost] = replayed(problem, trajectory, first, tolerance);
+  return distance(reached, last, cost);
+}
+
+/// Phase after phase, from the state after the switch to which the phase before has come. The distance of the ends that
+/// no phase follows.
+ReplayError replay_error_of_phases(const PhasedProblem& problem, const Trajectory& trajectory, double tolerance) {
+  const std::vector<PhaseTrajectory> parts = phase_trajectories(problem, trajectory);
+  const std::size_t count = parts.size();
+  std::vector<BoundaryState> reached(count);
+  std::vector<bool> is_followed(count, false);
+  for (std::size_t i = 1; i < count; ++i) is_followed[problem.preceding(i)] = true;
+  BoundaryState all{.q = Eigen::VectorXd::Zero(problem.configuration_size()),
+                    .v = Eigen::VectorXd::Zero(problem.configuration_size()),
+                    .y = Eigen::VectorXd::Zero(problem.first_order_size())};
+  double total = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Problem& phase = *problem.phases()[i].problem;
+    const Trajectory& motion = parts[i].motion;
+    const std::size_t before = i > 0 ? problem.preceding(i) : 0;
+    const SharedParameters shared(problem, phase);
+    const MotionPoint node = motion.node(0);
+    const BoundaryState first =
+        i == 0 ? end_state(phase.initial_state(), phase.bounds().first, motion, 0)
+               : SwitchMap(problem, i - 1, trajectory.unknowns)
+                     .after(reached[before], parts[before].motion.node_times.tail<1>()[0], {node.q, node.v, node.y});
+    const auto [end, cost] = replayed(phase, motion, first, tolerance);
+    reached[i] = end;
+    total += cost;
+    if (is_followed[i]) continue;
+    const BoundaryState last = end_state(phase.final_state(), phase.bounds().last, motion, motion.intervals());
+    const PhasedProblem::Part& part = problem.parts()[i];
+    all.q.segment(part.q.first, part.q.size) = end.q - last.q;
+    all.v.segment(part.q.first, part.q.size) = end.v - last.v;
+    all.y.segment(part.y.first, part.y.size) = end.y - last.y;
+  }
+  const BoundaryState nowhere{.q = 0.0 * all.q, .v = 0.0 * all.v, .y = 0.0 * all.y};
+  return distance(all, nowhere, total);
+}
+
+}  // namespace
+
+ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance) {
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
+  const PhasedProblem* const phased = problem.phased();
+  return phased != nullptr ? replay_error_of_phases(*phased, trajectory, tolerance)
+                           : replay_error_of(problem, trajectory, tolerance);
 }
 
 double cost_by_intervals(const Problem& problem, const Trajectory& trajectory, double tolerance) {

@@ -22,8 +22,10 @@ struct ReplayError {
 
 /// Integrates the forced Euler-Lagrange equations (eq:varmech_FEL) from (q⁰, v⁰), where prescribed, with the controls
 /// of the trajectory (on every interval the polynomial through its stages), by an adaptive Runge-Kutta method of order
-/// 7(8) with the given tolerance, absolute and relative. It is independent of every discretisation. Throws `Error` if
-/// the integration fails: the motion leaves the domain of the equations, or the steps vanish.
+/// 7(8) with the given tolerance, absolute and relative. It is independent of every discretisation. Phases are
+/// integrated one after the other, from the state after the switch (`SwitchMap`) to which the phase before has come,
+/// and the distance is taken at the end of the last ones. Throws `Error` if the integration fails: the motion leaves
+/// the domain of the equations, or the steps vanish.
 [[nodiscard]] ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance = 1e-12);
 
 /// The cost of a motion whose intervals are replayed one by one, each from its first node, as `accuracy` does, plus Φ

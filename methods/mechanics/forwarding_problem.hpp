@@ -45,6 +45,7 @@ class ForwardingProblem : public Problem {
     return original_.embedding(theta);
   }
   [[nodiscard]] const Problem* redundant() const override { return original_.redundant(); }
+  [[nodiscard]] const PhasedProblem* phased() const override { return original_.phased(); }
   [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override { return original_.integrands(x); }
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override {
     return original_.boundary_conditions(first, last);

@@ -42,6 +42,16 @@ Eigen::VectorXd checked(const Problem& problem, Eigen::VectorXd values) {
   return values;
 }
 
+Eigen::VectorXd values_of_part(const Problem& whole, const Problem& part) {
+  const Eigen::VectorXd all = parameter_values(whole);
+  Eigen::VectorXd values(static_cast<Eigen::Index>(part.parameters().size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    values[i] =
+        all[static_cast<Eigen::Index>(parameter_number(whole, part.parameters()[static_cast<std::size_t>(i)].name))];
+  }
+  return values;
+}
+
 }  // namespace
 
 ParameterScope::ParameterScope(const Problem& problem, Eigen::VectorXd values)
@@ -60,6 +70,19 @@ ParameterScope* ParameterScope::of(const Problem& problem) noexcept {
 std::optional<std::size_t> ParameterScope::read_varying(std::size_t /*parameter*/) { return std::nullopt; }
 
 void ParameterScope::read_as_number(std::size_t /*parameter*/) {}
+
+SharedParameters::SharedParameters(const Problem& whole, const Problem& part)
+    : ParameterScope(part, values_of_part(whole, part)), whole_(ParameterScope::of(whole)) {
+  for (const Parameter& parameter : part.parameters()) numbers_.push_back(parameter_number(whole, parameter.name));
+}
+
+std::optional<std::size_t> SharedParameters::read_varying(std::size_t parameter) {
+  return whole_ == nullptr ? std::nullopt : whole_->read_varying(numbers_[parameter]);
+}
+
+void SharedParameters::read_as_number(std::size_t parameter) {
+  if (whole_ != nullptr) whole_->read_as_number(numbers_[parameter]);
+}
 
 ParameterTrace::ParameterTrace(const Problem& problem, const std::vector<std::string>& open)
     : ParameterScope(problem, parameter_values(problem)),

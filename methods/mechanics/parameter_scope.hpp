@@ -41,10 +41,26 @@ class ParameterScope {
 
  private:
   friend class Problem;
+  friend class SharedParameters;
 
   const std::vector<Parameter>& parameters_;
   Eigen::VectorXd values_;
   ParameterScope* outer_;
+};
+
+/// As long as it exists, the parameters of a part of a problem are the whole's parameters of the same names: they have
+/// their values, and are inputs where those are.
+class SharedParameters final : public ParameterScope {
+ public:
+  /// Throws `Error` if the whole lacks a parameter of the part.
+  SharedParameters(const Problem& whole, const Problem& part);
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> read_varying(std::size_t parameter) override;
+  void read_as_number(std::size_t parameter) override;
+
+  ParameterScope* whole_;             // null outside of all scopes
+  std::vector<std::size_t> numbers_;  // of the part's parameters among the whole's
 };
 
 /// As long as it exists, formulas that this thread traces of a problem have the parameters that are kept open as inputs

@@ -106,6 +106,8 @@ ExpressionVector Problem::embedding(const ExpressionVector& /*theta*/) const { r
 
 const Problem* Problem::redundant() const { return nullptr; }
 
+const PhasedProblem* Problem::phased() const { return nullptr; }
+
 ExpressionVector Problem::integrands(const ControlledState& /*x*/) const { return {}; }
 
 ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }

@@ -18,6 +18,8 @@
 
 namespace dmocbench {
 
+class PhasedProblem;
+
 /// A number of a problem that its user may set.
 struct Parameter {
   std::string name;                                         ///< as on the command line: `--set name=value`
@@ -110,6 +112,8 @@ class Problem {
   /// The problem with constraints whose `embedding` has the coordinates of this one, an `EmbeddedProblem`: stages are
   /// in its coordinates. Default: null.
   [[nodiscard]] virtual const Problem* redundant() const;
+  /// This problem as phases that follow each other; null of other problems.
+  [[nodiscard]] virtual const PhasedProblem* phased() const;
   /// c(q, q̇, u, t) of the integral constraints lower <= ∫₀ᵀ c dt <= upper, whose bounds are
   /// `ProblemBounds::integrals`: as many entries as there are. Every method integrates them as it does the cost.
   [[nodiscard]] virtual ExpressionVector integrands(const ControlledState& x) const;

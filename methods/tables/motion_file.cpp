@@ -13,9 +13,11 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/tables/table.hpp"
+#include "methods/transcription/motions/phase_trajectories.hpp"
 
 namespace dmocbench {
 
@@ -213,9 +215,174 @@ std::vector<Series> constants(const Problem& problem, const Trajectory& trajecto
   return all;
 }
 
+/// The tables of all phases, one after the other, in the time of the whole motion, whose unit is `time_unit` times the
+/// problem's: the first column, next to `phase`. Columns that a phase lacks are empty there.
+template <class TableOf>
+Table by_phase(const PhasedProblem& problem, const Trajectory& trajectory, const TableOf& table_of,
+               double time_unit = 1.0) {
+  std::vector<std::string> header;
+  std::vector<Row> rows;
+  std::map<std::string, ColumnFacts> facts{{"phase", {"", "of the motion", {FieldKind::text, false}}}};
+  const std::vector<PhaseTrajectory> parts = phase_trajectories(problem, trajectory);
+  const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto& [name, phase, follows] = problem.phases()[i];
+    const SharedParameters shared(problem, *phase);
+    const Table own = table_of(*phase, parts[i].motion);
+    facts.insert(own.facts().begin(), own.facts().end());
+    for (const std::string& column : own.columns()) {
+      if (std::ranges::count(header, column) == 0 && column != "price_horizon") header.push_back(column);
+      if (header.size() == 1) header.emplace_back("phase");
+    }
+    for (Row row : own.rows()) {
+      row.set(header.front(), row.needed(header.front()) + time_unit * parts[i].start);
+      row.set("phase", name);
+      rows.push_back(std::move(row));
+    }
+  }
+  Table table(header);
+  table.describe(facts);
+  for (Row& row : rows) table.append(std::move(row));
+  return table;
+}
+
+/// A table with these fields in every row.
+Table with_fields(const Table& table, const Table& fields) {
+  std::vector<std::string> header = table.columns();
+  std::ranges::copy_if(fields.columns(), std::back_inserter(header),
+                       [&](const std::string& column) { return std::ranges::count(table.columns(), column) == 0; });
+  Table all(header);
+  all.describe(table.facts());
+  all.describe(fields.facts());
+  for (Row row : table.rows()) {
+    for (const std::string& column : fields.columns()) {
+      if (std::ranges::count(table.columns(), column) == 0) row.set(column, fields.rows().front().text(column));
+    }
+    all.append(std::move(row));
+  }
+  return all;
+}
+
+/// The quantities of all phases; one that several of them have has no bounds where they differ.
+Table quantities_by_phase(const PhasedProblem& problem) {
+  Table table;
+  std::vector<Row> rows;
+  for (const PhasedProblem::Phase& phase : problem.phases()) {
+    const SharedParameters shared(problem, *phase.problem);
+    table = quantity_table(*phase.problem);
+    for (const Row& row : table.rows()) {
+      if (!row.text("time").empty()) continue;  // a share of the phase's duration
+      const auto known = std::ranges::find_if(rows, [&](const Row& other) {
+        return other.text("kind") == row.text("kind") && other.text("quantity") == row.text("quantity");
+      });
+      if (known == rows.end()) {
+        rows.push_back(row);
+        continue;
+      }
+      for (const char* const side : {"lower", "upper"}) {
+        if (known->text(side) != row.text(side)) known->set(side, Cell());
+      }
+    }
+  }
+  table.clear();
+  for (Row& row : rows) table.append(std::move(row));
+  return table;
+}
+
+/// The rows of a phase, their times less the first node's.
+Table rows_of_phase(const Table& table, const std::string& phase, double start) {
+  Table own(table.columns());
+  for (Row row : table.rows()) {
+    if (row.text("phase") != phase) continue;
+    row.set("t", row.needed("t") - start);
+    own.append(std::move(row));
+  }
+  return own;
+}
+
+void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more, double factor = 1.0) {
+  if (more.cols() == 0) return;
+  to.conservativeResize(more.rows(), to.cols() + more.cols());
+  to.rightCols(more.cols()) = factor * more;
+}
+
+Trajectory motion_in_tables(const Problem& problem, const Table& nodes, const std::optional<Table>& stages,
+                            const std::filesystem::path& file);
+
+/// A motion whose phases follow each other, side by side. Throws `Error` unless all have as many nodes.
+Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const std::optional<Table>& stages,
+                        const std::filesystem::path& file) {
+  Trajectory all;
+  for (const auto& [name, phase, follows] : problem.phases()) {
+    const auto first = std::ranges::find(nodes.rows(), name, [](const Row& row) { return row.text("phase"); });
+    if (first == nodes.rows().end()) throw Error(fmt::format("{} has no rows of the phase {}", file.string(), name));
+    const double start = first->needed("t");
+    const SharedParameters shared(problem, *phase);
+    const std::optional<Table> own_stages = stages ? std::optional(rows_of_phase(*stages, name, start)) : std::nullopt;
+    const Trajectory own = motion_in_tables(*phase, rows_of_phase(nodes, name, start), own_stages, file);
+    const double share = own.node_times.tail<1>()[0] / problem.horizon();
+    if (all.node_times.size() == 0) {
+      all.tableau = own.tableau;
+      all.node_times = own.node_times / share;
+      all.stage_times = own.stage_times / share;
+    }
+    if (own.q.rows() != all.node_times.size() || own.stage_u.rows() != all.stage_times.size()) {
+      throw Error(fmt::format(
+          "{}: the phase {} has {} nodes and {} controls, the first phase {} and {}; all need as many", file.string(),
+          name, own.q.rows(), own.stage_u.rows(), all.node_times.size(), all.stage_times.size()));
+    }
+    append_columns(all.q, own.q);
+    append_columns(all.v, own.v, share);
+    append_columns(all.stage_u, own.stage_u);
+    append_columns(all.y, own.y);
+    append_columns(all.psi_q, own.psi_q);
+    append_columns(all.psi_p, own.psi_p);
+    append_columns(all.psi_y, own.psi_y);
+  }
+  read_unknowns(problem, nodes, file, all);
+  return all;
+}
+
+bool has_phases(const Problem& problem, const Table& nodes) {
+  return problem.phased() != nullptr && std::ranges::count(nodes.columns(), "phase") > 0;
+}
+
+/// One control per stage time, joined linearly: the trajectory of a one-stage method.
+Trajectory motion_in_tables(const Problem& problem, const Table& nodes, const std::optional<Table>& stages,
+                            const std::filesystem::path& file) {
+  if (has_phases(problem, nodes)) return side_by_side(*problem.phased(), nodes, stages, file);
+  Trajectory trajectory;
+  trajectory.tableau = gauss_tableau(1);
+  trajectory.node_times = times_in(nodes, file);
+  if (trajectory.node_times.size() < 2) throw Error(fmt::format("{} holds no motion", file.string()));
+  if (std::abs(trajectory.node_times[0]) > 1e-9 * trajectory.node_times.tail<1>()[0])
+    throw Error(fmt::format("{}: t must begin at 0", file.string()));
+  require_similar_horizon(problem, trajectory.node_times.tail<1>()[0], file);
+  trajectory.q = columns(nodes, problem.configuration_names(), "", file);
+  trajectory.v = columns(nodes, problem.configuration_names(), "v_", file);
+  if (!stages) {
+    trajectory.stage_times = trajectory.node_times;
+    trajectory.stage_u = controls_at_nodes(problem, nodes, trajectory.node_times, file);
+  } else {
+    const std::filesystem::path stages_file = stages_file_of(file);
+    trajectory.stage_times = times_in(*stages, stages_file);
+    if (trajectory.stage_times.size() == 0) throw Error(fmt::format("{} holds no motion", stages_file.string()));
+    require_one_motion(trajectory, file, stages_file);
+    trajectory.stage_u = columns(*stages, problem.control_names(), "", stages_file);
+  }
+  trajectory.y = columns(nodes, problem.first_order_names(), "", file);
+  read_costates(problem, nodes, file, trajectory);
+  read_unknowns(problem, nodes, file, trajectory);
+  return trajectory;
+}
+
 }  // namespace
 
 Table node_table(const Problem& problem, const Trajectory& trajectory) {
+  if (const PhasedProblem* const phased = problem.phased()) {
+    return with_fields(by_phase(*phased, trajectory, node_table),
+                       series_table("t", trajectory.node_times, constants(problem, trajectory)));
+  }
   const std::vector<std::string> names = problem.configuration_names();
   std::vector<Series> all{{"", names, trajectory.q, "configuration q"},
                           {"v_", names, trajectory.v, "its velocity"},
@@ -232,6 +399,7 @@ Table node_table(const Problem& problem, const Trajectory& trajectory) {
 }
 
 Table stage_table(const Problem& problem, const Trajectory& trajectory) {
+  if (const PhasedProblem* const phased = problem.phased()) return by_phase(*phased, trajectory, stage_table);
   const BoundMultipliers& prices = trajectory.prices;
   const std::string rate = " per unit of time";
   return series_table(
@@ -244,6 +412,9 @@ Table stage_table(const Problem& problem, const Trajectory& trajectory) {
 }
 
 Table picture_table(const Problem& problem, const Trajectory& trajectory) {
+  if (const PhasedProblem* const phased = problem.phased()) {
+    return by_phase(*phased, trajectory, picture_table, problem.card().time_unit.factor);
+  }
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   std::vector<std::string> names;
   std::vector<std::string> units;
@@ -273,6 +444,7 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
 }
 
 Table constraint_table(const Problem& problem, const Trajectory& trajectory) {
+  if (const PhasedProblem* const phased = problem.phased()) return by_phase(*phased, trajectory, constraint_table);
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   PointFunction constraints = path_function(problem);
   const Eigen::Index count = constraints.output_count();
@@ -291,6 +463,7 @@ Table constraint_table(const Problem& problem, const Trajectory& trajectory) {
 }
 
 Table quantity_table(const Problem& problem) {
+  if (const PhasedProblem* const phased = problem.phased()) return quantities_by_phase(*phased);
   const ProblemCard card = problem.card();
   const ProblemBounds bounds = problem.bounds();
   Table table({"kind", "quantity", "unit", "lower", "upper", "time"});
@@ -376,32 +549,10 @@ Trajectory read_motion_tables(const Problem& problem, const std::filesystem::pat
 }
 
 Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, const std::filesystem::path& file) {
+  std::optional<Table> stages;
   const Table nodes = table_in(texts.nodes, file);
-  // One control per stage time, joined linearly: the trajectory of a one-stage method.
-  Trajectory trajectory;
-  trajectory.tableau = gauss_tableau(1);
-  trajectory.node_times = times_in(nodes, file);
-  if (trajectory.node_times.size() < 2) throw Error(fmt::format("{} holds no motion", file.string()));
-  if (std::abs(trajectory.node_times[0]) > 1e-9 * trajectory.node_times.tail<1>()[0])
-    throw Error(fmt::format("{}: t must begin at 0", file.string()));
-  require_similar_horizon(problem, trajectory.node_times.tail<1>()[0], file);
-  trajectory.q = columns(nodes, problem.configuration_names(), "", file);
-  trajectory.v = columns(nodes, problem.configuration_names(), "v_", file);
-  if (texts.stages.empty()) {
-    trajectory.stage_times = trajectory.node_times;
-    trajectory.stage_u = controls_at_nodes(problem, nodes, trajectory.node_times, file);
-  } else {
-    const std::filesystem::path stages_file = stages_file_of(file);
-    const Table stages = table_in(texts.stages, stages_file);
-    trajectory.stage_times = times_in(stages, stages_file);
-    if (trajectory.stage_times.size() == 0) throw Error(fmt::format("{} holds no motion", stages_file.string()));
-    require_one_motion(trajectory, file, stages_file);
-    trajectory.stage_u = columns(stages, problem.control_names(), "", stages_file);
-  }
-  trajectory.y = columns(nodes, problem.first_order_names(), "", file);
-  read_costates(problem, nodes, file, trajectory);
-  read_unknowns(problem, nodes, file, trajectory);
-  return trajectory;
+  if (!texts.stages.empty()) stages = table_in(texts.stages, stages_file_of(file));
+  return motion_in_tables(problem, nodes, stages, file);
 }
 
 Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file) {

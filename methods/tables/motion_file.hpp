@@ -12,6 +12,10 @@
 
 namespace dmocbench {
 
+// Of phases, every table below holds the rows of phase after phase, in the time of the whole motion and
+// the phase's own velocities, with the column `phase` next to the time and an empty field where a phase lacks a
+// quantity. A switch has a row of each side.
+
 /// The nodes of a trajectory: `t`, then per configuration NAME, `v_NAME`, `p_NAME`, and `psi_q_NAME`, `psi_p_NAME`
 /// where there are costates (empty fields otherwise), and `price_NAME`, `price_v_NAME` where there are bounds
 /// (`BoundMultipliers`). Unknown parameters by their names, `integral_1` and so on, and the prices of their bounds and

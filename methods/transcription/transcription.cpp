@@ -54,6 +54,33 @@ void require_equalities_fit(const Problem& problem, const TracedProblem& traced,
                           problem.name(), member_name("bounds().path"), equalities, traced.control_size()));
 }
 
+/// A path constraint that holds with equality at an end by a boundary condition would be imposed twice where a stage is
+/// at that end.
+void require_conditions_once(const Problem& problem, const TracedProblem& traced, const Tableau& tableau) {
+  if (tableau.c.maxCoeff() < 1.0 || traced.path_constraint_count() == 0 || traced.boundary_condition_count() == 0)
+    return;
+  InputCounter inputs(static_cast<std::size_t>(traced.unknown_count()) + traced.open_parameters().size());
+  const auto state = [&](const Expression& t) {
+    State x{inputs.take(traced.configuration_size()), inputs.take(traced.configuration_size()), t};
+    x.y = inputs.take(traced.first_order_size());
+    return x;
+  };
+  const State first = state(0.0);
+  const State last = state(problem.horizon());
+  const ExpressionVector conditions = traced.at_ends(first, last).conditions;
+  for (const State& end : {first, last}) {
+    const ExpressionVector constraints = traced.at(end).path_constraints;
+    for (Eigen::Index i = 0; i < constraints.size(); ++i) {
+      const auto is_same = [&h = constraints[i]](const Expression& r) { return r.is_same(h) || r.is_same(-h); };
+      if (std::ranges::none_of(conditions, is_same)) continue;
+      throw Error(fmt::format(
+          "{}: path_constraints[{}] is a condition of the end too, which the stage there would impose a second time; "
+          "take --tableau gauss",
+          problem.name(), i));
+    }
+  }
+}
+
 constexpr std::array cost_forms{Named<CostForm>{"bolza", CostForm::bolza}, Named<CostForm>{"mayer", CostForm::mayer}};
 
 void require_changeable(const Problem& problem, const TracedProblem& traced, const Eigen::VectorXd& before,
@@ -119,6 +146,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
           jacobian_entries(functions_, blocks_.row_places(), blocks_.unknown_places(), grid.intervals()))),
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, blocks_.unknown_places(), grid.intervals()))) {
   require_equalities_fit(problem, traced_, tableau_, functions_.controls, problem_bounds_);
+  require_conditions_once(problem, traced_, tableau_);
   require_enough_intervals(problem, element);
   if (!problem_bounds_.interior.empty()) traced_.require_no_constraints("a program with bounds between the ends");
   check_constraint_windows(problem, traced_, tableau_, grid_);

@@ -6,6 +6,7 @@
 #include "bench/run/described_tables.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/start_provider.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
@@ -72,6 +73,38 @@ TEST_F(MotionFile, IsRefusedWithItsNameWhereItIsNoMotion) {
   expect(costates + "x,1\n1,1,0,1,1\n", stages_text, {"X_nodes.csv", "column psi_q_q"});
   expect(costates + "1,\n1,1,0,1,1\n", stages_text, {"X_nodes.csv", "column psi_p_q"});
   expect("t,q,v_q\n0,0,0\n500,0.5,1\n1000,1,0\n", "t,u\n250,4\n750,-4\n", {"X_nodes.csv", "1000", "double_integrator"});
+}
+
+TEST_F(MotionFile, HoldsPhasesOneAfterTheOther) {
+  for (const std::string name : {"bouncing_ball", "two_stage_rocket", "swing_and_release"}) {
+    SCOPED_TRACE(name);
+    const auto problem = make_problem(name);
+    const Trajectory motion = tests::confirmed(*problem, {"tangent", 2}, 8, guessed_motion(*problem), 1e-9).motion;
+    const Table nodes = node_table(*problem, motion);
+    const std::string first = problem->phased()->phases()[0].name;
+    ASSERT_EQ(nodes.rows().size(), 18U);
+    EXPECT_EQ(nodes.rows()[8].text("phase"), first);
+    EXPECT_NE(nodes.rows()[9].text("phase"), first);
+    EXPECT_NEAR(nodes.rows()[9].needed("t"), nodes.rows()[8].needed("t"), 1e-15);  // both sides of the switch
+    EXPECT_NEAR(nodes.rows()[8].needed("t"), nodes.rows()[0].needed("duration_" + first), 1e-15);
+    write_motion(*problem, motion, nodes_file());
+    const Trajectory read = read_motion_tables(*problem, nodes_file());
+    EXPECT_LT((read.node_times - motion.node_times).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT((read.q - motion.q).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT((read.v - motion.v).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT((read.psi_p - motion.psi_p).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_EQ(read.stage_u, motion.stage_u);
+    EXPECT_EQ(read.unknowns, motion.unknowns);
+    EXPECT_EQ(read.y, motion.y);
+  }
+  const auto ball = make_problem("bouncing_ball");
+  const Trajectory motion = tests::confirmed(*ball, {"dmoc", 1}, 8, guessed_motion(*ball), 1e-9).motion;
+  const Row before = node_table(*ball, motion).rows()[8];
+  const Row after = node_table(*ball, motion).rows()[9];
+  EXPECT_NEAR(after.needed("v_height"), -0.7 * before.needed("v_height"), 1e-12);
+  EXPECT_NEAR(after.needed("v_height") - before.needed("v_height"), before.needed("impulse"), 1e-12);
+  EXPECT_EQ(picture_table(*ball, motion).columns(),
+            (std::vector<std::string>{"t_in_s", "phase", "height_in_m", "thrust_in_N"}));
 }
 
 TEST_F(MotionFile, NeedsNoStagesBesideIt) {

@@ -1,4 +1,5 @@
 #pragma once
 
-// For your own problem: the class `Problem`, its card, expressions and their functions.
+// For your own problem: the class `Problem`, its card, expressions and their functions, and problems of several phases.
+#include "methods/mechanics/phased_problem.hpp"
 #include "methods/mechanics/problem.hpp"

@@ -1,0 +1,67 @@
+#include "methods/mechanics/links.hpp"
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+ExpressionVector difference(const ExpressionVector& after, const ExpressionVector& before, const char* of) {
+  if (after.size() == before.size()) return after - before;
+  throw Error(fmt::format("the phase before has {} {}, the one after {}; state their conditions entry by entry",
+                          before.size(), of, after.size()));
+}
+
+ExpressionVector change_of_q(const PhaseEnd& before, const PhaseEnd& after) {
+  return difference(after.q, before.q, "coordinates");
+}
+
+ExpressionVector change_of_y(const PhaseEnd& before, const PhaseEnd& after) {
+  return difference(after.y, before.y, "first-order states");
+}
+
+}  // namespace
+
+ExpressionVector continuous(const PhaseEnd& before, const PhaseEnd& after) {
+  return stacked({change_of_q(before, after), ExpressionVector(after.v - before.v), change_of_y(before, after)});
+}
+
+ExpressionVector momentum_kept(const PhaseEnd& before, const PhaseEnd& after) {
+  return stacked({change_of_q(before, after), ExpressionVector(after.p - before.p), change_of_y(before, after)});
+}
+
+ExpressionVector dropped(const PhaseEnd& before, const PhaseEnd& after, const ExpressionVector& amount) {
+  PhaseEnd left = before;
+  left.y = difference(before.y, amount, "entries that are dropped, and first-order states");
+  return continuous(left, after);
+}
+
+ExpressionVector impact(const VectorFormula& guard, const Expression& restitution, const ExpressionVector& impulse,
+                        const PhaseEnd& before, const PhaseEnd& after) {
+  const ExpressionVector change = change_of_q(before, after);
+  const ExpressionVector distance = guard(before.q);
+  if (impulse.size() != distance.size()) {
+    throw Error(fmt::format("an impact with {} guards has {} impulses; it needs one per guard", distance.size(),
+                            impulse.size()));
+  }
+  const ExpressionMatrix gradient = jacobian_at(guard, before.q);
+  return stacked({change, ExpressionVector(after.p - before.p - gradient.transpose() * impulse), distance,
+                  ExpressionVector(gradient * ExpressionVector(after.v + restitution * before.v)),
+                  change_of_y(before, after)});
+}
+
+ExpressionVector new_foothold(const FreeBody& body, const PhaseEnd& before, const PhaseEnd& after) {
+  const ExpressionVector q = body.on_old_foot(before.q);
+  const ExpressionVector v = jacobian_at(body.on_old_foot, before.q) * before.v;
+  const VectorFormula lagrangian = [&](const ExpressionVector& rates) {
+    return ExpressionVector::Constant(1, body.lagrangian(State{q, rates, before.t, before.y}));
+  };
+  const ExpressionVector momentum = jacobian_at(lagrangian, v).transpose();
+  const ExpressionMatrix held = jacobian_at(body.on_new_foot, after.q);
+  return stacked({difference(body.on_new_foot(after.q), q, "coordinates of the free body"),
+                  ExpressionVector(after.p - held.transpose() * momentum), change_of_y(before, after)});
+}
+
+}  // namespace dmocbench
