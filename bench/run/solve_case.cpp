@@ -129,6 +129,14 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   }
   if (found.is_motion()) return;
   solved.solution.status = Status::too_coarse;
+  if (found.relative_jump <= largest_jump_of_a_motion &&
+      found.accumulated_jump <= largest_accumulated_jump_of_a_motion) {
+    solved.solution.message = fmt::format(
+        "{} The quadrature of the program misses {:.2g} of the running cost along its own trajectory: the cost "
+        "oscillates within the intervals.",
+        sentence_of(Status::too_coarse), found.cost_error);
+    return;
+  }
   if (found.relative_jump <= largest_jump_of_a_motion) {
     solved.solution.message = fmt::format(
         "{} Its intervals, replayed alone, miss the next nodes to the same side: by {:.2g} of the range all together, "

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <boost/math/quadrature/gauss.hpp>
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/mechanics/point_function.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -84,10 +86,43 @@ Eigen::MatrixXd jumps_of(const TracedProblem& traced, const Trajectory& trajecto
   return jumps;
 }
 
+/// See `Accuracy::cost_error`.
+double cost_error_of(const TracedProblem& traced, const Trajectory& trajectory) {
+  using FinerRule = boost::math::quadrature::gauss<double, 7>;
+  PointFunction running_cost(
+      traced.configuration_size(), traced.control_size(),
+      [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced.at(x).running_cost); },
+      traced.first_order_size());
+  Eigen::VectorXd value(1);
+  const auto cost_at = [&](Eigen::Index k, double t) {
+    running_cost.evaluate({.q = configuration_at(trajectory, t),
+                           .v = velocity_on_interval(trajectory, k, t),
+                           .u = control_on_interval(trajectory, k, t),
+                           .y = first_order_on_interval(trajectory, k, t)},
+                          t, value);
+    return value[0];
+  };
+  double of_program = 0.0;
+  double finer = 0.0;
+  double size = 0.0;
+  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
+    const double left = trajectory.node_times[k];
+    const double h = trajectory.step(k);
+    for (Eigen::Index i = 0; i < trajectory.stages(); ++i) {
+      of_program += h * trajectory.tableau.b[i] * cost_at(k, left + h * trajectory.tableau.c[i]);
+    }
+    const double of_interval = FinerRule::integrate([&](double t) { return cost_at(k, t); }, left, left + h);
+    finer += of_interval;
+    size += std::abs(of_interval);
+  }
+  return size > 0.0 ? std::abs(finer - of_program) / size : 0.0;
+}
+
 }  // namespace
 
 bool Accuracy::is_motion() const {
-  return relative_jump <= largest_jump_of_a_motion && accumulated_jump <= largest_accumulated_jump_of_a_motion;
+  return relative_jump <= largest_jump_of_a_motion && accumulated_jump <= largest_accumulated_jump_of_a_motion &&
+         cost_error <= largest_cost_error_of_a_motion;
 }
 
 Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance) {
@@ -125,6 +160,7 @@ Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, dou
     sum += jumps.col(k);
     found.accumulated_jump = std::max(found.accumulated_jump, relative_size(sum));
   }
+  found.cost_error = cost_error_of(traced, trajectory);
   return found;
 }
 

@@ -92,15 +92,22 @@ std::optional<Confirmation::StepLengths> Confirmation::newton_step(const Solutio
   return step_by(pivoting);
 }
 
-void Confirmation::look_for_curvature(Solution& solution) {
+void Confirmation::look_for_curvature(double tolerance, Solution& solution) {
   if (!corrections_ || corrections_->has_minimum() || !corrections_->conditions().is_finite()) return;
   curvature_ = dmocbench::negative_curvature(program_, corrections_->conditions());
-  if (curvature_) solution.curvature = curvature_->share;
+  if (!curvature_) return;
+  const double length = std::max(1.0, solution.primal.lpNorm<Eigen::Infinity>());
+  const double decrease = -0.5 * curvature_->value * length * length;
+  if (decrease <= confirmation_factor * tolerance * std::max(1.0, std::abs(solution.objective)))
+    return curvature_.reset();
+  solution.curvature = curvature_->share;
 }
 
 /// Takes "solved" back from an answer whose residuals the tolerance, or the round-off of a constraint, hides.
 void Confirmation::require_visible(double tolerance, Solution& solution) {
-  if (const auto hidden = sizes_.hidden_violation(program_, solution.primal, memory_)) {
+  const auto hidden = sizes_.hidden_violation(program_, solution.primal, memory_);
+  needs_factors_of_rows_ = hidden || sizes_.has_small_inequality(program_);
+  if (hidden) {
     solution.status = Status::not_confirmed;
     solution.message = fmt::format(
         "The violation of constraint {} is below the tolerance, but {:.1g} of the constraint's own size, {:.1g}. State "
@@ -114,6 +121,7 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
   const double gradient = largest_of_free(program_, memory_.gradient_of_cost);
   if (residual <= confirmation_factor * tolerance * StopRule::scale(mean)) return;
   if (!(residual > ConstraintSizes::largest_share * gradient)) return;
+  needs_factors_of_rows_ = true;
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
       "The residual of stationarity, {:.1g}, is excused by the round-off of large constraints, but it is {:.1g} of the "
@@ -122,11 +130,11 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
 }
 
 /// Takes "solved" back from an answer that a Newton step would move.
-void Confirmation::require_settled(Solution& solution) {
+void Confirmation::require_settled(double tolerance, Solution& solution) {
   std::optional<StepLengths> step;
   try {
     step = newton_step(solution);
-    look_for_curvature(solution);
+    look_for_curvature(tolerance, solution);
   } catch (const Stopped&) {
     return tell_of_stop(solution);
   }
@@ -165,12 +173,13 @@ void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton)
   judge_residuals(solution);
   solution.curvature.reset();
   curvature_.reset();
+  needs_factors_of_rows_ = false;
   const bool claims_success = solution.status == Status::solved || solution.status == Status::acceptable;
   if (!claims_success) return;
   solution.status = confirmed_status(solution.status, scaled_residual(tolerance, solution));
   solution.message = sentence_of(solution.status);
   if (is_solved(solution.status)) require_visible(tolerance, solution);
-  if (is_solved(solution.status) && asks_newton) require_settled(solution);
+  if (is_solved(solution.status) && asks_newton) require_settled(tolerance, solution);
 }
 
 namespace {
@@ -179,11 +188,7 @@ namespace {
 double largest_curvature(NonlinearProgram& program, const Eigen::VectorXd& at) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(program.hessian_structure().size()));
   program.hessian(at, 1.0, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count())), values);
-  double largest = 0.0;
-  program.hessian_structure().for_each([&](Eigen::Index e, int i, int j) {
-    if (!is_fixed(program, i) && !is_fixed(program, j)) largest = std::max(largest, std::abs(values[e]));
-  });
-  return largest;
+  return largest_entry(program, values);
 }
 
 }  // namespace
@@ -202,6 +207,11 @@ double Confirmation::factor_of_cost(double tolerance, const Eigen::VectorXd& sta
   if (!(size < enough) || size == 0.0) return 1.0;
   constexpr int most = 1000;  // the factor stays finite
   return std::ldexp(1.0, std::min(most, -std::ilogb(size)));
+}
+
+Scaling Confirmation::scaling(double tolerance, const Eigen::VectorXd& start, const Solution& solution) {
+  return {.of_cost = factor_of_cost(tolerance, start, solution),
+          .of_rows = needs_factors_of_rows_ ? sizes_.factors() : Eigen::VectorXd()};
 }
 
 void tell_of_stop(Solution& solution) {

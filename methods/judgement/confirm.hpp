@@ -29,6 +29,16 @@ void judge_residuals(NonlinearProgram& program, Solution& solution);
 /// all else is "not confirmed".
 [[nodiscard]] Status confirmed_status(Status claim, double residual);
 
+/// Powers of two by which a program has to be multiplied before its tolerance can distinguish a solution from other
+/// points.
+struct Scaling {
+  double of_cost = 1.0;
+  Eigen::VectorXd of_rows;  ///< constraint_count() entries; empty where all are 1
+
+  /// True where nothing has to be multiplied.
+  [[nodiscard]] bool is_one() const { return of_cost == 1.0 && of_rows.size() == 0; }
+};
+
 /// Judges answers of one program, with memory of its own: after the first one that is solved nothing is allocated.
 class Confirmation {
  public:
@@ -45,16 +55,21 @@ class Confirmation {
   /// "Solved" requires a settled answer too: a Newton step from it moves no unknown by more than `settled` of its
   /// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are, or, where
   /// controls alone would move, "solved, control not determined"; `settle` may settle it. Negative curvature there is
-  /// measured (`Solution::curvature`), and left to `leave_saddle` to decide about. Where the step cannot be
+  /// measured (`Solution::curvature`), unless the tolerance hides the decrease that it promises within the size of the
+  /// unknowns, and left to `leave_saddle` to decide about. Where the step cannot be
   /// computed the residuals alone decide, and where `asks_newton` is false. Where the `StopScope` of the thread ends
   /// its computation, see `tell_of_stop`.
   void judge(double tolerance, Solution& solution, bool asks_newton = true);
 
-  /// The power of two by which the cost has to be multiplied before the tolerance can distinguish an optimum from any
-  /// other feasible point, for the answer judged last; 1 where it can already. It cannot where no entry of ∇φ and ∇²φ
-  /// over the free variables, at the answer and at the start, reaches `confirmation_factor` times the tolerance: then λ
-  /// = 0 passes everywhere. 1 too where all of them vanish: a program without a cost only needs feasibility.
-  [[nodiscard]] double factor_of_cost(double tolerance, const Eigen::VectorXd& start, const Solution& solution);
+  /// The scaling that the program needs, for the answer judged last.
+  ///
+  /// The cost needs one where no entry of ∇φ and ∇²φ over the free variables, at the answer and at the start, reaches
+  /// `confirmation_factor` times the tolerance: then λ = 0 passes everywhere. Not so where all of them vanish: a
+  /// program without a cost only needs feasibility.
+  ///
+  /// Constraints need one where the tolerance, or round-off, hides a residual, or where an inequality is tiny
+  /// (`ConstraintSizes`).
+  [[nodiscard]] Scaling scaling(double tolerance, const Eigen::VectorXd& start, const Solution& solution);
 
   /// The negative curvature at the answer judged last, if `Solution::curvature` reports one.
   [[nodiscard]] const std::optional<NegativeCurvature>& negative_curvature() const noexcept { return curvature_; }
@@ -68,9 +83,10 @@ class Confirmation {
     double of_state = 0.0;
   };
   [[nodiscard]] std::optional<StepLengths> newton_step(const Solution& solution);
+  [[nodiscard]] double factor_of_cost(double tolerance, const Eigen::VectorXd& start, const Solution& solution);
   void require_visible(double tolerance, Solution& solution);
-  void require_settled(Solution& solution);
-  void look_for_curvature(Solution& solution);
+  void require_settled(double tolerance, Solution& solution);
+  void look_for_curvature(double tolerance, Solution& solution);
 
   friend void judge_residuals(NonlinearProgram& program, Solution& solution);
   friend double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution);
@@ -81,6 +97,7 @@ class Confirmation {
   std::optional<NewtonCorrections> corrections_;  // made when it is first needed
   std::optional<NegativeCurvature> curvature_;
   ConstraintSizes sizes_;
+  bool needs_factors_of_rows_ = false;
 };
 
 /// `Confirmation::judge`, once.
@@ -91,7 +108,7 @@ void confirm(NonlinearProgram& program, double tolerance, Solution& solution);
 void tell_of_stop(Solution& solution);
 
 /// Status and message where an answer is undecided, because the tolerance does not constrain the cost
-/// (`Confirmation::factor_of_cost`): "not confirmed".
+/// (`Confirmation::scaling`): "not confirmed".
 void refuse_small_cost(double factor, Solution& solution);
 
 /// The permitted ratio of our residual to the tolerance: ours is the largest entry as it is, solvers scale theirs.

@@ -42,4 +42,17 @@ std::optional<HiddenViolation> ConstraintSizes::hidden_violation(const Nonlinear
   return worst;
 }
 
+Eigen::VectorXd ConstraintSizes::factors() const {
+  static constexpr int most = 1000;  // a factor stays finite
+  return of_rows_.unaryExpr([](double size) {
+    if (size == 0.0 || (size >= smallest_size && size <= 1.0 / smallest_size)) return 1.0;
+    return std::ldexp(1.0, std::clamp(-std::ilogb(size), -most, most));
+  });
+}
+
+bool ConstraintSizes::has_small_inequality(const NonlinearProgram& program) const {
+  const auto is_inequality = program.constraint_lower().array() < program.constraint_upper().array();
+  return (is_inequality && of_rows_.array() > 0.0 && of_rows_.array() < smallest_size).any();
+}
+
 }  // namespace dmocbench

@@ -29,8 +29,17 @@ class ConstraintSizes {
   [[nodiscard]] std::optional<HiddenViolation> hidden_violation(const NonlinearProgram& program,
                                                                 const Eigen::VectorXd& primal, const KktMemory& memory);
 
+  /// The powers of two that bring constraints smaller than `smallest_size` or larger than its inverse to a size of
+  /// about 1, at the point of the last `hidden_violation`; constraint_count() entries.
+  [[nodiscard]] Eigen::VectorXd factors() const;
+
+  /// True if an inequality is smaller than `smallest_size` there: solvers then stop a visible distance from its bound.
+  [[nodiscard]] bool has_small_inequality(const NonlinearProgram& program) const;
+
   /// See above. A solved row of size 1e-5 or more stays below it.
   static constexpr double largest_share = 1e-3;
+  /// See above.
+  static constexpr double smallest_size = 1e-5;
 
  private:
   void measure_unknowns(const NonlinearProgram& program, const Eigen::VectorXd& primal);

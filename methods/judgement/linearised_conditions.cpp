@@ -106,6 +106,14 @@ Eigen::SparseMatrix<double> normalised(const Eigen::SparseMatrix<double>& jacobi
 
 }  // namespace
 
+double largest_entry(const NonlinearProgram& program, const Eigen::VectorXd& hessian) {
+  double largest = 0.0;
+  program.hessian_structure().for_each([&](Eigen::Index e, int i, int j) {
+    if (!is_fixed(program, i) && !is_fixed(program, j)) largest = std::max(largest, std::abs(hessian[e]));
+  });
+  return largest;
+}
+
 bool is_held(double value, double bound) {
   constexpr double near = 1e-6;
   return std::isfinite(bound) && std::abs(value - bound) <= near * std::max(1.0, std::abs(bound));

@@ -60,6 +60,9 @@ struct LinearisedConditions {
 /// A sparse factorisation that accepts any point: rounding of the multipliers may hide that it is a minimum.
 [[nodiscard]] std::unique_ptr<kkt::SparseKkt> kkt_system_of_any_point(const NonlinearProgram& program);
 
+/// The largest entry of a Hessian between variables that may move, by its entries' values.
+[[nodiscard]] double largest_entry(const NonlinearProgram& program, const Eigen::VectorXd& hessian);
+
 /// Whether a value is at a finite bound, up to 1e-6 of its size.
 [[nodiscard]] bool is_held(double value, double bound);
 

@@ -13,7 +13,8 @@ namespace dmocbench {
 /// second order, that a stationary point is not a minimum.
 struct NegativeCurvature {
   Eigen::VectorXd direction;  ///< d, variable_count() entries, the largest of magnitude 1; zero for fixed variables
-  double share = 0.0;  ///< dᵀ(H + Σ)d / dᵀd, divided by the largest entry of H; below -`negligible_curvature`
+  double value = 0.0;         ///< dᵀ(H + Σ)d
+  double share = 0.0;         ///< value / dᵀWd, below -`negligible_curvature`
 };
 
 /// The direction of (about) the most negative curvature at a stationary point; none where there is no negative one.
@@ -23,10 +24,11 @@ struct NegativeCurvature {
 /// optima of the suite's problems this test suspects three, which are saddles; with guessed active sets eleven minima
 /// are suspected.
 ///
-/// Eigenvalues above -`negligible_curvature` times the largest entry of H count as zero: one sparse factorisation of
-/// the matrix, shifted by so much, decides. The direction needs about twenty more, for a bisection of the shift and
-/// inverse iteration. None, too, where a factorisation fails. Throws `Stopped` where the `StopScope` of the thread ends
-/// that.
+/// Eigenvalues of H + Σ next to W above -`negligible_curvature` count as zero: one sparse factorisation of the matrix,
+/// shifted by so much of W, decides. W is the largest entry of H. Where none is found it is the largest entry of H for
+/// each run of unknowns of the interval structure, since one stiff coordinate would hide the curvature of all others.
+/// The direction needs about twenty factorisations more, for a bisection of the shift and inverse iteration. None, too,
+/// where a factorisation fails. Throws `Stopped` where the `StopScope` of the thread ends that.
 [[nodiscard]] std::optional<NegativeCurvature> negative_curvature(const NonlinearProgram& program,
                                                                   const LinearisedConditions& at);
 

@@ -134,7 +134,7 @@ int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution&
     if (next.status != Status::solved) continue;
     if (next.curvature) return 0;  // Newton's method leads to saddles too
     // If the cost is so small that any residual passes, an answer whose residuals were large remains unchecked.
-    if (!was_unsettled && confirmation.factor_of_cost(tolerance, next.primal, next) != 1.0) return 0;
+    if (!was_unsettled && confirmation.scaling(tolerance, next.primal, next).of_cost != 1.0) return 0;
     next.message += fmt::format(" It took {} Newton steps after the solver to settle the answer.", steps);
     if (solution.status != Status::not_confirmed && !is_solved(solution.status)) {
       next.message += fmt::format(" The solver itself had ended as \"{}\".", name_of(solution.status));

@@ -65,7 +65,7 @@ struct Solution {
   /// computed.
   std::optional<double> correction;
   /// The curvature of the Lagrangian along a direction that meets the linearised constraints, as a share of the largest
-  /// entry of its Hessian, where there is a negative one (`negative_curvature`): the point may be a saddle.
+  /// entry of its Hessian, where there is a negative one (`NegativeCurvature::share`): the point may be a saddle.
   std::optional<double> curvature;
   /// μ that an interior-point method ended with, the start of a neighbour's; none where the program has neither bounds
   /// nor inequalities, or the solver does not report it.

@@ -19,23 +19,69 @@ namespace dmocbench {
 
 namespace {
 
-/// A program with its cost times a factor; its multipliers are the original's times the factor.
-class ScaledCost final : public ForwardingProgram {
+/// A program with its cost and its constraints times powers of two. Its multipliers are the original's, times the
+/// factor of the cost and divided by the constraint's own.
+class ScaledProgram final : public ForwardingProgram {
  public:
   /// `program` must outlive it.
-  ScaledCost(NonlinearProgram& program, double factor) : ForwardingProgram(program), factor_(factor) {}
+  ScaledProgram(NonlinearProgram& program, const Scaling& scaling) : ForwardingProgram(program), scaling_(scaling) {
+    if (!has_rows()) return;
+    lower_ = program.constraint_lower().cwiseProduct(scaling.of_rows);
+    upper_ = program.constraint_upper().cwiseProduct(scaling.of_rows);
+  }
 
-  [[nodiscard]] double objective(const VectorIn& x) override { return factor_ * original().objective(x); }
+  [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override {
+    return has_rows() ? lower_ : original().constraint_lower();
+  }
+  [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override {
+    return has_rows() ? upper_ : original().constraint_upper();
+  }
+  /// None for scaled constraints: their sizes are about 1, and their round-off is far below any tolerance.
+  [[nodiscard]] const RoundingFloors& rounding_floors() const override {
+    return has_rows() ? NonlinearProgram::rounding_floors() : original().rounding_floors();
+  }
+
+  [[nodiscard]] double objective(const VectorIn& x) override { return scaling_.of_cost * original().objective(x); }
   void gradient(const VectorIn& x, VectorOut result) override {
     original().gradient(x, result);
-    result *= factor_;
+    result *= scaling_.of_cost;
+  }
+  void constraints(const VectorIn& x, VectorOut result) override {
+    original().constraints(x, result);
+    if (has_rows()) result.array() *= scaling_.of_rows.array();
+  }
+  void jacobian(const VectorIn& x, VectorOut values) override {
+    original().jacobian(x, values);
+    if (!has_rows()) return;
+    jacobian_structure().for_each([&](Eigen::Index e, int row, int) { values[e] *= scaling_.of_rows[row]; });
   }
   void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override {
-    original().hessian(x, factor_ * objective_factor, multipliers, values);
+    if (has_rows()) {
+      weighted_ = multipliers.cwiseProduct(scaling_.of_rows);
+      original().hessian(x, scaling_.of_cost * objective_factor, weighted_, values);
+    } else {
+      original().hessian(x, scaling_.of_cost * objective_factor, multipliers, values);
+    }
+  }
+
+  /// Multipliers of this program, from the original's.
+  [[nodiscard]] Eigen::VectorXd scaled(const Eigen::VectorXd& multipliers) const {
+    if (multipliers.size() == 0 || !has_rows()) return scaling_.of_cost * multipliers;
+    return scaling_.of_cost * multipliers.cwiseQuotient(scaling_.of_rows);
+  }
+  /// The original's multipliers, from those of this program.
+  [[nodiscard]] Eigen::VectorXd original_ones(const Eigen::VectorXd& multipliers) const {
+    if (multipliers.size() == 0 || !has_rows()) return multipliers / scaling_.of_cost;
+    return multipliers.cwiseProduct(scaling_.of_rows) / scaling_.of_cost;
   }
 
  private:
-  double factor_;
+  [[nodiscard]] bool has_rows() const noexcept { return scaling_.of_rows.size() > 0; }
+
+  const Scaling& scaling_;
+  Eigen::VectorXd lower_;
+  Eigen::VectorXd upper_;
+  Eigen::VectorXd weighted_;  // multipliers of the original
 };
 
 constexpr double shortest_limit = 1e-9;  // in seconds; 0 means no limit
@@ -48,15 +94,24 @@ std::string fault_of_start(const Eigen::VectorXd& start) {
   return {};
 }
 
-/// The answer to a program whose cost was multiplied by a factor, as one of the program itself.
-void state_without_factor(NonlinearProgram& program, double factor, Solution& solution) {
-  solution.message += fmt::format(
-      " The cost was too small for the tolerance: the solver got it multiplied by {:.0e}, as `cost_scale` of a problem "
-      "does.",
-      factor);
-  if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would ignore the factor
-  if (solution.barrier_parameter) *solution.barrier_parameter /= factor;
-  solution.multipliers /= factor;
+/// The answer to a scaled program, as one of the program itself.
+void state_without_scaling(NonlinearProgram& program, const Scaling& scaling, const ScaledProgram& scaled,
+                           Solution& solution) {
+  if (scaling.of_cost != 1.0) {
+    solution.message += fmt::format(
+        " The cost was too small for the tolerance: the solver got it multiplied by {:.0e}, as `cost_scale` of a "
+        "problem does.",
+        scaling.of_cost);
+  }
+  if (scaling.of_rows.size() > 0) {
+    solution.message += fmt::format(
+        " The solver got {} constraints multiplied by powers of two ({:.0e} to {:.0e}), since their sizes are far from "
+        "1.",
+        (scaling.of_rows.array() != 1.0).count(), scaling.of_rows.minCoeff(), scaling.of_rows.maxCoeff());
+  }
+  if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would ignore the factors
+  if (solution.barrier_parameter) *solution.barrier_parameter /= scaling.of_cost;
+  solution.multipliers = scaled.original_ones(solution.multipliers);
   if (solution.primal.size() > 0) judge_residuals(program, solution);
 }
 
@@ -106,8 +161,8 @@ void Solver::check(const NonlinearProgram& program, const Eigen::VectorXd& start
   }
 }
 
-double Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation,
-                        bool asks_newton, Solution& solution) const {
+Scaling Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation,
+                         bool asks_newton, Solution& solution) const {
   solution.seconds = counted.elapsed_seconds();
   solution.evaluation_seconds = counted.evaluation_seconds();
   if (counted.counts().total() > 0) solution.evaluations = counted.counts();
@@ -115,17 +170,17 @@ double Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, C
   const bool claims_success = is_solved(solution.status) || solution.status == Status::acceptable;
   const bool has_point = solution.primal.size() == start.size();
   confirmation.judge(options_.tolerance, solution, asks_newton);
-  double factor = 1.0;
-  if (claims_success && has_point) factor = confirmation.factor_of_cost(options_.tolerance, start, solution);
-  if (factor != 1.0) refuse_small_cost(factor, solution);
+  Scaling needed;
+  if (claims_success && has_point) needed = confirmation.scaling(options_.tolerance, start, solution);
+  if (needed.of_cost != 1.0) refuse_small_cost(needed.of_cost, solution);
   if (solution.solver.empty()) solution.solver = name();
   if (solution.message.empty()) solution.message = sentence_of(solution.status);
   if (solution.status == Status::evaluation_failed) solution.message += fault_of_start(start);
-  return factor;
+  return needed;
 }
 
-double Solver::run_within_limits(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
-                                 Confirmation& confirmation, bool asks_newton, Solution& solution) const {
+Scaling Solver::run_within_limits(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
+                                  Confirmation& confirmation, bool asks_newton, Solution& solution) const {
   const StopScope limits = scope(counted);
   try {
     run.run(start.primal, start.multipliers, start.barrier_parameter, solution);
@@ -138,10 +193,10 @@ double Solver::run_within_limits(CountedProgram& counted, PreparedRun& run, cons
   }
 }
 
-double Solver::run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
-                             Confirmation& confirmation, bool asks_newton, Solution& solution) const {
-  const double factor = run_within_limits(counted, run, start, confirmation, asks_newton, solution);
-  if (factor != 1.0 || !is_solved(solution.status) || !confirmation.negative_curvature()) return factor;
+Scaling Solver::run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
+                              Confirmation& confirmation, bool asks_newton, Solution& solution) const {
+  Scaling needed = run_within_limits(counted, run, start, confirmation, asks_newton, solution);
+  if (!needed.is_one() || !is_solved(solution.status) || !confirmation.negative_curvature()) return needed;
   const Eigen::VectorXd no_multipliers;
   const auto solve_from = [&](const Eigen::VectorXd& moved) {
     Solution next;
@@ -150,7 +205,7 @@ double Solver::run_and_judge(CountedProgram& counted, PreparedRun& run, const Wa
     return next;
   };
   leave_saddle(counted, options_.tolerance, confirmation, solve_from, solution);
-  return factor;
+  return needed;
 }
 
 Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
@@ -159,19 +214,19 @@ Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, 
   Confirmation confirmation(program);  // before the clock begins
   CountedProgram counted(program, seconds_allowed());
   Solution solution;
-  const double factor =
+  const Scaling needed =
       run_and_judge(counted, *prepare(counted), {start, multipliers, barrier_parameter}, confirmation, true, solution);
-  if (factor == 1.0) return solution;
+  if (needed.is_one()) return solution;
 
-  ScaledCost scaled(program, factor);
+  ScaledProgram scaled(program, needed);
   Confirmation of_scaled(scaled);
   CountedProgram counted_again(scaled, std::max(counted.seconds_left(), shortest_limit));
   solution = {};
-  if (barrier_parameter) *barrier_parameter *= factor;
-  const Eigen::VectorXd scaled_multipliers = factor * multipliers;
+  if (barrier_parameter) *barrier_parameter *= needed.of_cost;
+  const Eigen::VectorXd scaled_multipliers = scaled.scaled(multipliers);
   static_cast<void>(run_and_judge(counted_again, *prepare(counted_again),
                                   {start, scaled_multipliers, barrier_parameter}, of_scaled, true, solution));
-  state_without_factor(program, factor, solution);
+  state_without_scaling(program, needed, scaled, solution);
   return solution;
 }
 

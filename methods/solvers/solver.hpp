@@ -16,6 +16,7 @@
 namespace dmocbench {
 
 class Confirmation;
+struct Scaling;
 class CountedProgram;
 
 /// Options of one solver by name, as a command line gives them. They take precedence over other settings.
@@ -71,9 +72,9 @@ class Solver {
   ///
   /// A stationary point that is not a minimum is left along a direction of negative curvature (`leave_saddle`).
   ///
-  /// Where the cost is so small that the tolerance does not constrain it (`Confirmation::factor_of_cost`), it is solved
-  /// again with the cost times that factor, and the message reports it. Counts and times belong to the second
-  /// solve, the limit of time holds for both.
+  /// Where the tolerance does not constrain the cost or a constraint, since it is too small or too large
+  /// (`Confirmation::scaling`), the program is solved again with both times powers of two, and the message reports it.
+  /// Counts and times belong to the second solve, the limit of time holds for both.
   [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start,
                                const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
                                std::optional<double> barrier_parameter = std::nullopt) const;
@@ -106,15 +107,15 @@ class Solver {
                     std::optional<double> barrier_parameter);
   /// A run and its judgement (`complete`). Where the scope ends work outside of iterations, such as the descent on the
   /// violation, the answer is the last point, or the start, with the status "time limit" or "interrupted".
-  double run_within_limits(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
-                           Confirmation& confirmation, bool asks_newton, Solution& solution) const;
+  Scaling run_within_limits(CountedProgram& counted, PreparedRun& run, const WarmStart& start,
+                            Confirmation& confirmation, bool asks_newton, Solution& solution) const;
   /// Adds the measurements, judges the answer (`Confirmation::judge`) and sets the message. Returns
-  /// `Confirmation::factor_of_cost`; where that is not 1, the answer is not confirmed.
-  double complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation, bool asks_newton,
-                  Solution& solution) const;
+  /// `Confirmation::scaling`; where the cost needs a factor, the answer is not confirmed.
+  Scaling complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation, bool asks_newton,
+                   Solution& solution) const;
   /// The same, continued from a saddle point (`leave_saddle`). Returns as `complete`.
-  double run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start, Confirmation& confirmation,
-                       bool asks_newton, Solution& solution) const;
+  Scaling run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start, Confirmation& confirmation,
+                        bool asks_newton, Solution& solution) const;
 
   SolverOptions options_;
 };

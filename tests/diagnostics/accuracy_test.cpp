@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include "methods/diagnostics/replay_error.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
+#include "tests/support/restated_problems.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench {
@@ -54,6 +56,25 @@ TEST(Accuracy, AddsUpJumpsToTheSameSideOnly) {
   const Accuracy to_both_sides = accuracy(problem, zigzag);
   EXPECT_NEAR(to_both_sides.accumulated_jump, to_both_sides.relative_jump, 1e-12);
   EXPECT_TRUE(to_both_sides.is_motion());
+}
+
+/// C = ½u² (1 + a cos 2π w t): by one stage on as many intervals as periods the program sees 1 - a throughout.
+TEST(Accuracy, FindsACostThatOscillatesAsFastAsTheGrid) {
+  constexpr double amplitude = 0.3;
+  const tests::DoubleIntegrator base;
+  const tests::Restated waves(base, [](tests::Restated::Statement& s) {
+    s.running_cost = [](const ControlledState& x) {
+      return 0.5 * x.u[0] * x.u[0] * (1.0 + amplitude * cos(2.0 * std::numbers::pi * 16.0 * x.t));
+    };
+  });
+  const auto error_on = [&](Eigen::Index intervals) {
+    const auto solved = tests::solve(waves, {"dmoc", 1}, Grid::uniform(intervals), guessed_motion(waves));
+    return accuracy(waves, solved.trajectory);
+  };
+  EXPECT_NEAR(error_on(16).cost_error, amplitude, 1e-8);
+  EXPECT_FALSE(error_on(16).is_motion());
+  EXPECT_LT(error_on(512).cost_error, 1e-3);
+  EXPECT_TRUE(error_on(512).is_motion());
 }
 
 TEST(Accuracy, DoesNotCallABodyAtRestTornByRounding) {

@@ -50,6 +50,30 @@ TEST_P(ConstraintsTimes, APowerOfTenAreNotSolvedWhereTheyAreInfeasible) {
   }
 }
 
+/// Without the limit |u| reaches 6, which 4.5 allows at the price of a higher cost.
+TEST_P(ConstraintsTimes, APowerOfTenReachTheirBoundOrAreNotSolved) {
+  const auto& [method, solver] = GetParam();
+  const auto limited = [this](double factor) {
+    return Restated(base_, [factor](Restated::Statement& s) {
+      s.path_constraints = [factor](const ControlledState& x) {
+        return ExpressionVector::Constant(1, factor * (4.5 - x.u[0]));
+      };
+    });
+  };
+  const double optimum = solve(limited(1.0), method, "ipopt").objective;
+  const double without = solve(base_, method, "ipopt").objective;
+  EXPECT_GT(optimum, 1.01 * without);
+  for (int k = smallest; k <= largest; ++k) {
+    const Solution solution = solve(limited(std::pow(10.0, k)), method, solver);
+    if (!is_solved(solution.status)) continue;
+    EXPECT_NEAR(solution.objective, optimum, 1e-5 * optimum) << k << ": " << solution.message;
+  }
+  for (const double factor : {1e-13, 1e-11, 1e-9, 1e-6, 1e3}) {
+    const Solution solution = solve(limited(factor), method, solver);
+    EXPECT_TRUE(is_solved(solution.status)) << factor << ": " << solution.message;
+  }
+}
+
 TEST_P(ConstraintsTimes, APowerOfTenAreSolvedOnlyAtTheSameCost) {
   const auto& [method, solver] = GetParam();
   const auto with_mean = [this](double factor) {

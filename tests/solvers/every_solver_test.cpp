@@ -359,7 +359,7 @@ TEST_P(EverySolver, IsCountedByWhatTheProgramSees) {
     again.status = Status::solved;
     Confirmation confirmation(judged);
     confirmation.judge(contract().tolerance, again);
-    EXPECT_EQ(confirmation.factor_of_cost(contract().tolerance, known.start, again), 1.0);
+    EXPECT_TRUE(confirmation.scaling(contract().tolerance, known.start, again).is_one());
     EXPECT_EQ(counts.hessian + judged.calls().hessian, calls.hessian);
     EXPECT_GT(counts.objective, 0);
     EXPECT_GT(counts.jacobian, 0);

@@ -204,6 +204,40 @@ TEST_P(SaddlesOf, ASystemWithRedundantMotorsAreLeft) {
   EXPECT_LT(solution.objective, 0.0) << solution.message;
 }
 
+/// A second coordinate whose effort costs `stiffness` times as much, and which stays where it is.
+class StiffNeighbour final : public SmallProblem {
+ public:
+  explicit StiffNeighbour(double stiffness)
+      : SmallProblem("stiff_neighbour", still(), still(), 2.0, 2), stiffness_(stiffness) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return 0.5 * (x.u[0] * x.u[0] + stiffness_ * x.u[1] * x.u[1]);
+  }
+  [[nodiscard]] Expression final_cost(const State& last) const override { return well(last.q[0]); }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = SmallProblem::bounds();
+    bounds.last.free_configuration(0).free_velocity(0);
+    return bounds;
+  }
+
+ private:
+  static BoundaryState still() { return BoundaryState::at_rest(Eigen::VectorXd::Zero(2)); }
+
+  double stiffness_;
+};
+
+TEST_P(SaddlesOf, ASystemWithAStiffCoordinateAreLeft) {
+  const auto& [method, stages] = GetParam();
+  const double minimum = solve(StiffNeighbour(1.0), {method, stages}, "interior_point").objective;
+  EXPECT_LT(minimum, -1.0);
+  for (const double stiffness : {1e7, 1e8, 1e10, 1e12}) {
+    const Solution solution = solve(StiffNeighbour(stiffness), {method, stages}, "interior_point");
+    EXPECT_TRUE(is_solved(solution.status)) << stiffness << ": " << solution.message;
+    EXPECT_NEAR(solution.objective, minimum, 1e-6) << stiffness << ": " << solution.message;
+  }
+}
+
 TEST(Saddles, OfAQuadrotorsFlipAreLeft) {
   const auto problem = make_problem("planar_quadrotor_flip");
   for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {

@@ -87,24 +87,24 @@ Solution SharedBatch::solve_alone(const BatchInstance& instance) {
 }
 
 void SharedBatch::confirm(const BatchInstance& instance, Solution& solution) {
-  double factor = 1.0;
+  Scaling needed;
   bool may_be_saddle = false;
   {
     const std::lock_guard lock(program_use_);
     const StopScope scope([this] { return options_.stop_requested && options_.stop_requested(); },
                           seconds_of_a_scope());
-    factor = with_instance(instance, [&](NonlinearProgram& alone) {
+    needed = with_instance(instance, [&](NonlinearProgram& alone) {
       Confirmation confirmation(alone);
       confirmation.judge(options_.tolerance, solution);
       may_be_saddle = confirmation.negative_curvature().has_value();
-      return confirmation.factor_of_cost(options_.tolerance, instance.start, solution);
+      return confirmation.scaling(options_.tolerance, instance.start, solution);
     });
   }
-  if (factor == 1.0 && !may_be_saddle) return;
+  if (needed.is_one() && !may_be_saddle) return;
   if (options_.falls_back) {
     solution = solve_alone(instance);
-  } else if (factor != 1.0) {
-    refuse_small_cost(factor, solution);
+  } else if (needed.of_cost != 1.0) {
+    refuse_small_cost(needed.of_cost, solution);
   }
 }
 

@@ -118,9 +118,9 @@ class BatchQueue {
   void deliver(std::size_t index, Solution& solution);
   /// Solves an instance that the lanes cannot finish, and delivers the answer.
   void solve_one_by_one(const Assignment& assignment, const Solution& so_far);
-  /// `Confirmation::judge` of an answer. Where the tolerance does not constrain its cost
-  /// (`Confirmation::factor_of_cost`), the instance is solved one by one, or, where the batch does not fall back, not
-  /// confirmed.
+  /// `Confirmation::judge` of an answer. Where the tolerance does not constrain its cost or a constraint
+  /// (`Confirmation::scaling`), the instance is solved one by one, or, where the batch does not fall back and the cost
+  /// is too small, not confirmed.
   void confirm(const Assignment& assignment, Solution& solution) { batch_.confirm(assignment.instance, solution); }
   [[nodiscard]] bool is_stopped() const { return batch_.is_stopped(); }
   [[nodiscard]] Status status_of_stop() const { return batch_.status_of_stop(); }
