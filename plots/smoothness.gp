@@ -23,6 +23,7 @@ shown(e) = e eq "round-off" ? e : sprintf("%.0f·10⁻%s", number(e) / 10**floor
 name_of(situation) = system("echo '".entry(situation, "situation")."' | sed 's/_bounded//; s/_free_end//; s/two_link/two-link/; s/_/ /g'")\
     .(entry(situation, "end") eq "free" ? ", end free" : "")
 
+stats rows("smoothness", "method=dmoc", "state_error") using "intervals" name "N" nooutput
 do for [kind in kinds] {
   eval begin_figure(kind, "smoothness", 500)
   unset key; unset grid; unset border
@@ -35,7 +36,7 @@ do for [kind in kinds] {
   set xlabel "fitted order" offset 0, 0.3
   set arrow 1 from 2, 0.4 to 2, total + 0.6 nohead linecolor rgb "#B8BEC5" linewidth 1.2
   set arrow 2 from 4, 0.4 to 4, total + 0.6 nohead linecolor rgb "#B8BEC5" linewidth 1.2
-  set label 900 "state error at N = 256" at screen 0.865, graph 1.09 center font ",13" textcolor rgb grey
+  set label 900 sprintf("state error at N = %d", N_max) at screen 0.865, graph 1.09 center font ",13" textcolor rgb grey
   set label 902 "1 stage" at screen 0.80, graph 1.03 center font ",13" textcolor rgb grey
   set label 903 "2 stages" at screen 0.93, graph 1.03 center font ",13" textcolor rgb grey
   y = 0; points = "slope,error,line,stages\n"
