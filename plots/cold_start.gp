@@ -100,43 +100,44 @@ do for [problem in all_problems] {
   else { problems = problems." ".problem } }
 }
 count = words(problems)
-if (count == 0) { exit }
 listed(text, names) = strlen(names) == 0 ? "" : wrapped(text.": ".names.".", 118, "\n")."\n"
 notes = listed("All starts end in the best minimum with every method", always)\
     .listed("No start has a confirmed solution (grid too coarse, or not solved)", never)
 y_of(problem, method) = count + 1 - place_in(problems, problem) - 0.22 * (place_in(methods, method) - 2)
 mean_where = "problem=every_problem,".where
 do for [kind in kinds] {
-  bottom = 130 + 16 * lines_in(notes)
-  eval begin_figure(kind, "library_cold_start", 150 + bottom + 34 * count)
-  figure_title = title_text("Every problem: shares of cold starts by interior point, N = "\
-      .word(values("intervals", where), 1), "Paper: section 5. ".what_is_counted, "95 % intervals (Wilson), "\
-      .word(drawn_starts(where.",problem=".word(all_problems, words(all_problems))), 1)." starts a problem and method, "\
-      .word(drawn_starts(where.",problem=".word(all_problems, 1)), 1)." on the paper’s problems.")
-  eval title_above
-  set label 1 notes at screen 0.02, screen upwards(bottom - 80) left font ",12"
-  do for [c = 2:3] {
-    eval place(c == 2 ? 275 : 525, c == 2 ? 505 : 755, bottom, top_of_panels(figure_title) + 20)
-    unset logscale; unset mxtics
-    set xtics nomirror 0, 0.2, 1; set format x "%.1f"
-    set xrange [-0.02:1.02]
-    set yrange [0.4:count + 0.6]
-    set ytics nomirror scale 0 () font ",12"
-    do for [i = 1:count] {
-      set ytics add ((c == 2 ? wrapped(problem_label(word(problems, i)), 30, "\n") : "") count + 1 - i)
+  if (count > 0) {
+    bottom = 130 + 16 * lines_in(notes)
+    eval begin_figure(kind, "library_cold_start", 150 + bottom + 34 * count)
+    figure_title = title_text("Every problem: shares of cold starts by interior point, N = "\
+        .word(values("intervals", where), 1), "Paper: section 5. ".what_is_counted, "95 % intervals (Wilson), "\
+        .word(drawn_starts(where.",problem=".word(all_problems, words(all_problems))), 1)." starts a problem and method, "\
+        .word(drawn_starts(where.",problem=".word(all_problems, 1)), 1)." on the paper’s problems.")
+    eval title_above
+    set label 1 notes at screen 0.02, screen upwards(bottom - 80) left font ",12"
+    do for [c = 2:3] {
+      eval place(c == 2 ? 275 : 525, c == 2 ? 505 : 755, bottom, top_of_panels(figure_title) + 20)
+      unset logscale; unset mxtics
+      set xtics nomirror 0, 0.2, 1; set format x "%.1f"
+      set xrange [-0.02:1.02]
+      set yrange [0.4:count + 0.6]
+      set ytics nomirror scale 0 () font ",12"
+      do for [i = 1:count] {
+        set ytics add ((c == 2 ? wrapped(problem_label(word(problems, i)), 30, "\n") : "") count + 1 - i)
+      }
+      set xlabel "share ".word(counted_labels, c)
+      set ylabel ""
+      if (c == 2) { eval key_below } else { unset key; unset label 1 }
+      plot for [method in methods] for [problem in problems] rows(shares, where.",problem=".problem.",method=".method, "")\
+             using (column(word(counted, c)."_share")):(y_of(problem, method)):(column(word(counted, c)."_lower")):\
+             (column(word(counted, c)."_upper")) with xerrorbars linecolor rgb method_colour(method) linewidth 1.4 dashtype 1\
+             pointtype method_points(method) pointsize 0.7 notitle,\
+           for [method in methods] keyentry with linespoints linecolor rgb method_colour(method) linewidth 1.4 dashtype 1\
+             pointtype method_points(method) pointsize 0.7 title method_label(method)
     }
-    set xlabel "share ".word(counted_labels, c)
-    set ylabel ""
-    if (c == 2) { eval key_below } else { unset key; unset label 1 }
-    plot for [method in methods] for [problem in problems] rows(shares, where.",problem=".problem.",method=".method, "")\
-           using (column(word(counted, c)."_share")):(y_of(problem, method)):(column(word(counted, c)."_lower")):\
-           (column(word(counted, c)."_upper")) with xerrorbars linecolor rgb method_colour(method) linewidth 1.4 dashtype 1\
-           pointtype method_points(method) pointsize 0.7 notitle,\
-         for [method in methods] keyentry with linespoints linecolor rgb method_colour(method) linewidth 1.4 dashtype 1\
-           pointtype method_points(method) pointsize 0.7 title method_label(method)
+    unset multiplot
+    eval end_figure(kind, "library_cold_start")
   }
-  unset multiplot
-  eval end_figure(kind, "library_cold_start")
 
   eval begin_figure(kind, "library_cold_start_budget", 520)
   figure_title = title_text("Every problem: cold starts that are solved and confirmed within a budget",\
