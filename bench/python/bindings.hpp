@@ -24,6 +24,8 @@ void bind_expressions(pybind11::module_& module);
 void bind_problems(pybind11::module_& module);
 /// Arrays of a trajectory.
 void bind_motion(pybind11::module_& module);
+/// Conditions of switches between phases.
+void bind_phases(pybind11::module_& module);
 /// One solve and its answer.
 void bind_solve(pybind11::module_& module);
 /// Many solves of one program.

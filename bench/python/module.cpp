@@ -29,6 +29,7 @@ PYBIND11_MODULE(_core, module) {
   dmocbench::python::bind_expressions(module);
   dmocbench::python::bind_problems(module);
   dmocbench::python::bind_motion(module);
+  dmocbench::python::bind_phases(module);
   dmocbench::python::bind_solve(module);
   dmocbench::python::bind_batch(module);
   dmocbench::python::bind_run(module);

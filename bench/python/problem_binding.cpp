@@ -9,6 +9,7 @@
 
 #include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
+#include "bench/python/python_phases.hpp"
 #include "bench/python/python_problem.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "methods/choose.hpp"
@@ -37,7 +38,12 @@ ProblemHandle named(const std::string& name, const std::map<std::string, double>
 }
 
 ProblemHandle of_python(const py::object& original) {
-  auto problem = std::make_shared<PythonProblem>(original);
+  std::shared_ptr<const Problem> problem;
+  if (PythonPhases::is_one(original)) {
+    problem = std::make_shared<PythonPhases>(original);
+  } else {
+    problem = std::make_shared<PythonProblem>(original);
+  }
   without_gil([&](Call&) {
     check_problem(*problem);
     return true;

@@ -21,47 +21,6 @@ namespace py = pybind11;
 
 namespace {
 
-/// How many formulas this thread traces, one within the other.
-int& traced_formulas() {
-  thread_local int count = 0;
-  return count;
-}
-
-/// As long as it exists, this thread traces a formula.
-class Tracing {
- public:
-  Tracing() { ++traced_formulas(); }
-  ~Tracing() { --traced_formulas(); }
-  Tracing(const Tracing&) = delete;
-  Tracing& operator=(const Tracing&) = delete;
-  Tracing(Tracing&&) = delete;
-  Tracing& operator=(Tracing&&) = delete;
-};
-
-py::list list_of(const ExpressionVector& entries) {
-  py::list list;
-  for (const Expression& entry : entries) list.append(py::cast(entry));
-  return list;
-}
-
-std::string type_of(py::handle object) { return Py_TYPE(object.ptr())->tp_name; }
-
-/// The end of a sentence about an object that is not a formula.
-std::string what_was_returned(py::handle object) {
-  return object.is_none() ? "returns None; is a \"return\" missing?"
-                          : fmt::format("returns {}, expected formulas or numbers", type_of(object));
-}
-
-std::vector<Parameter> parameters_of(const py::object& original) {
-  std::vector<Parameter> parameters;
-  for (const py::handle item : original.attr("_declared_parameters")()) {
-    const auto [name, value, unit, meaning, lower, upper, whole, is_unknown] =
-        item.cast<std::tuple<std::string, double, std::string, std::string, double, double, bool, bool>>();
-    parameters.push_back({name, value, unit, meaning, lower, upper, whole, is_unknown});
-  }
-  return parameters;
-}
-
 Bounds bounds_of(const py::handle numbers, const char* name) {
   const auto [lower, upper] = numbers[name].cast<std::pair<Eigen::VectorXd, Eigen::VectorXd>>();
   return {.lower = lower, .upper = upper};
@@ -74,74 +33,23 @@ Bounds for_each(const Bounds& bounds, Eigen::Index size) {
 
 }  // namespace
 
-py::object ParameterReader::read(const std::string& name) const {
-  if (problem_ == nullptr)
-    throw Error("parameter " + name + ": the solve that this copy of the problem was for is over");
-  const std::vector<Parameter>& parameters = problem_->parameters();
-  const bool is_whole = parameters[parameter_number(*problem_, name)].whole;
-  if (is_whole) return py::int_(static_cast<long long>(problem_->parameter(name)));
-  if (traced_formulas() > 0) {
-    const Expression value = problem_->varying(name);
-    name_inputs(ExpressionVector::Constant(1, value), "", {name});
-    return number_or_formula(value);
-  }
-  return py::float_(problem_->parameter(name));
-}
-
 PythonProblem::PythonProblem(const py::object& original)
-    : Problem(parameters_of(original)), reader_(py::cast(ParameterReader())) {
-  object_ = original.attr("_bound")(reader_);
-  reader_.cast<ParameterReader&>().problem_ = this;
-  name_ = object_.attr("_problem_name")().cast<std::string>();
-  configuration_names_ = object_.attr("_coordinate_names")().cast<std::vector<std::string>>();
-  control_names_ = object_.attr("_control_names")().cast<std::vector<std::string>>();
-  first_order_names_ = object_.attr("_first_order_names")().cast<std::vector<std::string>>();
-  members_ = object_.attr("_stated_members")().cast<std::vector<std::string>>();
-  has_constant_numbers_ = object_.attr("_has_constant_numbers")().cast<bool>();
-  const auto values = object_.attr("_values").cast<std::map<std::string, double>>();
+    : Problem(PythonObject::parameters_of(original)), python_(original, *this) {
+  const py::object& object = python_.object();
+  configuration_names_ = object.attr("_coordinate_names")().cast<std::vector<std::string>>();
+  control_names_ = object.attr("_control_names")().cast<std::vector<std::string>>();
+  first_order_names_ = object.attr("_first_order_names")().cast<std::vector<std::string>>();
+  has_constant_numbers_ = object.attr("_has_constant_numbers")().cast<bool>();
+  const auto values = object.attr("_values").cast<std::map<std::string, double>>();
   for (const auto& [name, value] : values) set_parameter(name, value);
-}
-
-// NOLINTNEXTLINE(bugprone-exception-escape): the constructor has made the reader that is cast
-PythonProblem::~PythonProblem() {
-  if (Py_IsInitialized() == 0) {  // the objects ended with Python
-    object_.release();
-    reader_.release();
-    return;
-  }
-  const py::gil_scoped_acquire gil;
-  reader_.cast<ParameterReader&>().problem_ = nullptr;
-  object_ = {};
-  reader_ = {};
 }
 
 std::unique_ptr<Problem> PythonProblem::clone() const {
   const py::gil_scoped_acquire gil;
-  auto copy = std::make_unique<PythonProblem>(object_);
+  auto copy = std::make_unique<PythonProblem>(python_.object());
   for (const Parameter& parameter : parameters()) copy->set_parameter(parameter.name, parameter.value);
   return copy;
 }
-
-template <class Work>
-auto PythonProblem::asked_of_python(const char* member, const Work& work) const {
-  const py::gil_scoped_acquire gil;
-  try {
-    return work();
-  } catch (py::error_already_set& error) {
-    const bool is_ours = error.matches(py::module_::import("dmocbench._core").attr("Error"));
-    const bool is_stop = error.matches(PyExc_KeyboardInterrupt);
-    const bool is_memory = error.matches(PyExc_MemoryError);
-    const std::string sentence =
-        is_ours ? py::str(error.value()).cast<std::string>()
-                : fmt::format("{}: {}", type_of(error.value()), py::str(error.value()).cast<std::string>());
-    if (!is_ours) Call::keep(error);
-    if (is_stop) throw Stopped("interrupted");
-    if (is_memory) throw std::bad_alloc();
-    throw Error(sentence.starts_with(name_) ? sentence : fmt::format("{}: {}: {}", name_, member, sentence));
-  }
-}
-
-bool PythonProblem::states(const char* member) const { return std::ranges::find(members_, member) != members_.end(); }
 
 void PythonProblem::name_entries(const State& x) const {
   name_inputs(x.q, "q", configuration_names_);
@@ -152,50 +60,28 @@ void PythonProblem::name_entries(const State& x) const {
 
 py::object PythonProblem::point(const State& x) const {
   name_entries(x);
-  return object_.attr("_point")(list_of(x.q), list_of(x.v), py::none(), number_or_formula(x.t), list_of(x.y));
+  return python_.object().attr("_point")(list_of(x.q), list_of(x.v), py::none(), number_or_formula(x.t), list_of(x.y));
 }
 
 py::object PythonProblem::point(const ControlledState& x) const {
   name_entries(x.state());
   name_inputs(x.u, "u", control_names_);
-  return object_.attr("_point")(list_of(x.q), list_of(x.v), list_of(x.u), number_or_formula(x.t), list_of(x.y));
-}
-
-template <class Arguments>
-ExpressionVector PythonProblem::formula(const char* member, const Arguments& arguments) const {
-  return asked_of_python(member, [&]() -> ExpressionVector {
-    const Tracing tracing;
-    const py::object returned = object_.attr(member)(*arguments());
-    if (const auto single = as_expression(returned)) return ExpressionVector::Constant(1, *single);
-    const bool is_text = py::isinstance<py::str>(returned) || py::isinstance<py::dict>(returned);
-    if (is_text || !(py::isinstance<py::sequence>(returned) || py::hasattr(returned, "__len__"))) {
-      throw Error(what_was_returned(returned));
-    }
-    std::vector<Expression> entries;
-    for (const py::handle entry : returned) {
-      const auto traced = as_expression(entry);
-      if (!traced) {
-        throw Error(fmt::format("entry {} of what it returns is {}, expected a formula or a number", entries.size(),
-                                entry.is_none() ? "None" : type_of(entry)));
-      }
-      entries.push_back(*traced);
-    }
-    return Eigen::Map<const ExpressionVector>(entries.data(), static_cast<Eigen::Index>(entries.size()));
-  });
+  return python_.object().attr("_point")(list_of(x.q), list_of(x.v), list_of(x.u), number_or_formula(x.t),
+                                         list_of(x.y));
 }
 
 template <class Arguments>
 Expression PythonProblem::single_formula(const char* member, const Arguments& arguments) const {
-  const ExpressionVector entries = formula(member, arguments);
+  const ExpressionVector entries = python_.formula(member, arguments);
   if (entries.size() != 1) {
-    throw Error(fmt::format("{}: {} returns {} entries, expected one formula", name_, member, entries.size()));
+    throw Error(fmt::format("{}: {} returns {} entries, expected one formula", name(), member, entries.size()));
   }
   return entries[0];
 }
 
 template <class Arguments>
 ExpressionVector PythonProblem::optional_formula(const char* member, const Arguments& arguments) const {
-  return states(member) ? formula(member, arguments) : ExpressionVector();
+  return python_.states(member) ? python_.formula(member, arguments) : ExpressionVector();
 }
 
 Expression PythonProblem::lagrangian(const State& x) const {
@@ -203,12 +89,12 @@ Expression PythonProblem::lagrangian(const State& x) const {
 }
 
 ExpressionVector PythonProblem::force(const ControlledState& x) const {
-  if (!states("force")) return ExpressionVector::Constant(x.q.size(), Expression(0.0));
-  return formula("force", [&] { return py::make_tuple(point(x)); });
+  if (!python_.states("force")) return ExpressionVector::Constant(x.q.size(), Expression(0.0));
+  return python_.formula("force", [&] { return py::make_tuple(point(x)); });
 }
 
 Expression PythonProblem::running_cost(const ControlledState& x) const {
-  if (!states("running_cost")) return {};
+  if (!python_.states("running_cost")) return {};
   return single_formula("running_cost", [&] { return py::make_tuple(point(x)); });
 }
 
@@ -225,7 +111,8 @@ ExpressionVector PythonProblem::path_constraints(const ControlledState& x) const
 }
 
 ExpressionVector PythonProblem::constraints(const ExpressionVector& q) const {
-  return optional_formula("constraints", [&] { return py::make_tuple(object_.attr("_coordinates_at")(list_of(q))); });
+  return optional_formula("constraints",
+                          [&] { return py::make_tuple(python_.object().attr("_coordinates_at")(list_of(q))); });
 }
 
 ExpressionVector PythonProblem::boundary_conditions(const State& first, const State& last) const {
@@ -233,36 +120,37 @@ ExpressionVector PythonProblem::boundary_conditions(const State& first, const St
 }
 
 Expression PythonProblem::final_cost(const State& last) const {
-  if (!states("final_cost")) return {};
+  if (!python_.states("final_cost")) return {};
   return single_formula("final_cost", [&] { return py::make_tuple(point(last)); });
 }
 
 std::optional<ExpressionVector> PythonProblem::symmetry(const ExpressionVector& q) const {
-  if (!states("symmetry")) return std::nullopt;
-  return formula("symmetry", [&] { return py::make_tuple(object_.attr("_coordinates_at")(list_of(q))); });
+  if (!python_.states("symmetry")) return std::nullopt;
+  return python_.formula("symmetry",
+                         [&] { return py::make_tuple(python_.object().attr("_coordinates_at")(list_of(q))); });
 }
 
 double PythonProblem::cost_scale() const {
-  if (!states("cost_scale")) return Problem::cost_scale();
-  return asked_of_python("cost_scale", [&] { return object_.attr("_number_of")("cost_scale").cast<double>(); });
+  if (!python_.states("cost_scale")) return Problem::cost_scale();
+  return python_.asked("cost_scale", [&] { return python_.object().attr("_number_of")("cost_scale").cast<double>(); });
 }
 
 MotionPoint PythonProblem::guess(double t) const {
-  if (!states("guess")) return Problem::guess(t);
-  return asked_of_python("guess", [&]() -> MotionPoint {
+  if (!python_.states("guess")) return Problem::guess(t);
+  return python_.asked("guess", [&]() -> MotionPoint {
     using Vector = Eigen::VectorXd;
-    const auto [q, v, u, y] = object_.attr("_guess_at")(t).cast<std::tuple<Vector, Vector, Vector, Vector>>();
+    const auto [q, v, u, y] = python_.object().attr("_guess_at")(t).cast<std::tuple<Vector, Vector, Vector, Vector>>();
     return {.q = q, .v = v, .u = u, .y = y};
   });
 }
 
 ProblemCard PythonProblem::card() const {
-  return asked_of_python("card", [&] {
-    const py::dict stated = object_.attr("_card")();
+  return python_.asked("card", [&] {
+    const py::dict stated = python_.object().attr("_card")();
     ProblemCard card;
     card.description = stated["description"].cast<std::string>();
     card.source = stated["source"].cast<std::string>();
-    if (states("guess")) card.guess = stated["guess"].cast<std::string>();
+    if (python_.states("guess")) card.guess = stated["guess"].cast<std::string>();
     const auto [unit, factor] = stated["time_unit"].cast<std::pair<std::string, double>>();
     card.time_unit = {unit, factor};
     card.configuration_units = stated["configuration_units"].cast<std::vector<std::string>>();
@@ -274,10 +162,10 @@ ProblemCard PythonProblem::card() const {
       card.reference = {.objective = objective, .digits = digits, .certificate = certificate};
     }
     card.picture = [this](const ControlledState& x) {
-      return asked_of_python("picture", [&] {
+      return python_.asked("picture", [&] {
         const Tracing tracing;
         Picture picture;
-        for (const py::handle quantity : object_.attr("_picture")(point(x))) {
+        for (const py::handle quantity : python_.object().attr("_picture")(point(x))) {
           const auto [name, quantity_unit, value] = quantity.cast<std::tuple<std::string, std::string, py::object>>();
           const auto traced = as_expression(value);
           if (!traced) throw Error(fmt::format("the quantity {} is {}, no formula", name, type_of(value)));
@@ -311,8 +199,8 @@ std::shared_ptr<const PythonProblem::Numbers> PythonProblem::numbers() const {
 }
 
 PythonProblem::Numbers PythonProblem::read_numbers() const {
-  return asked_of_python("start, end, horizon or bounds", [&] {
-    const py::dict stated = object_.attr("_numbers")();
+  return python_.asked("start, end, horizon or bounds", [&] {
+    const py::dict stated = python_.object().attr("_numbers")();
     const auto vector = [&](const char* name) { return stated[name].cast<Eigen::VectorXd>(); };
     Numbers numbers;
     numbers.parameters = parameter_values(*this);

@@ -8,41 +8,18 @@
 
 #include <pybind11/pybind11.h>
 
+#include "bench/python/python_object.hpp"
 #include "methods/mechanics/problem.hpp"
 
 namespace dmocbench::python {
 
-class PythonProblem;
-
-/// How an object of a Python class reads the parameters of the C++ problem that it represents: as formulas while one is
-/// traced, else as numbers.
-class ParameterReader {
- public:
-  /// The parameter `name`. Throws `Error` as `Problem::parameter`, and where the problem is gone.
-  [[nodiscard]] pybind11::object read(const std::string& name) const;
-
- private:
-  friend class PythonProblem;
-  const PythonProblem* problem_ = nullptr;  ///< null once it is gone
-};
-
 /// A problem whose members are implemented by an object of the Python class `dmocbench.Problem`.
-///
-/// It keeps a copy of the object, so that later changes of the original do not reach solves that go on. Its functions
-/// may be called by any thread, with or without the GIL. Python exceptions become an `Error` that names the function,
-/// and is kept for the call (`Call`).
 class PythonProblem final : public Problem {
  public:
-  /// Of an object, whose function `_bound` makes the copy. Holds the GIL. Throws as Python does where something is
-  /// missing.
+  /// Of an object; as `PythonObject`.
   explicit PythonProblem(const pybind11::object& original);
-  ~PythonProblem() override;  // NOLINT(bugprone-exception-escape): see its definition
-  PythonProblem(const PythonProblem&) = delete;
-  PythonProblem& operator=(const PythonProblem&) = delete;
-  PythonProblem(PythonProblem&&) = delete;
-  PythonProblem& operator=(PythonProblem&&) = delete;
 
-  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::string name() const override { return python_.name(); }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override;
   [[nodiscard]] ProblemCard card() const override;
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return configuration_names_; }
@@ -77,20 +54,11 @@ class PythonProblem final : public Problem {
     double horizon = 0.0;
     ProblemBounds bounds;
   };
-  friend class ParameterReader;
 
-  /// True if the class has that member.
-  [[nodiscard]] bool states(const char* member) const;
-  /// A member as formula, as many entries as it has. `arguments()`: the arguments for Python.
-  template <class Arguments>
-  [[nodiscard]] ExpressionVector formula(const char* member, const Arguments& arguments) const;
   template <class Arguments>
   [[nodiscard]] Expression single_formula(const char* member, const Arguments& arguments) const;
   template <class Arguments>
   [[nodiscard]] ExpressionVector optional_formula(const char* member, const Arguments& arguments) const;
-  /// `work()` with the GIL; Python exceptions become an `Error` that names the member.
-  template <class Work>
-  [[nodiscard]] auto asked_of_python(const char* member, const Work& work) const;
   /// Names the entries of a point in texts of formulas.
   void name_entries(const State& x) const;
   [[nodiscard]] pybind11::object point(const State& x) const;
@@ -100,15 +68,10 @@ class PythonProblem final : public Problem {
   [[nodiscard]] std::shared_ptr<const Numbers> numbers() const;
   [[nodiscard]] Numbers read_numbers() const;
 
-  // Objects of Python; touched with the GIL only.
-  pybind11::object object_;
-  pybind11::object reader_;
-
-  std::string name_;
+  PythonObject python_;
   std::vector<std::string> configuration_names_;
   std::vector<std::string> control_names_;
   std::vector<std::string> first_order_names_;
-  std::vector<std::string> members_;
   bool has_constant_numbers_ = false;  ///< no number depends on a parameter
   mutable std::mutex last_numbers_use_;
   mutable std::shared_ptr<const Numbers> last_numbers_;  ///< the last that were read

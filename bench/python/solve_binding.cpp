@@ -26,6 +26,7 @@
 #include "methods/tables/motion_file.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/phase_trajectories.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -230,6 +231,26 @@ double estimated_error(Answer& answer) {
   return *solved.estimated_error;
 }
 
+/// The arrays of every phase by its name, in the time of the whole motion; none where the problem has no phases.
+py::dict phases_of(const Answer& answer) {
+  py::dict phases;
+  const PhasedProblem* const problem = answer.solved.the_case.problem->phased();
+  if (problem == nullptr || !answer.solved.trajectory) return phases;
+  const std::vector<PhaseTrajectory> parts = phase_trajectories(*problem, *answer.solved.trajectory);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto& [start, motion] = parts[i];
+    const Problem& phase = *problem->phases()[i].problem;
+    phases[py::str(problem->phases()[i].name)] = py::dict(
+        py::arg("t") = Eigen::VectorXd(motion.node_times.array() + start), py::arg("q") = motion.q,
+        py::arg("v") = motion.v, py::arg("p") = motion.p, py::arg("psi_q") = motion.psi_q,
+        py::arg("psi_p") = motion.psi_p, py::arg("y") = motion.y, py::arg("psi_y") = motion.psi_y,
+        py::arg("stages_t") = Eigen::VectorXd(motion.stage_times.array() + start), py::arg("u") = motion.stage_u,
+        py::arg("coordinates") = phase.configuration_names(), py::arg("controls") = phase.control_names(),
+        py::arg("first_order_states") = phase.first_order_names());
+  }
+  return phases;
+}
+
 void bind_options(py::module_& module) {
   py::class_<Asked>(module, "Asked")
       .def(py::init<>())
@@ -351,6 +372,7 @@ void bind_solve(py::module_& module) {
   });
   answer.def_property_readonly("largest_violation", [](Answer& one) { return checks_of(one).violation_between_nodes; });
   answer.def("estimated_error", &estimated_error);
+  answer.def_property_readonly("phases", &phases_of);
   module.def("solve", &solve, py::arg("problem"), py::arg("asked"), py::arg("start"), py::arg("callback"));
   module.def("methods", &all_methods, "Names of all methods.");
   module.def("solvers", &solver_names, "Names of all solvers.");

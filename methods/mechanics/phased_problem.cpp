@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 
 namespace dmocbench {
@@ -351,7 +352,7 @@ ExpressionVector PhasedProblem::link_of(std::size_t i, const State& before, cons
 }
 
 ExpressionVector PhasedProblem::checked_link(std::size_t i, const PhaseEnd& before, const PhaseEnd& after) const {
-  const ExpressionVector entries = link(i, before, after);
+  const ExpressionVector entries = call_formula(*this, "link", [&] { return link(i, before, after); });
   const std::size_t next = i + 1;
   const Eigen::Index open = open_entries(phase_bounds(next).first);
   const Eigen::Index held = 2 * in_phase(next, constraint_count);
@@ -389,7 +390,7 @@ ExpressionVector PhasedProblem::boundary_conditions(const State& first, const St
   for (std::size_t i = 0; i + 1 < phases_.size(); ++i) {
     rows.push_back(checked_link(i, ends[preceding(i + 1)], starts[i + 1]));
   }
-  rows.push_back(conditions(starts, ends));
+  rows.push_back(call_formula(*this, "conditions", [&] { return conditions(starts, ends); }));
   return stacked(rows);
 }
 

@@ -65,6 +65,7 @@ from ._core import (  # noqa: E402, F401
     tanh,
 )
 from .experiments import Results, Table, convergence, load_library, read_table, register, run  # noqa: E402, F401
+from .phases import PhaseEnd, Phases, continuous, dropped, impact, momentum_kept, new_foothold  # noqa: E402, F401
 from .problem import (  # noqa: E402, F401
     Problem,
     at_rest,

@@ -9,11 +9,12 @@ from pathlib import Path
 
 from . import _core
 from .experiments import register
+from .phases import Phases
 from .problem import Problem
 
 
 def problems_of(file):
-    """The problems that a file states, in its order."""
+    """The problems that a file states, in its order: no phases of another one, and nothing that needs arguments."""
     name = os.path.splitext(os.path.basename(file))[0]
     spec = importlib.util.spec_from_file_location(name, file)
     module = importlib.util.module_from_spec(spec)
@@ -21,7 +22,11 @@ def problems_of(file):
     sys.path.insert(0, os.path.dirname(os.path.abspath(file)))
     spec.loader.exec_module(module)
     found = [value for value in vars(module).values()
-             if inspect.isclass(value) and issubclass(value, Problem) and value.__module__ == name]
+             if inspect.isclass(value) and issubclass(value, Problem) and value.__module__ == name
+             and not any(argument.default is argument.empty and argument.kind is argument.POSITIONAL_OR_KEYWORD
+                         for argument in inspect.signature(value).parameters.values())]
+    parts = {type(phase) for cls in found if issubclass(cls, Phases) for phase in cls()._stated_phases().values()}
+    found = [cls for cls in found if cls not in parts]
     if not found:
         raise _core.Error(f"{file} states no problem: a class derived from dmocbench.Problem")
     return found

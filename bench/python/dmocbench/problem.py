@@ -350,11 +350,14 @@ class Problem:
             raise Error(f"{self._problem_name()} has no parameter {name}; it has {', '.join(names) or 'none'}")
 
     def _bound(self, reader):
-        _check_members(self)
+        self._check()
         bound = copy.copy(self)
         bound._values = dict(self._values)
         bound.__dict__["_reader"] = reader
         return bound
+
+    def _check(self):
+        _check_members(self)
 
     def _problem_name(self):
         name = getattr(type(self), "name", None)
@@ -501,23 +504,28 @@ class Problem:
             y = first + t / horizon * (last - first)
         return tuple(np.atleast_1d(np.asarray(part, dtype=float)) for part in (q, v, u, y))
 
-    def _card(self):
+    def _words(self):
         cls = type(self)
         doc = cls.__doc__ if cls.__doc__ != Problem.__doc__ else None
         reference = getattr(self, "reference", None)
         if reference is not None:
             cost, digits, *words = reference
             reference = (float(cost), int(digits), words[0] if words else "stated by the user")
-        guess = getattr(getattr(self, "guess", None), "__doc__", None)
         return {
             "description": " ".join((doc or "").strip().split("\n\n")[0].split()).rstrip("."),
             "source": getattr(self, "source", ""),
+            "reference": reference,
+        }
+
+    def _card(self):
+        guess = getattr(getattr(self, "guess", None), "__doc__", None)
+        return {
+            **self._words(),
             "guess": " ".join((guess or "as stated").split()) if not isinstance(
                 getattr(self, "guess", None), motion) else "linear between given points",
             "configuration_units": self.q.units if any(self.q.units) else [],
             "control_units": self._controls().units if any(self._controls().units) else [],
             "time_unit": tuple(getattr(self, "time_unit", ("s", 1.0))),
-            "reference": reference,
             "path_constraint_names": list(getattr(self, "path_constraint_names", [])),
             "boundary_condition_names": list(getattr(self, "boundary_condition_names", [])),
         }

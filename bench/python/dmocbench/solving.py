@@ -12,6 +12,7 @@ import numpy as np
 from . import _core, plotting
 from ._core import Error
 from .names import CostForm, Derivatives, Method, Refinement, Solver, Tableau
+from .phases import PhaseMotion
 from .points import Point, with_names
 from .problem import Problem, motion
 from .words import arguments_of_solve, in_words_of_python, spelt
@@ -214,6 +215,11 @@ class Solution:
     def stages(self) -> Stages:
         """Values at the stages."""
         return Stages(self._answer.motion)
+
+    @property
+    def phases(self) -> dict[str, PhaseMotion]:
+        """The motion of every phase of a problem of several phases, by its name."""
+        return {name: PhaseMotion(arrays) for name, arrays in self._answer.phases.items()}
 
     @property
     def prices(self) -> Prices:

@@ -1,0 +1,194 @@
+"""Problems of several phases: what a motion does between its switches, and the conditions there."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, Callable, Sequence
+
+import numpy as np
+
+from . import _core
+from ._core import Error
+from .points import Point, named
+from .problem import Problem, _parameters_of
+
+
+class PhaseEnd(Point):
+    """The state at an end of a phase: q, v and y as of `Point`, p: the momentum, t: the time of the whole motion."""
+
+    __slots__ = ("p",)
+
+    def __init__(self, q, v, t, y, p):
+        super().__init__(q, v, None, t, y)
+        self.p = p
+
+
+class PhaseEnds:
+    """The ends of all phases: ends.NAME, or ends[i] in their order."""
+
+    def __init__(self, names, ends):
+        self._names = names
+        self._ends = ends
+
+    def __getitem__(self, number):
+        return self._ends[number]
+
+    def __len__(self):
+        return len(self._ends)
+
+    def __getattr__(self, name):
+        if name.startswith("_") or name not in self._names:
+            raise AttributeError(f"there is no phase {name}; there are {', '.join(self._names)}")
+        return self._ends[self._names.index(name)]
+
+
+class Phases(Problem):
+    """A problem of several phases that follow each other, each a problem of its own. The sum of their costs is minimised.
+
+    Derive a class from it and state the phases in their order, as attributes that are objects of classes derived from
+    Problem, or as phases = {"name": problem, ...}. A horizon = between(...) of a phase makes its duration an unknown,
+    duration_NAME. The ends of a phase at a switch are open (`free`) where the switch determines them.
+
+    Optional:
+
+    NAME_to_NAME(self, before, after) = 0: the conditions of a switch between two phases; link(self, before, after): of
+    all other switches. Default: `continuous`. There are also `momentum_kept`, `impact`, `dropped` and `new_foothold`.
+    conditions(self, first, last) = 0: conditions that read several ends, as last.NAME.q or last[-1].t, which is the
+    total time.
+    follows = {"name": "name of the phase before"}: for branches.
+    Any number of parameters, and of `unknown`s such as impulses. source, reference, name.
+
+    Coordinates, first-order states and controls of a solution are called NAME_ of the phase and their name;
+    `Solution.phases` has the motion of every phase. Phases share parameters of one name.
+    """
+
+    _values: dict[str, float]
+
+    def __init__(self, **values: float):
+        own = _parameters_of(type(self))
+        super().__init__(**{name: value for name, value in values.items() if name in own})
+        for name, value in values.items():
+            if name not in own:
+                self._require_parameter(name)
+                self._values[name] = float(value)
+
+    def parameters(self) -> dict[str, float]:
+        """The values of all parameters by name, the phases' among them."""
+        return dict(self.handle().parameters)
+
+    # Called from C++.
+
+    def _stated_phases(self):
+        found = {}
+        for cls in reversed(type(self).__mro__):
+            found.update({name: value for name, value in vars(cls).items() if isinstance(value, Problem)})
+        found.update({name: value for name, value in vars(self).items() if isinstance(value, Problem)})
+        found.update(self._value_of("phases") if getattr(self, "phases", None) is not None else {})
+        for name, problem in found.items():
+            if isinstance(problem, Phases):
+                raise Error(f"{self._problem_name()}: phase {name} has phases itself; state them all in one class")
+            if not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
+                raise Error(f"{self._problem_name()}: phases have names such as \"fall\", not {name!r}")
+        return found
+
+    def _phase_list(self):
+        """(name, problem, number of the phase that it follows or None) of every phase."""
+        names = list(found := self._stated_phases())
+        follows = getattr(self, "follows", {})
+        for name in [*follows, *follows.values()]:
+            if name not in names:
+                raise Error(f"{self._problem_name()}: follows names {name}, but the phases are {', '.join(names)}")
+        return [(name, _core.ProblemHandle(problem), names.index(follows[name]) if name in follows else None)
+                for name, problem in found.items()]
+
+    def _require_parameter(self, name):
+        shared = {key for phase in self._stated_phases().values() for key in _parameters_of(type(phase))}
+        if name not in shared:
+            super()._require_parameter(name)
+
+    def _check(self):
+        name = self._problem_name()
+        if not self._stated_phases():
+            raise Error(f"{name} has no phases; write fall = Flight(), with a class Flight derived from Problem")
+        names = list(self._stated_phases())
+        for member in vars(type(self)):
+            before, found, after = member.partition("_to_")
+            if found and callable(getattr(self, member)) and not (before in names and after in names):
+                raise Error(f"{name}: {member} is not between two phases; there are {', '.join(names)}")
+
+    def _stated_members(self):
+        return [name for name in ("link", "conditions", "cost_scale") if getattr(self, name, None) is not None]
+
+    def _end_at(self, q_names, y_names, q, v, t, y, p):
+        return PhaseEnd(named(q, q_names, "q"), named(v, q_names, "v"), t, named(y, y_names, "y"), named(p, q_names, "p"))
+
+    def _link(self, before_name, after_name, before, after):
+        link = getattr(self, f"{before_name}_to_{after_name}", None) or getattr(self, "link", None) or continuous
+        return link(before, after)
+
+    def _conditions(self, names, first, last):
+        return self.conditions(PhaseEnds(names, first), PhaseEnds(names, last))
+
+
+class PhaseMotion:
+    """The part of one phase in a solution: arrays with a row per node in the time of the whole motion and the phase's own
+    velocities. t, q, v, p, psi_q, psi_p, y, psi_y; stages_t and u at the stages; duration; coordinates, controls and
+    first_order_states are names."""
+
+    t: np.ndarray
+    q: np.ndarray
+    v: np.ndarray
+    p: np.ndarray
+    psi_q: np.ndarray
+    psi_p: np.ndarray
+    y: np.ndarray
+    psi_y: np.ndarray
+    stages_t: np.ndarray
+    u: np.ndarray
+    coordinates: list[str]
+    controls: list[str]
+    first_order_states: list[str]
+
+    def __init__(self, arrays):
+        self.__dict__.update(arrays)
+        self.duration = self.t[-1] - self.t[0]
+
+    def column(self, name: str) -> np.ndarray:
+        """A coordinate or a first-order state at the nodes, or a control at the stages, by its name."""
+        for names, table in ((self.coordinates, self.q), (self.first_order_states, self.y), (self.controls, self.u)):
+            if name in names:
+                return table[:, names.index(name)]
+        there = self.coordinates + self.first_order_states + self.controls
+        raise Error(f"there is no {name}; there are {', '.join(there)}")
+
+
+def continuous(before: PhaseEnd, after: PhaseEnd) -> Sequence[Any]:
+    """q, v and y are continuous. Where the inertia changes, p jumps."""
+    return _core.continuous(before, after)
+
+
+def momentum_kept(before: PhaseEnd, after: PhaseEnd) -> Sequence[Any]:
+    """q, p and y are continuous, as in a docking. Where the inertia changes, v jumps."""
+    return _core.momentum_kept(before, after)
+
+
+def dropped(before: PhaseEnd, after: PhaseEnd, amount: Sequence[Any]) -> Sequence[Any]:
+    """q and v are continuous, and y falls by `amount`, one entry each: a stage takes its momentum with it."""
+    return _core.dropped(before, after, list(amount))
+
+
+def impact(before: PhaseEnd, after: PhaseEnd, guard: Callable[[Any], Any], restitution: Any, impulse: Any) -> Sequence[Any]:
+    """An impact on guard(q) = 0: q and y are continuous, p jumps by the gradient of the guard times `impulse`, an
+    `unknown` per guard, and the velocity along the gradient is reversed and reduced by `restitution`."""
+    names = before.q._names
+    return _core.impact(before, after, lambda q: guard(named(q, names, "q")), restitution, impulse)
+
+
+def new_foothold(before: PhaseEnd, after: PhaseEnd, lagrangian: Callable[[Point], Any], on_old_foot: Callable[[Any], Any],
+                 on_new_foot: Callable[[Any], Any]) -> Sequence[Any]:
+    """A new foot lands and stays, the old one leaves. lagrangian(x): of the body in coordinates in which no foot is held;
+    on_old_foot(q), on_new_foot(q): these coordinates, of the ones of the phases before and after."""
+    return _core.new_foothold(before, after, lambda q, v, t, y: lagrangian(Point(named(q, (), "q"), named(v, (), "v"), None, t,
+                                                                                 named(y, (), "y"))),
+                              lambda q: on_old_foot(named(q, before.q._names, "q")),
+                              lambda q: on_new_foot(named(q, after.q._names, "q")))

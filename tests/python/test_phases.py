@@ -1,0 +1,142 @@
+"""Problems of several phases: solutions, their motions by phase, and mistakes."""
+
+import unittest
+
+import numpy as np
+
+import dmocbench as db
+
+
+class Flight(db.Problem):
+    """one flight of a ball"""
+
+    q = db.coordinates("z", unit="m")
+    u = db.controls("push", unit="N")
+    gravity = db.parameter(9.81, "m/s^2", lower=0.0)
+    horizon = db.between(0.05, 2.0, guess=0.6)
+
+    def __init__(self, start, end, **values):
+        super().__init__(**values)
+        self.start, self.end = start, end
+
+    def lagrangian(self, x):
+        return 0.5 * x.v.z**2 - self.gravity * x.q.z
+
+    def force(self, x):
+        return x.u
+
+    def running_cost(self, x):
+        return 0.5 * x.u.push**2
+
+
+def fall(**values):
+    return Flight(db.at_rest(z=1.0), db.state([db.free()], [db.free(-4.0)]), **values)
+
+
+def rise(**values):
+    return Flight(db.state([db.free()], [db.free(3.0)]), db.state([1.1], [0.5]), **values)
+
+
+class Ball(db.Phases):
+    """a ball bounces once"""
+
+    e = db.parameter(0.7, lower=0.0, upper=1.0)
+    impulse = db.unknown(7.0, "N s")
+    fall = fall()
+    rise = rise()
+
+    def fall_to_rise(self, before, after):
+        return db.impact(before, after, lambda q: [q.z], self.e, self.impulse)
+
+    def conditions(self, first, last):
+        return [last.rise.t - 1.2]
+
+
+def variant(**members):
+    return type("Ball", (Ball,), members)
+
+
+class Solutions(unittest.TestCase):
+    def test_are_the_closed_form(self):
+        for e, cost, time in ((0.7, 13.578573105569905, 0.56528634841633673), (1.0, 10.258191327671888, 0.65117240677679886)):
+            for method in ("dmoc", "hamiltonian", "tangent"):
+                with self.subTest(e=e, method=method):
+                    solution = db.solve(Ball(e=e), method=method, intervals=8, stages=2)
+                    self.assertAlmostEqual(solution.cost, cost, delta=1e-9)
+                    self.assertAlmostEqual(solution.unknowns["duration_fall"], time, delta=1e-8)
+                    self.assertLess(solution.replay_error, 1e-7)
+
+    def test_have_the_motion_of_every_phase(self):
+        solution = db.solve(Ball(), intervals=8)
+        phases = solution.phases
+        self.assertEqual(list(phases), ["fall", "rise"])
+        self.assertEqual(phases["fall"].coordinates, ["z"])
+        self.assertAlmostEqual(phases["fall"].duration, solution.unknowns["duration_fall"], delta=1e-14)
+        self.assertAlmostEqual(phases["rise"].t[0], phases["fall"].t[-1], delta=1e-14)
+        self.assertAlmostEqual(phases["rise"].t[-1], 1.2, delta=1e-9)
+        self.assertAlmostEqual(phases["rise"].v[0, 0], -0.7 * phases["fall"].v[-1, 0], delta=1e-9)
+        self.assertAlmostEqual(phases["rise"].p[0, 0] - phases["fall"].p[-1, 0], solution.unknowns["impulse"], delta=1e-9)
+        np.testing.assert_allclose(phases["fall"].column("z"), solution.column("fall_z"))
+        self.assertEqual(phases["fall"].u.shape, (8, 1))
+        self.assertEqual(db.solve("double_integrator", intervals=8).phases, {})
+
+    def test_share_parameters_of_one_name(self):
+        light = db.solve(Ball(gravity=1.6), intervals=8, stages=2)
+        stated = variant(fall=fall(gravity=1.6), rise=rise(gravity=1.6))
+        self.assertAlmostEqual(light.cost, db.solve(stated(), intervals=8, stages=2).cost, delta=1e-12)
+        self.assertEqual(Ball(gravity=1.6).parameters()["gravity"], 1.6)
+
+    def test_of_generated_phases_are_the_ones_of_one_grid(self):
+        class Push(db.Problem):
+            q, u = db.coordinates("x"), db.controls("f")
+            horizon = 0.25
+
+            def __init__(self, start, end):
+                self.start, self.end = start, end
+
+            def lagrangian(self, x): return 0.5 * x.v.x**2
+            def force(self, x): return x.u
+            def running_cost(self, x): return 0.5 * x.u.f**2
+
+        ends = [db.at_rest(x=0.0), *[db.state([db.free(0.5)], [db.free(1.0)])] * 3, db.at_rest(x=1.0)]
+
+        class Pushes(db.Phases):
+            phases = {f"p{i}": Push(ends[i], ends[i + 1]) for i in range(4)}
+
+        whole = db.solve("double_integrator", intervals=32)
+        parts = db.solve(Pushes(), intervals=8)
+        self.assertAlmostEqual(parts.cost, whole.cost, delta=1e-10)
+        joined = np.concatenate([parts.phases[f"p{i}"].q[:-1, 0] for i in range(4)])
+        np.testing.assert_allclose(joined, whole.q[:-1, 0], atol=1e-10)
+
+
+class Mistakes(unittest.TestCase):
+    def refused(self, sentence, problem):
+        with self.assertRaisesRegex(db.Error, sentence):
+            db.solve(problem, intervals=8)
+
+    def test_get_a_sentence(self):
+        class Nothing(db.Phases):
+            pass
+
+        self.refused("nothing has no phases", Nothing)
+        self.refused("phase rise: its parameter gravity differs", variant(rise=rise(gravity=1.6)))
+        self.refused("has 1 entries", variant(fall_to_rise=lambda self, before, after: after.q - before.q))
+        self.refused("fall_to_moon is not between two phases", variant(fall_to_moon=lambda self, before, after: []))
+        self.refused("follows names moon", variant(follows={"rise": "moon"}))
+        with self.assertRaisesRegex(AttributeError, "there is no phase moon; there are fall, rise"):
+            db.solve(variant(conditions=lambda self, first, last: [last.moon.t - 1.0]))
+        self.refused("link: returns None", variant(fall_to_rise=lambda self, before, after: None))
+        self.refused("1 guards has 2 impulses|1 guards", variant(
+            fall_to_rise=lambda self, before, after: db.impact(before, after, lambda q: [q.z], 0.5, [1.0, 2.0])))
+        with self.assertRaisesRegex(db.Error, "no parameter moon"):
+            Ball(moon=1.0)
+
+    def test_without_a_positive_duration(self):
+        flight = rise()
+        flight.horizon = db.between(0.0, 2.0, guess=0.6)
+        self.refused("horizon must be positive|positive", variant(rise=flight))
+
+
+if __name__ == "__main__":
+    unittest.main()
