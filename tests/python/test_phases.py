@@ -1,5 +1,8 @@
 """Problems of several phases: solutions, their motions by phase, and mistakes."""
 
+import csv
+import os
+import tempfile
 import unittest
 
 import numpy as np
@@ -108,6 +111,31 @@ class Solutions(unittest.TestCase):
         self.assertAlmostEqual(parts.cost, whole.cost, delta=1e-10)
         joined = np.concatenate([parts.phases[f"p{i}"].q[:-1, 0] for i in range(4)])
         np.testing.assert_allclose(joined, whole.q[:-1, 0], atol=1e-10)
+
+
+class Experiments(unittest.TestCase):
+    """Every experiment sees one problem."""
+
+    def test_have_equal_solutions_and_orders(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = db.run("equivalence", Ball, out=folder, intervals=16, tableau="gauss", stages=1)
+            self.assertTrue(results)
+            slopes = db.convergence(Ball, out=folder, intervals=[16, 32, 64, 128, 256], method=["dmoc", "tangent"])
+            self.assertTrue(slopes)
+            with open(os.path.join(folder, "convergence_slopes.csv"), encoding="utf-8") as file:
+                fitted = [float(row["slope"]) for row in csv.DictReader(file) if row["quantity"] == "state" and row["slope"]]
+            self.assertEqual(len(fitted), 2)
+            for slope in fitted:
+                self.assertAlmostEqual(slope, 2.0, delta=0.1)
+
+    def test_sweep_a_parameter(self):
+        with tempfile.TemporaryDirectory() as folder:
+            db.run("sweep", Ball, out=folder, over="e=0.7:1:2", intervals=32)
+            with open(os.path.join(folder, "sweep.csv"), encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+        self.assertEqual([row["status"] for row in rows], ["solved", "solved"])
+        for row, cost in zip(rows, (13.578573105569905, 10.258191327671888)):
+            self.assertAlmostEqual(float(row["objective"]), cost, delta=0.01)
 
 
 class Mistakes(unittest.TestCase):
