@@ -69,7 +69,7 @@ class ScaledProgram final : public ForwardingProgram {
     if (multipliers.size() == 0 || !has_rows()) return scaling_.of_cost * multipliers;
     return scaling_.of_cost * multipliers.cwiseQuotient(scaling_.of_rows);
   }
-  /// The original's multipliers, from those of this program.
+  /// The original's multipliers, from this program's.
   [[nodiscard]] Eigen::VectorXd original_ones(const Eigen::VectorXd& multipliers) const {
     if (multipliers.size() == 0 || !has_rows()) return multipliers / scaling_.of_cost;
     return multipliers.cwiseProduct(scaling_.of_rows) / scaling_.of_cost;
