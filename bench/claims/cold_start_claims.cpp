@@ -54,7 +54,7 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
           of_indirect("converged", row.needed("converged")), of_indirect("starts", row.needed("starts")),
           of_indirect("lower end of the share converged", 100.0 * row.needed("converged_lower"), "%"),
           of_indirect("upper end of the share converged", 100.0 * row.needed("converged_upper"), "%"),
-          of_indirect("on the best branch", row.needed("best"))));
+          of_indirect("in the best minimum", row.needed("best"))));
     }
   }
   return std::move(finding).also(worded("95 % intervals")).as_sure_as(fmt::format("95 % of {} starts", own.trials));
@@ -91,7 +91,7 @@ Claims cold_start_claims() {
            .has_verdict = false},
           {.id = "cold_starts_best",
            .where = "section 5, Global Minima",
-           .states = "how often DMOC and collocation end on the best branch from cold starts, the guess and near it",
+           .states = "how often DMOC and collocation end in the best minimum from cold starts, the guess and near it",
            .judge = how_often_in("best"),
            .condition = "by interior_point",
            .evidence = evidence,

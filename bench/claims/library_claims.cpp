@@ -32,7 +32,7 @@ Words in_library(const ResultTables& tables) {
   }
   if (all == 0) return {};
   const ShareInterval share = wilson_interval({.hits = several, .trials = all});
-  return worded("of {} cold starts also end elsewhere than on the best branch on {} ({:.0f} to {:.0f} %)",
+  return worded("of {} cold starts also end elsewhere than in the best minimum on {} ({:.0f} to {:.0f} %)",
                 counted(all, "problem"), several,
                 Measurement{"lower end of the share of problems", 100.0 * share.lower, "", "cold starts", "%"},
                 Measurement{"upper end of the share of problems", 100.0 * share.upper, "", "cold starts", "%"});
