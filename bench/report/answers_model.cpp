@@ -62,7 +62,7 @@ Selection of_one_stage(const Selection& rows, const std::string& column) {
       .with_number(column);
 }
 
-Selection of(const Selection& rows, const std::string& problem, const std::string& method) {
+Selection rows_of(const Selection& rows, const std::string& problem, const std::string& method) {
   return rows.where("problem", problem).where("method", method);
 }
 
@@ -70,7 +70,7 @@ Selection of(const Selection& rows, const std::string& problem, const std::strin
 template <class Methods>
 bool are_complete(const Selection& rows, const Methods& wanted) {
   return std::ranges::all_of(of_paper, [&](const std::string& problem) {
-    return std::ranges::all_of(wanted, [&](const char* method) { return !of(rows, problem, method).empty(); });
+    return std::ranges::all_of(wanted, [&](const char* method) { return !rows_of(rows, problem, method).empty(); });
   });
 }
 
@@ -139,7 +139,7 @@ std::vector<MethodCurve> curves_of(const Selection& rows, const std::string& pro
   std::vector<MethodCurve> curves;
   for (const char* const method : methods) {
     curves.push_back({.method = method, .points = {}});
-    for (const Row& row : of(rows, problem, method).sorted_by("intervals"))
+    for (const Row& row : rows_of(rows, problem, method).sorted_by("intervals"))
       curves.back().points.emplace_back(row.needed("intervals"), row.needed(column));
   }
   return curves;
@@ -163,8 +163,8 @@ Json pictures_of(const Draw& draw) {
 /// A column with one method over the same with another, on the finest grid of both; and that number of intervals.
 std::pair<double, int> ratio_on_finest_grid(const Selection& rows, const std::string& problem, const char* above,
                                             const std::string& column) {
-  const Selection dmoc = of(rows, problem, "dmoc");
-  const Selection other = of(rows, problem, above).where([&](const Row& row) {
+  const Selection dmoc = rows_of(rows, problem, "dmoc");
+  const Selection other = rows_of(rows, problem, above).where([&](const Row& row) {
     return !dmoc.where("intervals", row.text("intervals")).empty();
   });
   if (other.empty()) return {std::nan(""), 0};
@@ -268,8 +268,8 @@ Json size(const ResultsFolder& results) {
   if (!are_complete(state, methods) || !are_complete(replay, std::array{"tangent"})) return no_answer;
   const Span others =
       span_of(state.where([](const Row& row) { return row.text("method") != "dmoc"; }), "variables_ratio");
-  const Span on_orbit = span_of(of(replay, orbit, "tangent"), "variables_ratio");
-  const Span on_arm = span_of(of(replay, two_link, "tangent"), "variables_ratio");
+  const Span on_orbit = span_of(rows_of(replay, orbit, "tangent"), "variables_ratio");
+  const Span on_arm = span_of(rows_of(replay, two_link, "tangent"), "variables_ratio");
   return {{"question", "Which needs fewer unknowns?"},
           {"answer", others.low > 1.0    ? "DMOC, on both problems, because positions are its only states."
                      : others.high < 1.0 ? "Collocation, on both problems."
@@ -283,7 +283,7 @@ Json size(const ResultsFolder& results) {
           {"cells", pictures_of([&](const std::string& problem, const AxisUnits&) {
              std::vector<std::pair<std::string, double>> bars;
              for (const char* const method : methods) {
-               const Selection own = of(state, problem, method);
+               const Selection own = rows_of(state, problem, method);
                double sum = 0.0;
                for (const Row& row : own) sum += row.needed("variables_ratio");
                bars.emplace_back(method, sum / static_cast<double>(own.size()));
@@ -310,7 +310,7 @@ std::vector<IntervalLine> lines_of_times(const Selection& rows, const std::strin
   for (const TimedWay& way : timed_ways) {
     lines.push_back({.name = way.name, .intervals = {}});
     for (const char* const method : {"hamiltonian", "tangent"}) {
-      const Selection own = of(rows, problem, method)
+      const Selection own = rows_of(rows, problem, method)
                                 .where("solver", way.solver)
                                 .where("factorisation", way.factorisation)
                                 .where("quantity", way.quantity);
@@ -417,7 +417,7 @@ Json robustness(const ResultsFolder& results) {
   Span gaps;
   for (const std::string& problem : of_paper) {
     const auto share = [&](const char* method, const char* column) {
-      const Row& row = of(rows, problem, method).front();
+      const Row& row = rows_of(rows, problem, method).front();
       return 100.0 * row.needed(column) / row.needed("starts");
     };
     for (const char* const column : {"confirmed", "best"}) {
@@ -438,7 +438,7 @@ Json robustness(const ResultsFolder& results) {
           {"cells", pictures_of([&](const std::string& problem, const AxisUnits&) {
              std::vector<MethodShares> shares;
              for (const char* const method : methods) {
-               const Row& row = of(rows, problem, method).front();
+               const Row& row = rows_of(rows, problem, method).front();
                shares.push_back({.method = method,
                                  .best = row.needed("best"),
                                  .other = row.needed("elsewhere"),
