@@ -236,6 +236,19 @@ inline Rows constrained_rows(const std::string& tableau) {
   return rows;
 }
 
+/// The same of phases, with one stage and with two.
+inline Rows phase_rows() {
+  Rows rows;
+  for (const long long stages : {1LL, 2LL}) {
+    for (Row& row : constrained_rows("gauss")) {
+      row.set("problem", "bouncing_hopper");
+      row.set("stages", stages);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
 /// Costs of order 4 in both statements of four problems.
 inline Rows constrained_cost_rows() {
   Rows rows;
@@ -490,6 +503,10 @@ inline std::map<std::string, Rows> all_rows() {
   rows["equivalence_constrained"] = constrained_rows("gauss");
   rows["equivalence_constrained_lobatto"] = constrained_rows("lobatto");
   rows["consistency_constrained"] = rows["consistency"];
+  rows["equivalence_phases"] = phase_rows();
+  rows["consistency_phases"] = rows["consistency"];
+  rows["convergence_phases_slopes"] =
+      galerkin_slope_rows("gauss", {{"dmoc", "1", "2.01"}, {"dmoc", "2", "3.99"}, {"tangent", "2", "4.0"}});
   rows["objective_constrained"] = constrained_cost_rows();
   rows["objective_forms"] = constraint_form_rows();
   rows["convergence_indirect_jumps"] = jump_rows();

@@ -2,12 +2,16 @@
 #include <cmath>
 #include <map>
 #include <ostream>
+#include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/replay_error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "problems/bouncing_ball.hpp"
 #include "problems/bouncing_hopper.hpp"
@@ -166,6 +170,44 @@ TEST(BouncingHopper, BalancesItsMomentumAcrossTheImpactExceptByTangentSpaceCollo
     EXPECT_LT(std::abs(momentum_defect(hopper, solved(hopper, {"dmoc", s}, 32).motion)), 1e-14);
     EXPECT_LT(std::abs(momentum_defect(hopper, solved(hopper, {"hamiltonian", s}, 32).motion)), 1e-14);
     EXPECT_GT(std::abs(momentum_defect(hopper, solved(hopper, {"tangent", s}, 32).motion)), s == 1 ? 1e-6 : 1e-10);
+  }
+}
+
+/// (q, p) after an impact of the hopper, as a function of (q, p) before.
+ExpressionVector after_impact(const ExpressionVector& x, double restitution) {
+  const ExpressionVector gradient{{1.0, 0.45 * sin(3.0 * x[1])}};
+  const ExpressionVector by_mass{{gradient[0], gradient[1] / (x[0] * x[0])}};
+  const Expression along = by_mass[0] * x[2] + by_mass[1] * x[3];
+  const Expression impulse = -(1.0 + restitution) * along / (gradient[0] * by_mass[0] + gradient[1] * by_mass[1]);
+  return ExpressionVector{{x[0], x[1], x[2] + impulse * gradient[0], x[3] + impulse * gradient[1]}};
+}
+
+/// ψ⁻ = R'ᵀψ⁺ + ν ∂γ/∂q.
+TEST(BouncingHopper, HasCostatesThatJumpByTheLawOfTheImpact) {
+  for (const double restitution : {1.0, 0.6, 0.0}) {
+    BouncingHopper hopper;
+    hopper.set_parameter("restitution", restitution);
+    for (const tests::Scheme& scheme : {Scheme{"dmoc", 1}, Scheme{"hamiltonian", 1}, Scheme{"dmoc", 2}}) {
+      SCOPED_TRACE(scheme.label());
+      const Trajectory motion = solved(hopper, scheme, 32).motion;
+      Eigen::Vector4d before;
+      before << motion.q.row(32).head(2).transpose(), motion.p.row(32).head(2).transpose();
+      const ExpressionVector x = input_vector(0, 4);
+      const ExpressionVector law = after_impact(x, restitution);
+      const std::vector<double> values =
+          replay<double>(Schedule(stacked({law, ExpressionVector(jacobian(law, x).reshaped())})),
+                         std::span<const double>(before.data(), 4));
+      const Eigen::Map<const Eigen::Vector4d> after(values.data());
+      const Eigen::Map<const Eigen::Matrix4d> derivative(values.data() + 4);
+      EXPECT_LT((after.tail(2).transpose() - motion.p.row(0).tail(2)).norm(), 1e-12);
+      Eigen::Vector4d psi_before, psi_after;
+      psi_before << motion.psi_q.row(32).head(2).transpose(), motion.psi_p.row(32).head(2).transpose();
+      psi_after << motion.psi_q.row(0).tail(2).transpose(), motion.psi_p.row(0).tail(2).transpose();
+      const Eigen::Vector4d rest = psi_before - derivative.transpose() * psi_after;
+      EXPECT_LT(rest.tail(2).norm(), 1e-12);
+      EXPECT_NEAR(rest[1], 0.45 * std::sin(3.0 * before[1]) * rest[0], 1e-12);  // along the gradient of the guard
+      EXPECT_GT(std::abs(rest[0]), 1e-3);
+    }
   }
 }
 

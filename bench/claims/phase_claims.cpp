@@ -1,0 +1,89 @@
+// Motions of several phases with free switching times: what DMOC and collocation keep across a switch.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/ranges.h>
+
+#include "bench/claims/claim.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+Finding equal_across_switches(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double rounding = 1e-11;
+  const Selection all = tables.rows("equivalence_phases").where("method", "hamiltonian");
+  const Selection rows = all.usable();
+  require(rows.group_by({"stages"}).size() > 1, "equivalence_phases.csv needs solved rows of two numbers of stages");
+  double largest = 0.0;
+  for (const char* column :
+       {"configuration_difference", "momentum_difference", "control_difference", "objective_difference"}) {
+    largest = std::max(largest, rows.max(column));
+  }
+  return found(largest < rounding, "{} grids of {}, largest relative difference of q, p, u and J: {:.0e}", rows.size(),
+               fmt::join(rows.distinct("problem"), ", "),
+               Measurement{"largest relative difference of q, p, u and J", largest})
+      .also(worded("of costates {:.0e}",
+                   Measurement{"largest relative difference of the costates", rows.max("costate_difference")}))
+      .also(left_out(all, rows));
+}
+
+Finding momentum_across_impacts(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double rounding = 1e-13;
+  const Selection rows = tables.rows("consistency_phases").usable();
+  const auto largest = [&](const char* method) {
+    const Selection of_method = rows.where("method", method);
+    require(!of_method.empty(), "consistency_phases.csv has no solved row of {}", method);
+    return Measurement{"momentum less work over the whole motion", of_method.max("momentum_defect_total"), method};
+  };
+  const bool balances = largest("dmoc").value < rounding && largest("hamiltonian").value < rounding;
+  const ClaimVerdict verdict = !balances                             ? ClaimVerdict::differs
+                               : largest("tangent").value > rounding ? ClaimVerdict::reproduced
+                                                                     : ClaimVerdict::undecided;
+  return found(verdict, "momentum less work over the whole motion: dmoc {:.0e}, hamiltonian {:.0e}, tangent {:.0e}",
+               largest("dmoc"), largest("hamiltonian"), largest("tangent"));
+}
+
+Finding orders_with_free_times(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double tolerance = 0.2;
+  const Selection rows = tables.rows("convergence_phases_slopes").where([](const Row& row) {
+    return row.text("verdict") == "slope" && row.text("quantity") != "control" && row.text("quantity") != "replay";
+  });
+  require(rows.group_by({"stages"}).size() > 1, "convergence_phases_slopes.csv needs orders of two numbers of stages");
+  const auto deviation = [](const Row& row) { return std::abs(row.needed("slope") - 2.0 * row.needed("stages")); };
+  return found(rows.max(deviation) < tolerance, "{} orders of {}: at most {:.2f} away from 2s", rows.size(),
+               fmt::join(rows.distinct("problem"), ", "),
+               Measurement{"largest distance of an order from 2s", rows.max(deviation)});
+}
+
+}  // namespace
+
+/// Phases.
+Claims phase_claims() {
+  const Problems phases{"phases"};
+  return {{.id = "equal_solutions",
+           .problems = phases,
+           .where = "section 1, hybrid systems; th:equi",
+           .whose = Whose::extension,
+           .states = "across switches with free switching times DMOC and Hamiltonian collocation have equal solutions",
+           .judge = equal_across_switches,
+           .evidence = {"equivalence_phases.csv"}},
+          {.id = "momentum",
+           .problems = phases,
+           .where = "section 1, nonsmooth integrators; eq:noether_force_d",
+           .whose = Whose::extension,
+           .states = "across an impact whose guard has the symmetry the change in momentum equals the work of the "
+                     "forces for DMOC and Hamiltonian collocation, not for tangent-space collocation",
+           .judge = momentum_across_impacts,
+           .evidence = {"consistency_phases.csv"}},
+          {.id = "orders",
+           .problems = phases,
+           .where = "section 1, hybrid systems; main_theorem",
+           .whose = Whose::extension,
+           .states = "with free switching times states, momenta, costates and cost keep the order 2s",
+           .judge = orders_with_free_times,
+           .evidence = {"convergence_phases_slopes.csv"}}};
+}
+
+}  // namespace dmocbench
