@@ -118,7 +118,7 @@ std::string guess_in_words(const Problem& problem) {
       return a.size() != b.size() || a != b;
     };
     if (differ(own.q, usual.q) || differ(own.v, usual.v) || differ(own.u, usual.u)) {
-      return "one of its own, which its card (ProblemCard::guess) does not describe";
+      return "defined in code and not described on its card (ProblemCard::guess)";
     }
   }
   return words;
@@ -182,8 +182,8 @@ int print_schema(const std::string& name) {
   if (name == "findings") return print_json(row_schema("findings.csv", findings_table({})));
   if (name == "claims_rows") return print_json(row_schema("claims_rows.csv", claims_rows_table({})));
   throw Error(
-      fmt::format("--schema {}: there are the schemas problems (of --json), metadata (of NAME.json), claims, "
-                  "findings and claims_rows (of the rows of these tables)",
+      fmt::format("--schema takes problems (for --json), metadata (for NAME.json), claims, findings or claims_rows "
+                  "(for rows of these tables), not {}",
                   name));
 }
 
@@ -245,7 +245,7 @@ int print_all(CommandLine& line) {
   std::vector<std::string> names;
   std::vector<std::string> settings;
   line.group(group_of_problem);
-  line.list("--problem", names, "show the whole statement of these problems");
+  line.list("--problem", names, "show the complete statement of these problems");
   line.option("--set", settings, "parameter=value of a problem; may be repeated");
   line.group(group_of_output);
   bool as_json = false;
@@ -298,9 +298,10 @@ int print_all(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program("list",
-                     "Lists problems with their parameters and guess, methods, tableaus, solvers and derivatives.",
-                     argc, argv, print_all);
+  return run_program(
+      "list",
+      "Lists problems with their parameters and guesses, methods, tableaus, solvers and back ends of derivatives.",
+      argc, argv, print_all);
 }
 
 }  // namespace dmocbench::list_program

@@ -93,12 +93,13 @@ void require_name(const std::string& name) {
   const bool begins_with_letter = !name.empty() && name.front() >= 'a' && name.front() <= 'z';
   if (begins_with_letter && std::ranges::all_of(name, is_allowed)) return;
   throw Error(fmt::format(
-      "the name of a problem is small letters, digits and underscores, as pendulum_swing_up, not {}", name));
+      "the name of a problem consists of lower-case letters, digits and underscores, such as pendulum_swing_up, not {}",
+      name));
 }
 
 int write_problem(CommandLine& line) {
   std::string name;
-  line.option("NAME", name, "of the problem, as pendulum_swing_up: also of its header and of its library");
+  line.option("NAME", name, "name of the problem, its header and its library, such as pendulum_swing_up");
   line.example("pendulum_swing_up");
   line.exit_code_1("");
   line.parse();
@@ -107,7 +108,7 @@ int write_problem(CommandLine& line) {
                          std::pair(std::string("CMakeLists.txt"), with(build_file, "NAME", name))};
   for (const auto& [file, text] : files) {
     std::error_code none;  // a failed lookup counts as missing
-    if (std::filesystem::exists(file, none)) throw Error(fmt::format("{} exists; move it away first", file));
+    if (std::filesystem::exists(file, none)) throw Error(fmt::format("{} already exists; move it away first", file));
   }
   for (const auto& [file, text] : files) write_file(file, text);
   fmt::print(
@@ -120,11 +121,10 @@ int write_problem(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program(
-      "new",
-      "Writes NAME.hpp, a problem to begin with, and a CMakeLists.txt that makes a library of it, into the "
-      "current folder.",
-      argc, argv, write_problem);
+  return run_program("new",
+                     "Writes NAME.hpp, the skeleton of a problem, and a CMakeLists.txt that builds a library of it, "
+                     "into the current folder.",
+                     argc, argv, write_problem);
 }
 
 }  // namespace dmocbench::new_program

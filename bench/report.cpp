@@ -33,8 +33,9 @@ int write_report(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program("report", "Writes a results folder as one page of HTML that needs no other file and no network.",
-                     argc, argv, write_report);
+  return run_program("report",
+                     "Writes the results of a folder as one HTML page that needs no other file and no network.", argc,
+                     argv, write_report);
 }
 
 }  // namespace dmocbench::report_program

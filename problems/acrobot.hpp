@@ -105,10 +105,10 @@ class Acrobot : public Problem {
         .certificate = "Gauss s = 3 and s = 4 on 800 and Lobatto s = 4 on 900 intervals and a replay agree",
         .published = {{4.4432421953665, "PROPT guide, 80 collocation points"}},
         .remark =
-            "the published cost is impossible: no motion costs less than 4 b2 dV = 27.468. Coarse grids have such "
-            "false optima: DMOC with s = 1 and N = 128 finds 23.16 near this motion. The best of more than a hundred "
-            "starts, many of them around it; not known to be the least. From the guess every method ends in a minimum "
-            "of its own"};
+            "the published cost is impossible: no trajectory costs less than 4 b2 dV = 27.468. Coarse grids have such "
+            "false optima: DMOC with s = 1 and N = 128 finds 23.16 near this trajectory. The best of more than a "
+            "hundred starts, many of them around it; not known to be the least. From the guess every method ends in a "
+            "minimum of its own"};
   }
 
   static constexpr double mass_1 = 1.0;           // kg

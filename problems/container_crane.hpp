@@ -100,7 +100,7 @@ class ContainerCrane : public Problem {
         .published = {{0.0051513, "PSOPT, example crane"}},
         .remark =
             "the published value belongs to its mesh, 2e-4 above; on fine grids a Newton step moves the singular "
-            "controls by tenths of their size though states and cost stay, whatever the tolerance: such answers may "
+            "controls by tenths of their size though states and cost stay, whatever the tolerance: such solutions may "
             "stay unconfirmed"};
   }
 };

@@ -35,7 +35,7 @@ class EccentricTransfer : public Problem {
         .source =
             "made for this suite after the transfer between circles of Ober-Bloebaum, Junge, Marsden: Discrete "
             "Mechanics and Optimal Control: an Analysis, section 4.2.1",
-        .guess = "motion on an ellipse whose axis and eccentricity change linearly with time, u = 0",
+        .guess = "trajectory on an ellipse whose axis and eccentricity change linearly with time, u = 0",
         .time_unit = {.name = "", .factor = 1.0},
         .reference = with_default_parameters(
             *this, {.objective = 2.5954854061e-3,

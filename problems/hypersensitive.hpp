@@ -26,7 +26,7 @@ class Hypersensitive : public Problem {
         .source =
             "Rao, Mease: Eigenvector approximate dichotomic basis method for solving hyper-sensitive optimal "
             "control problems, Optimal Control Applications and Methods 21, 2000; of second order here",
-        .guess = "the motion with q'' = q between the ends, v its slope, u = 0",
+        .guess = "the trajectory with q'' = q between the ends, v its slope, u = 0",
         .time_unit = {.name = "", .factor = 1.0},
         .reference = with_default_parameters(
             *this, {.objective = 2.780799731435,

@@ -41,7 +41,7 @@ void require_whole(const std::filesystem::path& file, std::string_view content) 
   std::memcpy(&header, content.data(), sizeof header);
   const std::uint64_t end = header.e_shoff + std::uint64_t{header.e_shentsize} * header.e_shnum;  // of the last part
   if (header.e_ident[EI_CLASS] == ELFCLASS64 && end > content.size()) {
-    throw Error(fmt::format("{} is cut short; build it again", file.string()));
+    throw Error(fmt::format("{} is truncated; build it again", file.string()));
   }
 }
 
@@ -49,8 +49,7 @@ void require_whole(const std::filesystem::path& file, std::string_view content) 
 std::string_view tag_in(const std::filesystem::path& file, std::string_view content) {
   const std::size_t begin = content.find(begin_of_tags);
   if (begin == std::string_view::npos) {
-    throw Error(fmt::format("{} is a library without problems; dmocbench_add_problems in CMake makes one with them",
-                            file.string()));
+    throw Error(fmt::format("{} contains no problems; build it with dmocbench_add_problems in CMake", file.string()));
   }
   const std::size_t end = std::min(content.find('\0', begin), content.size());
   return content.substr(begin, end - begin);
@@ -67,7 +66,7 @@ std::string_view take_entry(std::string_view& tag) {
 /// The error message of `dlopen` or `dlsym`.
 std::string reason_of_loader() {
   const char* const reason = ::dlerror();  // NOLINT(concurrency-mt-unsafe): glibc's belongs to the thread
-  return reason == nullptr ? "no reason is given" : reason;
+  return reason == nullptr ? "no reason was reported" : reason;
 }
 
 using AddProblems = void (*)(Registry&);
@@ -120,7 +119,7 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
     throw Error(fmt::format("a problem of {} cannot be made: {}", path.string(), error.what()));
   } catch (...) {
     throw Error(
-        fmt::format("a problem of {} cannot be made: it throws an object that is not a std::exception", path.string()));
+        fmt::format("a problem of {} cannot be made: it threw an object that is not a std::exception", path.string()));
   }
   const std::size_t known = registry.names().size();
   const std::size_t refused = registry.refused().size();

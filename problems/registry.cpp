@@ -136,7 +136,7 @@ void Registry::add(Maker maker, const std::type_info& type) {
     refuse(error.what());
   } catch (...) {
     if (faults_ == Faults::thrown) throw;
-    refuse("it throws an object that is not a std::exception");
+    refuse("it threw an object that is not a std::exception");
   }
 }
 

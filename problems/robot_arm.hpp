@@ -107,22 +107,23 @@ class RobotArm : public Problem {
                               .certificate =
                                   "DMOC and tangent-space collocation by Gauss with 2 stages on 512 intervals, both "
                                   "replayed, and the limits of both by the midpoint rule; no more digits, because "
-                                  "u_theta is singular in the middle of the motion",
+                                  "u_theta is singular in the middle of the trajectory",
                               .remark = "the published values belong to the equations without Coriolis terms"};
     }
-    return ReferenceOptimum{.objective = 9.1409117459,
-                            .digits = 11,
-                            .certificate =
-                                "switching times: all controls are bang-bang and the motion is symmetric in time, so "
-                                "that u_rho switches at T/4 and 3T/4, u_theta at T/2, u_phi at 0.3058824 T and its "
-                                "mirror image, found with T by Newton's method on the integrated half of the motion; "
-                                "Gauss with 3 stages on a grid with nodes at these times has the same T to 11 digits",
-                            .published = {{9.14138, "COPS 3.0, trapezoidal rule, N = 200"}},
-                            .remark =
-                                "COPS prints the value of its grid, which lacks the switching times: ours of "
-                                "the trapezoidal rule on 200 intervals is 9.14140, on 400 9.14103; with several stages "
-                                "on 1024 intervals, solve to 1e-10: at 1e-8 the barrier leaves the controls near "
-                                "their switches undecided and T 2e-4 too large, and such an answer is not confirmed"};
+    return ReferenceOptimum{
+        .objective = 9.1409117459,
+        .digits = 11,
+        .certificate =
+            "switching times: all controls are bang-bang and the trajectory is symmetric in time, so that u_rho "
+            "switches at T/4 and 3T/4, u_theta at T/2, u_phi at 0.3058824 T and its mirror image, found with T by "
+            "Newton's method on the integrated half of the trajectory; Gauss with 3 stages on a grid with nodes at "
+            "these times has the same T to 11 digits",
+        .published = {{9.14138, "COPS 3.0, trapezoidal rule, N = 200"}},
+        .remark =
+            "COPS prints the value of its grid, which lacks the switching times: ours of the trapezoidal rule on 200 "
+            "intervals is 9.14140, on 400 9.14103; with several stages on 1024 intervals, solve to 1e-10: at 1e-8 the "
+            "barrier leaves the controls near their switches undecided and T 2e-4 too large, and such a solution is "
+            "not confirmed"};
   }
 
   /// I_φ(ρ).

@@ -80,7 +80,7 @@ int measure_all(CommandLine& line) {
   asked.add_to(line);
   line.number("--rounds", rounds, 0, 10000, "number of timed repetitions of the whole refinement");
   line.option("--solver", solver, "solver, as `list` names them");
-  line.flag("--quick", is_quick, "the uneven problems alone, unless --problem names others");
+  line.flag("--quick", is_quick, "only the problems with short fast phases, unless --problem names others");
   line.ignored_unless(
       "--quick", [&asked] { return asked.problems == all_problems; }, "--problem names the problems");
   TableRun run("adaptive", line, TableRun::Resumes::yes);
@@ -111,9 +111,9 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "adaptive",
-      "Grids adapted to an accuracy by an estimate of the error: adaptive_effectivity.csv holds the estimate against "
-      "the true error, measured against the indirect solution; adaptive.csv holds the number of intervals that reach "
-      "1e-8 on adapted and on uniform grids, and the time of the whole refinement; adaptive_steps.csv has the steps.",
+      "Adapts grids to an accuracy with an error estimate. adaptive_effectivity.csv compares the estimate with the "
+      "true error, measured against the indirect solution; adaptive.csv has the number of intervals that adapted and "
+      "uniform grids need for 1e-8, and the time of the whole refinement; adaptive_steps.csv has the step sizes.",
       argc, argv, measure_all);
 }
 

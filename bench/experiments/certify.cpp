@@ -29,7 +29,7 @@ std::pair<std::string, int> parse_route(const std::string& text) {
     throw Error(fmt::format("--routes takes tableaus with their stages like gauss3,lobatto4, not {}", text));
   }
   const std::string tableau = text.substr(0, digits);
-  if (text[digits] == '0') throw Error(fmt::format("--routes: {} has a stray 0; write gauss3", text));
+  if (text[digits] == '0') throw Error(fmt::format("--routes: {} has a leading 0; write gauss3", text));
   const int stages = std::stoi(text.substr(digits));
   static_cast<void>(make_tableau(tableau, stages));  // throws if it is not offered
   return {tableau, stages};
@@ -117,24 +117,25 @@ Columns<Certificate> certificate_columns(const std::vector<std::string>& routes)
   }
   return columns +
          Columns<Certificate>{
-             {"replay_objective", "cost", "cost of the answer that joins best, its intervals replayed one by one",
+             {"replay_objective", "cost",
+              "cost of the solution with the smallest jumps, its intervals integrated one by one",
               from(&Certificate::replay_objective)},
-             {"relative_jump", "", "how far its intervals miss each other, relative to the range",
+             {"relative_jump", "", "largest jump of its intervals, relative to the range",
               from(&Certificate::relative_jump)},
-             {"replay_error", "", "a second opinion: where a replay of its whole horizon ends",
+             {"replay_error", "", "distance from the final state when the whole horizon is replayed",
               from(&Certificate::replay_error)},
              {"indirect_objective", "cost", "cost by the indirect method", from(&Certificate::indirect_objective)},
-             {"indirect_digits", "", "digits of it that are certified", from(&Certificate::indirect_digits)},
+             {"indirect_digits", "", "certified digits of this cost", from(&Certificate::indirect_digits)},
              {"agreeing_digits", "", "digits that all routes share", agreeing_digits},
              {"grid_digits", "", "digits that each route's two finest grids share", from(&Certificate::grid_digits)},
              {"reference", "cost", "cost that the problem states", from(reference, &ReferenceOptimum::objective)},
-             {"reference_digits", "", "digits of it that hold", from(reference, &ReferenceOptimum::digits)},
-             {"certificate", "", "how it is known", from(reference, &ReferenceOptimum::certificate)},
+             {"reference_digits", "", "valid digits of this cost", from(reference, &ReferenceOptimum::digits)},
+             {"certificate", "", "how it was obtained", from(reference, &ReferenceOptimum::certificate)},
              {"reference_agreement", "", "digits that all routes share with it", reference_agreement},
              {"confirmed", "", "whether the routes confirm it",
               from(&Certificate::agreement, &RouteAgreement::confirmed)},
              {"published", "", "published values with their sources", published},
-             {"remark", "", "where those differ, and why", from(reference, &ReferenceOptimum::remark)},
+             {"remark", "", "where published values differ, and why", from(reference, &ReferenceOptimum::remark)},
              {"message", "", "why there is no indirect solution", from(&Certificate::message)}};
 }
 
@@ -168,11 +169,10 @@ class Certify final : public ExperimentOf<Measured> {
   Certify()
       : ExperimentOf(
             {.name = "certify",
-             .description =
-                 "The least cost by routes that share as little as possible: two tableaus on two grids each, the "
-                 "finest answer's intervals replayed one by one, and the indirect method where it applies. "
-                 "NAME_references.csv has a row per problem: the routes, how many digits they share, and whether they "
-                 "confirm the reference that the problem states.",
+             .description = "Computes the optimal cost with independent methods: two tableaus on two grids each, "
+                            "integration of every interval of the finest solution, and the indirect method where it "
+                            "applies. NAME_references.csv has a row per problem: the results, the number of digits "
+                            "that they share, and whether they confirm the reference that the problem states.",
              .options = {.problems = {"all"}, .methods = {"dmoc"}, .solvers = {"ipopt"}, .intervals = "64,128"},
              .further_files = {"_references.csv"},
              .problems_are_independent = true,
@@ -180,12 +180,12 @@ class Certify final : public ExperimentOf<Measured> {
   [[nodiscard]] Columns<Measured> columns() const override {
     return {
         replay_error_column(&Measured::replay),
-        {"replay_objective", "cost", "cost of the motion, its intervals replayed one by one",
+        {"replay_objective", "cost", "cost of the trajectory, its intervals integrated one by one",
          &Measured::replay_objective},
         {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
         {"indirect_objective", "cost", "cost by the indirect method",
          from(&Measured::indirect, &IndirectSolution::cost)},
-        {"indirect_digits", "", "digits of it that are certified",
+        {"indirect_digits", "", "certified digits of this cost",
          from(&Measured::indirect, &IndirectSolution::certified_digits)},
         {"indirect_message", "", "why the indirect method has no solution", &Measured::indirect_message},
     };
@@ -195,7 +195,7 @@ class Certify final : public ExperimentOf<Measured> {
     for (const char* const option : {"--tableau", "--stages"})
       line.ignored_unless(
           option, [] { return false; }, "--routes replaces it");
-    line.flag("!--no-indirect", with_indirect_, "leave the indirect method out");
+    line.flag("!--no-indirect", with_indirect_, "do not run the indirect method");
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     std::vector<std::pair<std::string, int>> routes;

@@ -23,7 +23,7 @@ struct Curvature {
 const Columns<Curvature> columns =
     scheme_columns<Curvature>() +
     Columns<Curvature>{
-        {"end", "", "final state: stated, or free with its distance in the cost, as the space of the paper has it",
+        {"end", "", "final state: fixed as stated, or free with its distance in the cost, as in the paper",
          &Curvature::end, in_key},
         {"status", "", "of the solve", &Curvature::status},
         {"intervals", "", "number of intervals N", &Curvature::intervals, in_key},
@@ -85,13 +85,12 @@ int measure_all(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program(
-      "coercivity",
-      "The smallest curvature of the Lagrangian along motions that keep the linearised equations, against the square "
-      "of the control, over the number of intervals: coercivity.csv. It is bounded below where the optimum is "
-      "coercive. Where the whole final state is fixed, the same of the problem with the final state free and its "
-      "distance in the cost.",
-      argc, argv, measure_all);
+  return run_program("coercivity",
+                     "Computes the smallest curvature of the Lagrangian along trajectories of the linearised "
+                     "equations, relative to the square of the control, for each number of intervals (coercivity.csv). "
+                     "It is bounded below where the optimum is coercive. If the whole final state is fixed, the "
+                     "problem with a free final state and its distance in the cost is measured too.",
+                     argc, argv, measure_all);
 }
 
 }  // namespace dmocbench::coercivity_program

@@ -61,12 +61,12 @@ struct IndirectStarts {
 
 const Columns<IndirectStarts> indirect_columns{
     {"problem", "", "its name", &IndirectStarts::problem, in_key},
-    {"starts", "", "motions of the direct methods' cold starts, with costates 0", &IndirectStarts::starts},
+    {"starts", "", "trajectories of the direct methods' cold starts, with costates 0", &IndirectStarts::starts},
     {"converged", "", "number of them from which two runs agree to 1e-6",
      [](const IndirectStarts& of) { return static_cast<long long>(of.converged.hits); }},
-    {"converged_lower", "", "of the interval of 95 % of their share",
+    {"converged_lower", "", "lower end of the 95 % interval of their share",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).lower; }},
-    {"converged_upper", "", "of the same interval",
+    {"converged_upper", "", "upper end of this interval",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).upper; }},
     {"best", "", "number of these at a cost not above the certified one",
      [](const IndirectStarts& of) { return static_cast<long long>(of.best.hits); }}};
@@ -115,13 +115,12 @@ class ColdStart final : public Experiment {
       : Experiment(
             {.name = "cold_start",
              .description =
-                 "Solves every case cold: from the problem's guess and from perturbed guesses, the same for all "
-                 "methods. NAME_shares.csv: how many starts are solved, confirmed by a replay of each interval, and on "
-                 "the best branch, with intervals of confidence, and quartiles of iterations, evaluations and seconds "
-                 "to there. NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of "
-                 "evaluations alone for solves in a batch). A failed start keeps its row and counts. "
-                 "NAME_indirect.csv: the number of these motions, with costates 0, from which the indirect method "
-                 "converges.",
+                 "Solves every case from the problem's guess and from perturbed guesses, the same for all methods. "
+                 "NAME_shares.csv: how many starts are solved, confirmed by integrating each interval, and on the best "
+                 "branch, with confidence intervals, and quartiles of the iterations, evaluations and seconds needed. "
+                 "NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of evaluations alone "
+                 "for solves in a batch). Failed starts stay in the table and count. NAME_indirect.csv: the number of "
+                 "these trajectories, with costates 0, from which the indirect method converges.",
              .options = {.problems = {"all"},
                          .solvers = {"auto"},
                          .intervals = "64",
@@ -151,9 +150,10 @@ class ColdStart final : public Experiment {
         "--suite-starts", [this] { return has_problem(false); }, "all problems are the paper's; see --starts");
     line.ignored_unless(
         "--starts", [this] { return suite_starts_.empty() || has_problem(true); }, "--suite-starts replaces it");
-    line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
-    line.number("--amplitude", amplitude_, 0.0, 10.0,
-                "of the random curves, relative to the range of each coordinate and the size of each control");
+    line.number("--seed", seed_, 0, 0xffffffffU, "seed of the random curves; the same seed gives the same starts");
+    line.number(
+        "--amplitude", amplitude_, 0.0, 10.0,
+        "amplitude of the random curves, relative to the range of each coordinate and the size of each control");
   }
   /// All methods, solvers and grids start from the same curves.
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

@@ -22,7 +22,7 @@ class Consistency final : public ExperimentOf<Measured> {
   Consistency()
       : ExperimentOf(
             {.name = "consistency",
-             .description = "How well the change of momentum equals the work of the forces, interval by interval.",
+             .description = "Compares the change of momentum with the work of the forces, interval by interval.",
              .options = {.intervals = "16:1024"},
              .compares_tolerances = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
@@ -49,8 +49,8 @@ class Consistency final : public ExperimentOf<Measured> {
     }
     const std::string names = fmt::format("{}", fmt::join(left_out, ", "));
     const char* const state = left_out.size() > 1 ? "state" : "states";
-    if (cases.empty()) throw Error(fmt::format("{} {} no symmetry, so there is no momentum to watch", names, state));
-    if (!left_out.empty()) fmt::print("{} {} no symmetry, so there is no momentum to watch: left out\n", names, state);
+    if (cases.empty()) throw Error(fmt::format("{} {} no symmetry and thus no conserved momentum", names, state));
+    if (!left_out.empty()) fmt::print("{} {} no symmetry and thus no conserved momentum: left out\n", names, state);
     return cases;
   }
   void measure(SolvedCase& solved, Measured& measured) override {

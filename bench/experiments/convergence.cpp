@@ -78,10 +78,10 @@ class Convergence final : public ExperimentOf<Measured> {
       : ExperimentOf(
             {.name = "convergence",
              .description =
-                 "Errors of state, control, momentum, costate and cost against a fine grid of the same method or the "
-                 "indirect solution (NAME_reference.csv, where stage values have errors too; NAME_jumps.csv holds the "
-                 "worst interval against the true error), with fitted slopes (NAME_slopes.csv) and the cost of equal "
-                 "accuracy (NAME_equal_accuracy.csv).",
+                 "Measures errors of state, control, momentum, costate and cost against a fine grid of the same method "
+                 "or the indirect solution, with fitted orders (NAME_slopes.csv) and the cost of equal accuracy "
+                 "(NAME_equal_accuracy.csv). With the indirect solution (NAME_reference.csv) stage values have errors "
+                 "too, and NAME_jumps.csv compares the largest jump of an interval with the true error.",
              .options = {.intervals = "16:1024"},
              .further_files = {"_slopes.csv", "_equal_accuracy.csv", "_reference.csv", "_jumps.csv"},
              .polishes = true}) {}
@@ -103,8 +103,7 @@ class Convergence final : public ExperimentOf<Measured> {
          "largest error of the control recomputed from state and costate at the nodes",
          &Measured::control_from_costate_error},
         {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
-        {"active", "",
-         "what the bounds and path constraints that the motion meets read: control, state, control and state",
+        {"active", "", "what the active bounds and path constraints limit: control, state, control and state",
          &Measured::active},
         {"stage_configuration_error", "", "largest error of Q_i", from(error, stages, &StageError::configuration)},
         {"stage_momentum_error", "", "largest error of P_i", from(error, stages, &StageError::momentum)},
@@ -120,11 +119,10 @@ class Convergence final : public ExperimentOf<Measured> {
         "each curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
         "kept in the output folder");
     line.flag("--polish,!--no-polish", card_.polishes,
-              "tighten answers by Newton steps, so that errors are due to the method and not to the solver");
-    line.option(
-        "--fit", fit_,
-        "slopes are fitted from N = a to b, written a:b; default: the finest four or more grids above rounding whose "
-        "neighbouring slopes differ by at most 0.2");
+              "refine solutions by Newton steps, so that errors are due to the method and not to the solver");
+    line.option("--fit", fit_,
+                "range a:b of N over which orders are fitted; default: the finest four or more grids above round-off "
+                "whose neighbouring orders differ by at most 0.2");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

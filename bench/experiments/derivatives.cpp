@@ -56,11 +56,11 @@ class Derivatives final : public ExperimentOf<Measured> {
   Derivatives()
       : ExperimentOf(
             {.name = "derivatives",
-             .description =
-                 "Back ends of derivatives: error of Jacobian and Hessian against long double, time relative to one "
-                 "residual, and cost and accuracy of a solve with them. Column hessian: exact is the back end's "
-                 "Hessian, limited_memory Ipopt's quasi-Newton one, not by central differences. Dense differences are "
-                 "for N up to 64. Solves by differences or without an exact Hessian end after 150 iterations.",
+             .description = "Compares back ends of derivatives: errors of Jacobian and Hessian against long double, "
+                            "their time relative to one residual, and cost and accuracy of a solve. Column hessian: "
+                            "exact is the Hessian of the back end, limited_memory Ipopt's quasi-Newton Hessian, which "
+                            "is not combined with central differences. Dense differences run up to N = 64. Solves by "
+                            "differences or without an exact Hessian end after 150 iterations.",
              .options = {.solvers = {"ipopt"}, .derivatives = derivative_back_end_names(), .intervals = "16:1024"},
              .takes_turns = true,
              .compares_tolerances = true}) {}
@@ -72,17 +72,21 @@ class Derivatives final : public ExperimentOf<Measured> {
         {"hessian_error", "", "the same of the Hessian; empty if the solver does not use it", &Measured::hessian_error},
         {"residual_seconds", "s", "one evaluation of all constraints",
          from(&Measured::seconds, &EvaluationTimes::residual)},
-        {"gradient_over_residual", "", "time of a gradient over that", over_residual(&EvaluationTimes::gradient)},
-        {"jacobian_over_residual", "", "time of a Jacobian over that", over_residual(&EvaluationTimes::jacobian)},
-        {"hessian_over_residual", "", "time of a Hessian over that", over_residual(&EvaluationTimes::hessian)},
-        {"answer_difference", "", "largest difference of q from the tape's answer, relative to its largest value",
+        {"gradient_over_residual", "", "time of a gradient relative to a residual",
+         over_residual(&EvaluationTimes::gradient)},
+        {"jacobian_over_residual", "", "time of a Jacobian relative to a residual",
+         over_residual(&EvaluationTimes::jacobian)},
+        {"hessian_over_residual", "", "time of a Hessian relative to a residual",
+         over_residual(&EvaluationTimes::hessian)},
+        {"answer_difference", "",
+         "largest difference of q from the solution with the tape, relative to its largest value",
          &Measured::answer_difference},
     };
   }
 
   void add_options(CommandLine& line) override {
     line.list("--hessian", hessians_,
-              "exact: the back end's; limited_memory: Ipopt's quasi-Newton one, not by finite_differences");
+              "exact: the back end's; limited_memory: Ipopt's quasi-Newton Hessian, not with finite_differences");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

@@ -79,15 +79,16 @@ Case by_dmoc(Case the_case) {
 class Equivalence final : public ExperimentOf<Measured> {
  public:
   Equivalence()
-      : ExperimentOf({.name = "equivalence",
-                      .description =
-                          "Solves every method separately and compares with DMOC on the same grid: largest differences "
-                          "relative to each quantity's largest value, residuals of each answer in the other's rows, "
-                          "and of the costates in the adjoint Runge-Kutta scheme; slopes of the differences of "
-                          "tangent-space collocation (NAME_slopes.csv).",
-                      .options = {.intervals = "16:1024"},
-                      .further_files = {"_slopes.csv"},
-                      .polishes = true}) {}
+      : ExperimentOf(
+            {.name = "equivalence",
+             .description =
+                 "Solves with every method separately and compares the solutions with DMOC's on the same grid: largest "
+                 "differences relative to each quantity's largest value, residuals of each solution in the other "
+                 "method's constraints and of the costates in the adjoint Runge-Kutta scheme, and fitted orders of the "
+                 "differences of tangent-space collocation (NAME_slopes.csv).",
+             .options = {.intervals = "16:1024"},
+             .further_files = {"_slopes.csv"},
+             .polishes = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     constexpr auto in_dmoc = &Measured::in_dmoc;
     constexpr auto of_dmoc = &Measured::of_dmoc;
@@ -97,17 +98,18 @@ class Equivalence final : public ExperimentOf<Measured> {
         {"control_difference", "", "of the stage controls", &Measured::control},
         {"costate_difference", "", "of psi", &Measured::costate},
         {"objective_difference", "", "of the cost", &Measured::objective},
-        {"violation_in_rows_of_dmoc", "", "residual of the answer in DMOC's constraints",
+        {"violation_in_rows_of_dmoc", "", "residual of the solution in DMOC's constraints",
          from(in_dmoc, &ForeignViolation::violation)},
-        {"rounding_in_rows_of_dmoc", "", "bound on rounding errors there", from(in_dmoc, &ForeignViolation::rounding)},
-        {"violation_of_dmoc_here", "", "residual of DMOC's answer in this method's constraints",
+        {"rounding_in_rows_of_dmoc", "", "bound on the round-off of this residual",
+         from(in_dmoc, &ForeignViolation::rounding)},
+        {"violation_of_dmoc_here", "", "residual of DMOC's solution in this method's constraints",
          from(of_dmoc, &ForeignViolation::violation)},
-        {"rounding_here", "", "bound on rounding errors there", from(of_dmoc, &ForeignViolation::rounding)},
+        {"rounding_here", "", "bound on the round-off of this residual", from(of_dmoc, &ForeignViolation::rounding)},
         {"stage_costate_difference", "", "of Psi_i", &Measured::stage_costate},
         {"adjoint_residual", "", "residual of the costates in the adjoint scheme", &Measured::adjoint_residual},
         {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
          &Measured::plain_residual},
-        {"costate_momentum_spread", "", "how far the momentum of the costates moves along the motion, relative",
+        {"costate_momentum_spread", "", "relative change of the momentum of the costates along the trajectory",
          &Measured::costate_momentum_spread},
         {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
         {"horizon_difference", "", "of T", &Measured::horizon},
@@ -150,8 +152,8 @@ class Equivalence final : public ExperimentOf<Measured> {
       }
     } else if (trajectory.has_costates()) {
       solved.note(
-          "Its stages have no costates to put into the adjoint scheme: constraints along the path, "
-          "integrals and first-order states have multipliers of their own there.");
+          "The adjoint scheme is not evaluated: with path constraints, integrals and first-order states the stages "
+          "have further multipliers.");
     }
     if (here.method == "dmoc") {
       answers_.emplace_back(here, trajectory);

@@ -172,7 +172,7 @@ void add_examples(TableRun& run, const StructureOptions& options) {
     run.add("invariants_flow_momentum", flow_momentum_table());
     run.add("invariants_flow_symplecticity", flow_symplecticity_table(example_states()));
   });
-  stage("momentum along motions with orthogonal forces",
+  stage("momentum along trajectories with orthogonal forces",
         [&] { run.add("invariants_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options())); });
   stage("rotations", [&] { run.add("invariants_rotations", rotations_table(options.steps)); });
   stage("the symplectic form", [&] { add_symplecticity(run, example_states()); });
@@ -194,7 +194,7 @@ void add_problems(TableRun& run, const std::vector<std::shared_ptr<const Problem
   StartProvider starts({}, TableRun::solver_options());
   for (const auto& problem : problems) {
     run.stage(problem->name(), [&] {
-      run.show(problem->name() + ": the symplectic form along an optimal motion");
+      run.show(problem->name() + ": the symplectic form along an optimal trajectory");
       const Case fine{.problem = problem,
                       .method = "dmoc",
                       .tableau = "gauss",
@@ -215,7 +215,7 @@ int write_tables(CommandLine& line) {
   if (!options.asked.problems.empty()) {
     add_problems(run, run.selected(options.asked));
   } else {
-    if (!options.asked.settings.empty()) throw Error("--set is about a problem: name it by --problem");
+    if (!options.asked.settings.empty()) throw Error("--set needs --problem");
     add_examples(run, options);
   }
   show_findings(run);
@@ -225,16 +225,16 @@ int write_tables(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "invariants",
-      "Invariants of the discretisation: momentum against the work of arbitrary forces (invariants_momentum.csv), "
-      "the same for rotations about three axes (invariants_rotations.csv), the momentum along optimal motions whose "
-      "forces are orthogonal to the symmetry (invariants_orthogonal_forces.csv), the symplectic form "
-      "(invariants_symplecticity.csv), both along the continuous flow (invariants_flow_momentum.csv, "
+      "Measures invariants of the discretisation: momentum against the work of arbitrary forces "
+      "(invariants_momentum.csv), the same for rotations about three axes (invariants_rotations.csv), the momentum "
+      "along optimal trajectories whose forces are orthogonal to the symmetry (invariants_orthogonal_forces.csv), the "
+      "symplectic form (invariants_symplecticity.csv), both along the continuous flow (invariants_flow_momentum.csv, "
       "invariants_flow_symplecticity.csv), the energy of an eccentric orbit over many periods (invariants_energy.csv, "
-      "invariants_energy_behaviour.csv), the modified energy of the midpoint rule along free motions "
-      "(invariants_modified_energy.csv), and both against the work of the forces along the optimal motions of the "
-      "paper's problems (invariants_energy_work.csv, invariants_modified_work.csv). With --problem no examples, but of "
-      "each of these problems the symplectic form at states of an optimal motion, and energy and modified energy "
-      "against work along optimal motions.",
+      "invariants_energy_behaviour.csv), the modified energy of the midpoint rule along free trajectories "
+      "(invariants_modified_energy.csv), and both against the work of the forces along the optimal trajectories of the "
+      "paper's problems (invariants_energy_work.csv, invariants_modified_work.csv). With --problem the examples are "
+      "replaced: for each problem the symplectic form at states of an optimal trajectory, and energy and modified "
+      "energy against work along optimal trajectories.",
       argc, argv, write_tables);
 }
 

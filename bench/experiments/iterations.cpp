@@ -28,11 +28,11 @@ class Iterations final : public ExperimentOf<Measured> {
   Iterations()
       : ExperimentOf({.name = "iterations",
                       .description =
-                          "Major and minor iterations of the solver sqp, with the number of minor iterations that its "
-                          "law predicts. Further columns measure the cost of the same solve otherwise: iterations of "
-                          "Ipopt, evaluations of SLSQP (up to 400 free variables), seconds, entries of the KKT matrix "
-                          "and of its factor. NAME_ratios.csv divides the costs of collocation by DMOC's. By default "
-                          "solves start at the problem's guess.",
+                          "Counts major and minor iterations of the solver sqp and compares them with the predicted "
+                          "number. Further columns measure the cost of the same solve in other ways: iterations of "
+                          "Ipopt, evaluations of SLSQP (up to 400 free variables), seconds, entries of the KKT "
+                          "matrix and of its factor. NAME_ratios.csv has the costs of collocation relative to "
+                          "DMOC's. By default solves start at the problem's guess.",
                       .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
                       .further_files = {"_ratios.csv"},
                       .branches = BranchReport::of_any_start,
@@ -45,7 +45,7 @@ class Iterations final : public ExperimentOf<Measured> {
         {"crash", "", "first basis of sqp: none or basis", &Measured::crash, in_key},
         {"phase1_minors", "", "minor iterations of phase 1", from(solution, &Solution::phase_one_minor_iterations)},
         {"phase2_minors", "", "minor iterations of phase 2", from(solution, &Solution::phase_two_minor_iterations)},
-        {"predicted_minors", "", "minor iterations by the law that counts variables and iterations",
+        {"predicted_minors", "", "minor iterations predicted from the numbers of variables and iterations",
          &Measured::predicted_minors},
         {"kkt_nonzeros", "", "entries of the KKT matrix, lower triangle", from(fill, &KktFill::nonzeros)},
         {"factor_nonzeros", "", "entries of its factor", from(fill, &KktFill::factor_nonzeros)},
@@ -56,7 +56,8 @@ class Iterations final : public ExperimentOf<Measured> {
   }
   void add_options(CommandLine& line) override {
     line.list("--crash", crashes_,
-              "first basis of sqp: none (all slacks; phase 1 brings every row in), basis (chosen for free)");
+              "first basis of sqp: none (all slacks; phase 1 pivots on every constraint) or basis (chosen without "
+              "iterations)");
     line.ignored_unless(
         "--crash", [this] { return std::ranges::count(options().solvers, "sqp") > 0; }, "only sqp has a first basis");
   }

@@ -123,7 +123,7 @@ void require_no_active_inequality(const NonlinearProgram& program, const Lineari
     has_active |=
         !equalities[i] && is_active(at.constraints[j], program.constraint_lower()[j], program.constraint_upper()[j]);
   }
-  if (has_active) throw Error("the condition of a program is defined for its equations only, but a bound is active");
+  if (has_active) throw Error("the condition number is defined only where no bound is active, but a bound is active");
 }
 
 /// Divides rows and columns of a symmetric matrix by the roots of their largest entries until all of these are 1.

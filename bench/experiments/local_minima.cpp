@@ -49,36 +49,34 @@ Table minima_found(const Table& minima, const Table& shares) {
 class LocalMinima final : public ExperimentOf<Measured> {
  public:
   LocalMinima()
-      : ExperimentOf(
-            {.name = "local_minima",
-             .description =
-                 "Solves every case from many perturbed guesses; the minima found and how often each method ends in "
-                 "which (NAME_minima.csv), and how often it finds the best one, with a confidence interval "
-                 "(NAME_shares.csv). With --plane the starts form a plane, and NAME_basins.csv holds the minimum that "
-                 "each start ends in.",
-             .options = {.solvers = {"auto"}, .intervals = "64", .start = "guess", .jobs = 2, .batch = true},
-             .further_files = {"_minima.csv", "_shares.csv", "_basins.csv"},
-             .branches = BranchReport::none,
-             .problems_are_independent = true,
-             .takes_batches = true}) {}
+      : ExperimentOf({.name = "local_minima",
+                      .description = "Solves every case from many perturbed guesses. NAME_minima.csv has the minima "
+                                     "found and how often each method ends in each, NAME_shares.csv how often it finds "
+                                     "the best one, with a confidence interval. With --plane the starts form a plane, "
+                                     "and NAME_basins.csv has the minimum that each start reaches.",
+                      .options = {.solvers = {"auto"}, .intervals = "64", .start = "guess", .jobs = 2, .batch = true},
+                      .further_files = {"_minima.csv", "_shares.csv", "_basins.csv"},
+                      .branches = BranchReport::none,
+                      .problems_are_independent = true,
+                      .takes_batches = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return Columns<Measured>{
                {"start", "", "number of the start; 0 is the guess itself", &Measured::start, in_key},
-               {"bulge_1", "", "of the start in q_1, in ranges of that coordinate (--plane)", &Measured::bulge_1},
-               {"bulge_2", "", "of the start in q_2, or of double frequency where there is no q_2",
+               {"bulge_1", "", "perturbation of the start in q_1, relative to the range of that coordinate (--plane)",
+                &Measured::bulge_1},
+               {"bulge_2", "", "perturbation of the start in q_2, or with twice the frequency if there is no q_2",
                 &Measured::bulge_2}} +
            columns_through<Measured>(&Measured::checks, check_columns());
   }
   void add_options(CommandLine& line) override {
     line.number("--starts", starts_, 1, 100000, "starts per case: the guess, and perturbed ones");
-    line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
+    line.number("--seed", seed_, 0, 0xffffffffU, "seed of the random curves; the same seed gives the same starts");
     line.number("--amplitude", amplitude_, 0.0, 10.0,
-                "of the random curves, and of the bulges of a plane, relative to the range of each coordinate and the "
-                "size of each control");
-    line.number(
-        "--plane", plane_, 2, 316,
-        "instead of random curves M x M starts: the guess with bulges sin(pi t/T) in q_1 and q_2 whose sizes go "
-        "from -amplitude to amplitude in M steps");
+                "amplitude of the random curves, and of the perturbations of a plane, relative to the range of each "
+                "coordinate and the size of each control");
+    line.number("--plane", plane_, 2, 316,
+                "M x M starts instead of random curves: the guess plus multiples of sin(pi t/T) in q_1 and q_2, from "
+                "-amplitude to amplitude in M steps");
     for (const char* const option : {"--starts", "--seed"})
       line.ignored_unless(
           option, [this] { return plane_ == 0; }, "--plane chooses the starts");

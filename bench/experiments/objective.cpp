@@ -38,15 +38,16 @@ class Objective final : public ExperimentOf<Measured> {
  public:
   Objective()
       : ExperimentOf({.name = "objective",
-                      .description = "The optimal cost of each method over the number of intervals.",
+                      .description = "Computes the optimal cost of each method for each number of intervals.",
                       .options = {.intervals = "16:1024"}}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
-    return {{"condition", "", "of the KKT matrix at the optimum, rows and columns brought to one size; by --condition",
+    return {{"condition", "", "condition number of the equilibrated KKT matrix at the optimum; with --condition",
              &Measured::condition}};
   }
   void add_options(CommandLine& line) override {
-    line.flag("--condition", measures_condition_,
-              "also the condition of the KKT matrix, a dense one; where no bound is active");
+    line.flag(
+        "--condition", measures_condition_,
+        "also compute the condition number of the KKT matrix, with dense linear algebra, where no bound is active");
   }
   void measure(SolvedCase& solved, Measured& measured) override {
     if (measures_condition_ && is_solved(solved.solution.status)) {

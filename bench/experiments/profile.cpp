@@ -25,11 +25,11 @@ class Profile final : public ExperimentOf<Measured> {
       : ExperimentOf(
             {.name = "profile",
              .description =
-                 "Every problem by every method from the problem's own guess: performance profiles after Dolan and "
-                 "Moré (NAME_profiles.csv) and shifted geometric means (NAME_summary.csv). Success is a KKT residual "
-                 "below the tolerance and a cost within 2 % of the reference (where a problem states "
-                 "none, of the best found by any method here); all else counts as never. NAME_library.csv and "
-                 "NAME_library.md hold every cost at the finest grid next to the reference.",
+                 "Solves every problem with every method from the problem's own guess: performance profiles after "
+                 "Dolan and Moré (NAME_profiles.csv) and shifted geometric means (NAME_summary.csv). Success is a KKT "
+                 "residual below the tolerance and a cost within 2 % of the reference (if a problem states none, of "
+                 "the best cost found by any method); everything else counts as a failure. NAME_library.csv and "
+                 "NAME_library.md compare the costs on the finest grid with the reference.",
              .options = {.problems = {"all"},
                          .intervals = "32,64,128",
                          .start = "guess",
@@ -44,8 +44,8 @@ class Profile final : public ExperimentOf<Measured> {
                {"success", "", "yes or no", [](const Measured& measured) { return yes_or_no(measured.is_success); }},
                {"reference_objective", "cost", "cost that the problem states",
                 from(reference, &ReferenceOptimum::objective)},
-               {"reference_digits", "", "digits of it that hold", from(reference, &ReferenceOptimum::digits)},
-               {"reference_kind", "", "stated by the problem, or the best cost on the finest grid by any method here",
+               {"reference_digits", "", "valid digits of this cost", from(reference, &ReferenceOptimum::digits)},
+               {"reference_kind", "", "stated by the problem, or the best cost of all methods on the finest grid",
                 [](const Measured& measured) { return measured.reference ? stated_reference : ""; }},
                {"objective_error", "cost", "distance from it", &Measured::error},
                {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",

@@ -44,9 +44,9 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
       : ExperimentOf(
             {.name = "savings_by_solver",
              .description =
-                 "Cost of collocation relative to DMOC by Ipopt and by interior_point with its linear systems solved "
-                 "by intervals or as any sparse matrix: iterations, linear systems, seconds. NAME_ratios.csv has the "
-                 "ratios to DMOC at equal N and at equal error of the objective.",
+                 "Measures the cost of collocation relative to DMOC with Ipopt and with interior_point, which solves "
+                 "its linear systems interval by interval or as a general sparse matrix: iterations, linear systems, "
+                 "seconds. NAME_ratios.csv has the ratios to DMOC at equal N and at equal error of the objective.",
              .options = {.solvers = {"ipopt", "interior_point"}, .intervals = "64:1024", .repeats = 11},
              .further_files = {"_ratios.csv"},
              .takes_turns = true}) {}
@@ -55,7 +55,8 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
     return {
         {"factorisation", "", "how interior_point solves its linear systems", &Measured::factorisation, in_key},
         {"linear_systems", "", "linear systems of the solve", &Measured::linear_systems},
-        {"seconds_per_iteration", "s", "wall clock of the solve by iterations", &Measured::per_iteration},
+        {"seconds_per_iteration", "s", "wall clock time of the solve divided by its iterations",
+         &Measured::per_iteration},
         {"linear_algebra_per_iteration", "s", "the same without evaluations", &Measured::linear_algebra_per_iteration},
         {"seconds_per_linear_system", "s", "factorisation and substitution", &Measured::per_linear_system},
         {"objective_error", "", "of the objective, relative, against the indirect solution",

@@ -58,7 +58,7 @@ std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std:
     const SolvedCase& answer = answers.back();
     if (answer.trajectory && is_solved(answer.solution.status)) continue;
     throw Error(
-        fmt::format("{} is not solved, so that no sequence can begin: {}", the_case.label(), answer.solution.message));
+        fmt::format("{} is not solved, so no sequence can start: {}", the_case.label(), answer.solution.message));
   }
   return answers;
 }
@@ -78,7 +78,8 @@ void run_in_turn(std::vector<SequenceRun>& runs, const SequenceOptions& options,
 std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
                                       StartProvider& starts, const SolverOptions& solver_options) {
   if (problem->bounds().horizon.is_free()) {
-    throw Error(fmt::format("{} has a free horizon, which does not recede; choose another problem", problem->name()));
+    throw Error(fmt::format("{} has a free horizon; a receding horizon needs a fixed one; choose another problem",
+                            problem->name()));
   }
   const std::optional<SweptQuantity> quantity = homotopy_of(options, *problem);
   std::vector<SequenceStep> steps;
@@ -105,8 +106,8 @@ void add_options(CommandLine& line, SequenceOptions& options) {
   line.list("--method", options.methods, fmt::format("methods: {}", fmt::join(paper_families(), ", ")));
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
   line.number("--steps", options.steps, 1, 100000, "problems in a sequence");
-  line.number("--repeats", options.repeats, 1, 1000, "solves of every step; its time is the smallest of them");
-  line.number("--seed", options.seed, 0, 0xffffffffU, "of the disturbances");
+  line.number("--repeats", options.repeats, 1, 1000, "solves of every step; the shortest time counts");
+  line.number("--seed", options.seed, 0, 0xffffffffU, "seed of the disturbances");
   line.option("--over", options.over, "NAME=LOWER:UPPER: the parameter or end state that a homotopy changes");
 }
 
@@ -137,9 +138,9 @@ int run_sequences(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "sequence",
-      "Problems that follow each other, each started from the motion, multipliers and barrier parameter of the one "
-      "before: a receding horizon with disturbances, and a homotopy in a parameter. sequence.csv: iterations and "
-      "microseconds of every step, warm and cold; sequence_summary.csv: median, 99th percentile and largest.",
+      "Solves sequences of problems, each started from the trajectory, multipliers and barrier parameter of the "
+      "previous one: a receding horizon with disturbances, and a homotopy in a parameter. sequence.csv has iterations "
+      "and microseconds of every step, warm and cold; sequence_summary.csv their median, 99th percentile and maximum.",
       argc, argv, run_sequences);
 }
 

@@ -30,13 +30,13 @@ struct Measured {
 
 const Columns<Measured> columns =
     scheme_columns<Measured>() +
-    Columns<Measured>{{"status", "", "of the solve", &Measured::status},
-                      {"intervals", "", "number of intervals N", &Measured::intervals, in_key},
-                      {"unknowns", "", "variables whose bounds differ", &Measured::unknowns},
-                      {"equations", "", "constraints whose bounds are equal", &Measured::equations},
-                      {"objective", "cost", "optimal cost of the program", &Measured::objective},
-                      {"condition", "", "of the KKT matrix at the optimum, rows and columns brought to one size",
-                       &Measured::condition}};
+    Columns<Measured>{
+        {"status", "", "of the solve", &Measured::status},
+        {"intervals", "", "number of intervals N", &Measured::intervals, in_key},
+        {"unknowns", "", "variables whose bounds differ", &Measured::unknowns},
+        {"equations", "", "constraints whose bounds are equal", &Measured::equations},
+        {"objective", "cost", "optimal cost of the program", &Measured::objective},
+        {"condition", "", "condition number of the equilibrated KKT matrix at the optimum", &Measured::condition}};
 
 class Programs {
  public:
@@ -106,12 +106,12 @@ int measure_all(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program(
-      "shooting",
-      "The programs of DMOC, multiple shooting and single shooting (rk4, one step per interval) at one optimum: "
-      "shooting.csv holds their sizes and the condition of their KKT matrices. Their reliability from cold starts and "
-      "their accuracy are measured by cold_start and convergence with --method multiple_shooting,single_shooting.",
-      argc, argv, measure_all);
+  return run_program("shooting",
+                     "Compares the programs of DMOC, multiple shooting and single shooting (rk4, one step per "
+                     "interval) at one optimum: shooting.csv has their sizes and the condition numbers of their KKT "
+                     "matrices. Their reliability from cold starts and their accuracy are measured by cold_start and "
+                     "convergence with --method multiple_shooting,single_shooting.",
+                     argc, argv, measure_all);
 }
 
 }  // namespace dmocbench::shooting_program

@@ -172,7 +172,7 @@ class Smoothness {
 
 std::vector<Situation> asked_situations(TableRun& run, const ProblemOptions& asked) {
   if (asked.problems.empty()) {
-    if (!asked.settings.empty()) throw Error("--set is about a problem: name it by --problem");
+    if (!asked.settings.empty()) throw Error("--set needs --problem");
     return example_situations();
   }
   std::vector<Situation> situations;
@@ -193,13 +193,12 @@ int measure_all(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program(
-      "smoothness",
-      "Orders of state, costate, control and cost where bounds are active and the optimal control has kinks, compared "
-      "with smooth optima, with fixed and with free final state: smoothness.csv, fitted orders in "
-      "smoothness_slopes.csv. Errors are measured against the closed form, or against DMOC with two stages on 1280 "
-      "intervals. With --problem these problems, unchanged, instead of examples.",
-      argc, argv, measure_all);
+  return run_program("smoothness",
+                     "Measures orders of state, costate, control and cost where bounds are active and the optimal "
+                     "control has kinks, compared with smooth optima, with fixed and with free final state "
+                     "(smoothness.csv; fitted orders in smoothness_slopes.csv). Errors are measured against the closed "
+                     "form, or against DMOC with two stages on 1280 intervals. --problem replaces the examples.",
+                     argc, argv, measure_all);
 }
 
 }  // namespace dmocbench::smoothness_program

@@ -75,16 +75,15 @@ Row row_of_answer(const SolvedCase& solved, const IndependentChecks& checks, con
 class Solve final : public ExperimentOf<Measured> {
  public:
   Solve()
-      : ExperimentOf(
-            {.name = "solve",
-             .description =
-                 "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
-                 "NAME_picture.csv. NAME is the one that --name gives; without it, solve_ and the problem with its "
-                 "settings; with several cases it carries the case's label. The last iterate of "
-                 "every failed solve is also written, and can be continued with --start NAME_nodes.csv.",
-             .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
-             .rows = RowUse::motions,
-             .example = "--problem two_link_manipulator --method dmoc --intervals 64"}) {}
+      : ExperimentOf({.name = "solve",
+                      .description =
+                          "Solves and writes the trajectory: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, "
+                          "u) and NAME_picture.csv. NAME is the value of --name, or by default solve_ and the "
+                          "problem with its settings; with several cases the label of the case is appended. For a "
+                          "failed solve the last iterate is written; --start NAME_nodes.csv continues from it.",
+                      .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
+                      .rows = RowUse::motions,
+                      .example = "--problem two_link_manipulator --method dmoc --intervals 64"}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return columns_through<Measured>(&Measured::checks, check_columns()) +
            Columns<Measured>{{"estimated_error", "",
@@ -178,7 +177,7 @@ class Solve final : public ExperimentOf<Measured> {
     const Trajectory& motion = *solved.trajectory;
     const std::string label = solved.the_case.label();
     const auto say_price = [&](const std::string& value, const char* limits, double price) {
-      summary.say(fmt::format("{}: {}, the price of its {} {:.6g}", label, value, limits, price));
+      summary.say(fmt::format("{}: {}, the multiplier of its {} {:.6g}", label, value, limits, price));
     };
     // Solvers leave less than this share of the cost where no bound acts.
     const auto acts = [&](double price, double value) {

@@ -23,17 +23,14 @@ int run(int argc, char** argv);
 
 void register_extensions() {
   static constexpr std::array added{
-      Program{"low_thrust", "Transfers by low thrust over many revolutions: the cost of few steps per revolution",
+      Program{"low_thrust", "Low-thrust transfers over many revolutions with few steps per revolution",
               low_thrust_program::run},
-      Program{"primitives", "Global minima by roadmaps of DMOC primitives, compared with multi-start",
+      Program{"primitives", "Global minima from roadmaps of DMOC primitives, compared with multi-start",
               primitives_program::run},
-      Program{"read-sol", "Reads the solution that another solver found for a program of write-nl, and checks it",
-              read_sol_program::run},
-      Program{"step_control",
-              "Step sizes that are tied to the motion: inside the variational principle and outside of it",
+      Program{"read-sol", "Reads and checks the solution of another solver", read_sol_program::run},
+      Program{"step_control", "Step sizes that depend on the trajectory, imposed or varied with the action",
               step_control_program::run},
-      Program{"write-nl", "Writes a program and its start in AMPL's format, for solvers that read it",
-              write_nl_program::run}};
+      Program{"write-nl", "Writes a program and its start in AMPL's format", write_nl_program::run}};
   add_programs(added);
   add_claims(primitives_claims());
   add_claims(step_control_claims());

@@ -180,11 +180,11 @@ std::string in_words(const Advice& advice) {
     case Remedy::solver_auto:
       return "Try --solver auto.";
     case Remedy::several_solvers:
-      return "Try --solver auto: interior_point, then ipopt, then a feasible motion as the start.";
+      return "Try --solver auto: interior_point, then ipopt, then a feasible trajectory as the start.";
     case Remedy::common_start:
-      return "Try --start common, a motion that other methods find first.";
+      return "Try --start common, a trajectory that other methods find first.";
     case Remedy::another_guess:
-      return fmt::format("Try another guess ({}), or --start FILE with a motion near the one you want.",
+      return fmt::format("Try another guess ({}), or --start FILE with a trajectory near the one you want.",
                          member_name("Problem::guess"));
     case Remedy::finer_grid:
       return fmt::format(

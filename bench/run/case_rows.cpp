@@ -23,8 +23,9 @@ using Json = nlohmann::ordered_json;
 /// Throws `Error` if a row has a value that no run writes: an invalid number, or an answer without its cost.
 void require_measured(const Row& row, const std::vector<std::string>& columns, const std::string& place) {
   const auto refuse = [&](const std::string& column) {
-    throw Error(fmt::format("{}: {} is {}, which no run writes; remove the file and run its cases again", place, column,
-                            row.text(column).empty() ? "missing" : row.text(column)));
+    throw Error(
+        fmt::format("{}: {} is {}, which is not a value of that column; remove the file and run its cases again", place,
+                    column, row.text(column).empty() ? "missing" : row.text(column)));
   };
   for (const std::string& column : columns) {
     const auto number = parsed<double>(row.text(column));
@@ -119,7 +120,7 @@ std::vector<std::size_t> CaseRows::take(const StoredEntries& stored) {
     const std::vector<std::string> fields = place.at("row").texts();
     const std::string name = fmt::format("{}: case {}", stored.file.string(), number);
     if (number < 1 || number > rows_.size() || fields.size() != columns_.size())
-      throw Error(fmt::format("{} with {} fields is not of this run; remove the file", name, fields.size()));
+      throw Error(fmt::format("{} with {} fields belongs to another run; remove the file", name, fields.size()));
     Row row;
     for (std::size_t i = 0; i < fields.size(); ++i) row.set(columns_[i], fields[i]);
     require_measured(row, columns_, name);
@@ -169,7 +170,7 @@ void CaseRows::join(const RunPlan& plan, Json& metadata) {
       for (const std::size_t number : take(store)) {
         const std::filesystem::path origin = std::exchange(origins[number], file);
         if (origin.empty() || origin == file) continue;
-        throw Error(fmt::format("{} is there twice, in {} and {}: remove one", plan.cases()[number].label(),
+        throw Error(fmt::format("{} exists twice ({} and {}); remove one", plan.cases()[number].label(),
                                 origin.string(), file.string()));
       }
       headers.push_back(store.header);

@@ -210,11 +210,11 @@ Row CaseScheduler::completed(SolvedCase& solved) {
     const StopScope scope(interrupt_requested, solved.seconds_left);
     if (own_columns_.measure) own_columns_.measure(measured);
   } catch (const Stopped&) {
-    note_stop(solved, "Measurements of the answer are missing");
+    note_stop(solved, "Measurements of the solution are missing");
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
-    solved.note(fmt::format("Measurements of the answer are missing: {}.", sentence_of(error)));
+    solved.note(fmt::format("Measurements of the solution are missing: {}.", sentence_of(error)));
   }
   if (const std::string advice = in_words(next_to_try(solved, options_.start)); !advice.empty()) solved.note(advice);
   return row_of(columns_, measured);

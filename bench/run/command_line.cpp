@@ -314,7 +314,7 @@ int run_program(const std::string& name, const std::string& description, int arg
     const int code = report_error(name, (interrupt_requested() ? "interrupted, then: " : "") + sentence_of(error));
     return interrupt_requested() ? 130 : code;
   } catch (...) {  // from formulas of other authors
-    return report_error(name, "a problem throws an object that is not a std::exception; throw dmocbench::Error");
+    return report_error(name, "a problem threw an object that is not a std::exception; throw dmocbench::Error");
   }
 }
 

@@ -95,16 +95,16 @@ ColumnFacts facts_in(const Table& table, const std::string& column) {
 Json schema_of(const std::string& title, const Json& properties, const std::vector<std::string>& key) {
   Json names = Json::array();
   for (const auto& [name, property] : properties.items()) names.push_back(name);
-  return {
-      {"$schema", draft},
-      {"title", title},
-      {"description",
-       "a row; empty fields are null, fields of text columns are texts, other fields that parse as numbers numbers"},
-      {"type", "object"},
-      {"properties", properties},
-      {"required", names},
-      {"primaryKey", key},
-      {"additionalProperties", false}};
+  return {{"$schema", draft},
+          {"title", title},
+          {"description",
+           "a row: an empty field is null, a field of a text column is a text, any other field that parses as a number "
+           "is a number"},
+          {"type", "object"},
+          {"properties", properties},
+          {"required", names},
+          {"primaryKey", key},
+          {"additionalProperties", false}};
 }
 
 }  // namespace
@@ -138,7 +138,7 @@ nlohmann::ordered_json describe_tables(const std::vector<std::filesystem::path>&
 void require_as_written(const nlohmann::json& metadata, const std::string& source, const std::string& table,
                         std::string_view content) {
   const nlohmann::json told = told_of(metadata, table);
-  if (told.is_null()) throw Error(fmt::format("{} does not list {}: they are of different runs", source, table));
+  if (told.is_null()) throw Error(fmt::format("{} does not list {}: they come from different runs", source, table));
   const Table found = Table::from_csv(content);
   const auto columns = told["columns"].get<std::vector<std::string>>();
   if (const std::string more = lacked(found.columns(), columns); !more.empty())
@@ -146,11 +146,11 @@ void require_as_written(const nlohmann::json& metadata, const std::string& sourc
   if (const std::string missing = lacked(columns, found.columns()); !missing.empty())
     throw Error(fmt::format("{} lacks the column {}, which {} lists", table, missing, source));
   if (told["rows"] != found.rows().size()) {
-    throw Error(fmt::format("{} states {} and {} has {}: they are of different runs, or rows are lost", source,
+    throw Error(fmt::format("{} states {} but {} has {}: they come from different runs, or rows are missing", source,
                             counted(told["rows"].get<long long>(), "row"), table, found.rows().size()));
   }
   if (const std::string checksum = checksum_of(content); told["crc32"] != checksum) {
-    throw Error(fmt::format("{} is not as its run wrote it: its checksum is {}, and {} states {}", table, checksum,
+    throw Error(fmt::format("{} was changed after its run: its checksum is {}, but {} states {}", table, checksum,
                             source, told["crc32"].get<std::string>()));
   }
 }

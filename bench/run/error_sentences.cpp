@@ -29,9 +29,9 @@ bool is_out_of_memory(const std::exception& error) noexcept {
 }
 
 std::string sentence_of(const std::exception& error) {
-  if (is_out_of_memory(error)) return "out of memory; fewer intervals or a higher limit (ulimit -v) help";
+  if (is_out_of_memory(error)) return "out of memory; use fewer intervals or raise the limit (ulimit -v)";
   if (is_out_of_threads(error)) {
-    return "the system gives no more threads; set DMOCBENCH_THREADS=1 or raise the limits (ulimit -u, -v)";
+    return "the system cannot create more threads; set DMOCBENCH_THREADS=1 or raise the limits (ulimit -u, -v)";
   }
   if (const auto* const of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
     return fmt::format("{}: {}", of_file->path1().string(), of_file->code().message());

@@ -80,8 +80,7 @@ bool is_near(const IndirectSolution& solution, const Trajectory& direct) {
 void require_near(const Problem& problem, const IndirectSolution& solution, const Trajectory& direct) {
   if (is_near(solution, direct)) return;
   throw Error("the indirect solution of " + problem.name() +
-              " is on another branch than this row, which has no errors therefore; run its method alone, on finer "
-              "grids");
+              " is on another branch than this row, so this row has no errors; run its method alone, on finer grids");
 }
 
 /// The solution in a file; empty if there is no such file or it is not a solution of this problem on this branch.
@@ -132,8 +131,9 @@ const Columns<Entry> reference_columns{
     {"cost_agreement", "", "of their costs", from(solution_of, agreement_of, &IndirectAgreement::cost)},
     {"hamiltonian_drift", "", "max - min of the Hamiltonian, relative; empty if the problem depends on time",
      from(solution_of, &IndirectSolution::hamiltonian_drift)},
-    {"shooting_defect", "", "an integrator's largest relative miss from node to node", from(&Entry::shooting_defect)},
-    {"replay_error", "", "miss of the final state by the replayed control", from(&Entry::replay_error)},
+    {"shooting_defect", "", "largest relative distance from a node when an integrator starts at the preceding one",
+     from(&Entry::shooting_defect)},
+    {"replay_error", "", "distance from the final state when the control is replayed", from(&Entry::replay_error)},
     {"stages", "", "Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
     {"intervals", "", "number of intervals", from(solution_of, extremal_of, &CollocatedExtremal::intervals)},
     {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
@@ -249,8 +249,8 @@ std::vector<std::string> IndirectReference::notes() const {
     const double digits = account.at("metadata").at("certified_digits");
     if (digits >= wanted_digits) continue;
     notes.push_back(fmt::format(
-        "{}: the indirect reference is certified to {:.1f} digits only; smaller relative errors mean nothing", problem,
-        digits));
+        "{}: the indirect reference is certified to {:.1f} digits only; smaller relative errors are not meaningful",
+        problem, digits));
   }
   return notes;
 }

@@ -99,7 +99,7 @@ std::vector<double> JsonPlace::numbers() const {
 
 nlohmann::ordered_json json_in(const std::string& text, const std::string& file) {
   nlohmann::ordered_json json = read_json(text);
-  if (json.is_discarded()) throw Error(fmt::format("{} is not JSON, or was cut off", file));
+  if (json.is_discarded()) throw Error(fmt::format("{} is not JSON, or is truncated", file));
   return json;
 }
 

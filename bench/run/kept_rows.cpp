@@ -150,8 +150,8 @@ void KeptRows::require_no_other_motion(const std::filesystem::path& file) const 
     const Statement other{motion.at("problem").text(), motion.has("library") ? motion.at("library").text() : "",
                           motion.has("settings") ? motion.at("settings").text() : ""};
     if (is_own(other)) continue;
-    throw Error(fmt::format("{} is the motion of {}{}{}; choose another --name or --out", file.string(), other.problem,
-                            other.settings.empty() ? "" : " ", other.settings));
+    throw Error(fmt::format("{} is the trajectory of {}{}{}; choose another --name or --out", file.string(),
+                            other.problem, other.settings.empty() ? "" : " ", other.settings));
   }
 }
 

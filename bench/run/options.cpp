@@ -269,24 +269,23 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
   line.option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
   line.option("--form", options.form,
-              "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)");
-  line.list(
-      "--constraints", options.constraints,
-      "how mechanisms keep g(q) = 0: multipliers, or embedding (the coordinates of Problem::embedding at the nodes; "
-      "with dmoc and hamiltonian by one Gauss stage; tables then call the problem NAME_embedded)");
+              "form of the cost: bolza (a sum), or mayer (the cost up to each node is an additional unknown)");
+  line.list("--constraints", options.constraints,
+            "how holonomic constraints g(q) = 0 are imposed: multipliers, or embedding (the coordinates of "
+            "Problem::embedding at the nodes; only dmoc and hamiltonian with one Gauss stage; tables name the problem "
+            "NAME_embedded)");
   line.group("Method");
   line.list("--method", options.methods,
             fmt::format("methods: {}", fmt::join(all_families(), ", ")) +
                 (options.methods.empty() ? fmt::format("; default: {}", fmt::join(paper_families(), ", ")) : ""));
   line.list("--tableau", options.tableaus, "families of Butcher tableaus");
   line.list("--stages", options.stages, "numbers of stages s; each tableau uses the ones that it supports");
-  line.option(
-      "--controls", options.controls,
-      "stage: every stage has its control; shared: one at the node between two intervals, for --tableau lobatto, which "
-      "the tables then call lobatto_shared");
+  line.option("--controls", options.controls,
+              "stage: every stage has its own control; shared: neighbouring intervals share the control at their node, "
+              "only with --tableau lobatto, which tables name lobatto_shared");
   line.list(
       "--quadrature", options.quadratures,
-      "quadrature of galerkin, whose number of stages s is the degree of q: gauss, lobatto; default: the tableaus");
+      "quadrature of galerkin: gauss or lobatto; its number of stages s is the degree of q; default: the tableaus");
   line.list("--points", options.points, "points of this quadrature, at least s; default: s, for lobatto s + 1");
   line.list(
       "--control-nodes", options.control_nodes,
@@ -303,8 +302,8 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
       "--intervals", [&options] { return options.grid_file.empty(); }, "--grid replaces it");
   line.group("Start");
   line.option("--start", options.start,
-              "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a CSV "
-              "file with columns t, q and v_q per configuration, and optionally controls and costates");
+              "where solves start: common (one trajectory for all methods and grids), guess (the problem's own), or a "
+              "CSV file with columns t, q and v_q per configuration, and optionally controls and costates");
   line.number(
       "--start-seconds", options.start_seconds, 0.0, 1e6,
       "time limit for finding the common start of a problem (and tableau); afterwards solves start at the guess");
@@ -328,7 +327,7 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
 
 void add_jobs_option(CommandLine& line, ExperimentOptions& options) {
   line.number("--jobs", options.jobs, 1, 256,
-              "number of processes; each solves one problem at a time, in large batches one method of it",
+              "number of processes; each solves one problem at a time, or in large batches one method of a problem",
               OptionRole::machine);
 }
 
@@ -340,8 +339,8 @@ void add_tolerances_option(CommandLine& line, ExperimentOptions& options) {
 
 void add_batch_option(CommandLine& line, ExperimentOptions& options) {
   line.flag("--batch,!--no-batch", options.batch,
-            "solve cases of interior_point that differ only in start, parameters or ends eight at a time, without "
-            "times; not with --seconds, --option, --verbose or --repeats");
+            "solve eight cases at a time that differ only in start, parameters or end states, with interior_point and "
+            "without times; not with --seconds, --option, --verbose or --repeats");
   line.ignored_unless(
       "--batch",
       [&options] {
@@ -356,13 +355,13 @@ void add_batch_option(CommandLine& line, ExperimentOptions& options) {
 void add_part_options(CommandLine& line, ExperimentOptions& options) {
   line.group("Parts");
   line.option("--part", options.part,
-              "i/n: solve only the i-th of n parts of the cases, whose rows stay in OUT/NAME.parts/i-of-n.rows. A part "
-              "that was interrupted is resumed. Failed solves do not change the exit code, 0",
+              "i/n: solve only the i-th of n parts of the cases and keep its rows in OUT/NAME.parts/i-of-n.rows. An "
+              "interrupted part is resumed. The exit code is 0 even if solves fail",
               OptionRole::place);
-  line.option("--join", options.join,
-              "results folder whose parts, of the same command with --part, are joined to the one table instead of "
-              "solving anything; may be repeated",
-              OptionRole::place);
+  line.option(
+      "--join", options.join,
+      "results folder with parts of the same command; joins them to one table instead of solving; may be repeated",
+      OptionRole::place);
 }
 
 SolverOptions solver_options(const ExperimentOptions& options) {
@@ -482,8 +481,9 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
         const StopScope scope(interrupt_requested, options.most_seconds);
         static_cast<void>(coarsest.transcribe());
       } catch (const Stopped&) {
-        throw Error(fmt::format("{} takes longer than --seconds {:g} to set up; allow more, or ask for less of it",
-                                problem->name(), options.most_seconds));
+        throw Error(
+            fmt::format("{} takes longer than --seconds {:g} to set up; allow more time, or use fewer intervals",
+                        problem->name(), options.most_seconds));
       }
     }
     for (const ChosenScheme& scheme : schemes) {

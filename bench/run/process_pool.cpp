@@ -64,7 +64,7 @@ std::pair<Worker, std::string> wait_for_one(std::map<pid_t, Worker>& running) {
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return {child.mapped(), ""};
     return {child.mapped(), size > 0             ? std::string(sentence.data(), static_cast<std::size_t>(size))
                             : WIFSIGNALED(state) ? fmt::format("signal {} ended it", WTERMSIG(state))
-                                                 : "it gave no reason"};
+                                                 : "it reported no reason"};
   }
 }
 
@@ -101,8 +101,7 @@ void for_each_in_processes(std::size_t count, std::size_t jobs, const std::funct
     const auto [worker, reason] = wait_for_one(running);
     attempt([&reason = reason] {
       if (reason.empty() || interrupt_requested()) return;
-      throw Error(fmt::format("a process that worked on some rows ended with an error: {}; its finished rows are kept",
-                              reason));
+      throw Error(fmt::format("a worker process failed: {}; its finished rows are kept", reason));
     });
     attempt([&, number = worker.number] { done(number); });
   }

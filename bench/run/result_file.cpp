@@ -127,8 +127,8 @@ void require_name_of_table(const std::string& name) {
   const auto does_not_fit = [](unsigned char letter) { return letter == '/' || std::iscntrl(letter) != 0; };
   if (name.empty() || name.starts_with('.') || name.starts_with('-') || std::ranges::any_of(name, does_not_fit)) {
     throw Error(
-        fmt::format("--name \"{}\" must be a file's name without a folder, and without a dot or a dash in front; --out "
-                    "names the folder",
+        fmt::format("--name \"{}\" must be a file name without a folder that does not begin with a dot or a dash; "
+                    "--out names the folder",
                     name));
   }
   if (name.size() > longest) {

@@ -136,7 +136,7 @@ void require_same_run(const StoredEntries& store, const Json& header) {
   const std::string commits = path != "/program" ? ""
                                                  : fmt::format(" (built from commit {}, not {})",
                                                                stored.at("commit").text(), header.at("commit").dump());
-  throw Error(fmt::format("{} is of another run than this: {} is {}, not {}{}; run its cases again, or remove it",
+  throw Error(fmt::format("{} belongs to another run: {} is {}, not {}{}; run its cases again, or remove it",
                           store.file.string(), place, value_at(identity, path), value_at(wanted, path), commits));
 }
 

@@ -135,7 +135,7 @@ class Run {
     const bool is_there = plan_.wanted_count() == 0 && rows > 0;
     scheduler_.solve_all();
     rows_.sync();
-    const char* const end = is_there                ? " is there already"
+    const char* const end = is_there                ? " is already complete"
                             : interrupt_requested() ? " is interrupted; the same command resumes it"
                                                     : "";
     print_line(fmt::format("{}{}: {} of {} rows: {}.rows", part, end, rows - plan_.wanted_count(), plan_.cases().size(),
@@ -252,7 +252,7 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
                                        : fmt::format("--problem {} --intervals {}", card.options.problems.front(),
                                                      card.options.intervals));
     const bool wants_motions = card.rows == RowUse::motions;
-    line.exit_code_1(wants_motions ? "a row is not solved, or is not a motion"
+    line.exit_code_1(wants_motions ? "a row is not solved, or its grid is too coarse"
                                    : "a curve has no usable row (its rows have the reasons)");
     add_options(line, experiment.options());
     line.ignored_unless(

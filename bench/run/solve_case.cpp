@@ -139,7 +139,7 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   }
   if (found.relative_jump <= largest_jump_of_a_motion) {
     solved.solution.message = fmt::format(
-        "{} Its intervals, replayed alone, miss the next nodes to the same side: by {:.2g} of the range all together, "
+        "{} Its intervals, integrated alone, miss the next nodes to the same side: by {:.2g} of the range in total, "
         "the worst by {:.2g}.{}",
         sentence_of(Status::too_coarse), found.accumulated_jump, found.relative_jump,
         estimate_in_words(solved, motion));
@@ -151,17 +151,16 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   if (undefined || std::isinf(found.relative_jump)) {
     solved.solution.message = fmt::format(
         "The discrete program is solved, but interval {} (t = {:.4g} to {:.4g}) does not lead to the next node: {} "
-        "More intervals do not help; state the formula so that it stays finite along the motion, by "
-        "bounds that keep the coordinates away from a singularity, or by a force as control and a bound on its power "
-        "as path constraint.",
+        "More intervals do not help. Keep the formula finite along the trajectory: bound the coordinates away from a "
+        "singularity, or use a force as control and limit its power by a path constraint.",
         k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
         undefined ? undefined->quantity + " is not a finite number there." : "its formulas are singular there.");
     return;
   }
-  solved.solution.message =
-      fmt::format("{} Interval {} (t = {:.4g} to {:.4g}), replayed alone, misses the next node by {:.2g} of the range.",
-                  sentence_of(Status::too_coarse), k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
-                  found.relative_jump);
+  solved.solution.message = fmt::format(
+      "{} Interval {} (t = {:.4g} to {:.4g}), integrated alone, misses the next node by {:.2g} of the range.",
+      sentence_of(Status::too_coarse), k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
+      found.relative_jump);
 }
 
 /// Notes if the scaled cost of the solver differs from 1 by three orders of magnitude.
@@ -206,8 +205,7 @@ void judge_in_time(SolvedCase& solved, const Trajectory& motion, const TimeOfCas
     note_variable_sizes(solved, motion);
   } catch (const Stopped&) {
     solved.solution.status = time.reason();
-    solved.solution.message =
-        fmt::format("{} Whether its answer is a motion is not known.", sentence_of(solved.solution.status));
+    solved.solution.message = fmt::format("{} The last iterate was not checked.", sentence_of(solved.solution.status));
   }
 }
 
@@ -246,7 +244,7 @@ void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& ti
     solved.solution.formula_undefined = failure.formula_undefined;
     if (!failure.words.empty()) solved.note(failure.words);
   } catch (const Stopped&) {
-    solved.note("Where it failed was not looked for: the time was up.");
+    solved.note("The time limit was reached before the failure could be located.");
   }
 }
 
@@ -320,7 +318,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
   } catch (const Stopped&) {
     result.solution.status = time.reason();
     result.solution.message =
-        "The set-up took longer than the time given: its formulas are too long to be traced and differentiated in it.";
+        "The set-up reached the time limit: tracing and differentiating the formulas takes longer.";
     return result;
   }
   Transcription& program = *result.program;
@@ -354,7 +352,7 @@ Solution solve_from(Transcription& program, const Eigen::VectorXd& start,
   Solution solution = solver.solve(program, start, sample_multipliers(program, *with_costates));
   if (is_solved(solution.status) || solution.status == Status::interrupted) return solution;
   Solution cold = solver.solve(program, start);
-  cold.message += " With the costates of its start it had failed; this is the answer from the motion alone.";
+  cold.message += " The solve with the costates of the start failed; this solution starts from the trajectory alone.";
   return cold;
 }
 

@@ -96,7 +96,7 @@ std::string origin_of(const std::filesystem::path& nodes_file, const MotionTexts
         require_as_written(metadata, source, stages_file_of(nodes_file).filename().string(), texts.stages);
       }
     } catch (const Error& error) {
-      throw Error(fmt::format("{}; run it again, or give a motion of your own another name", error.what()));
+      throw Error(fmt::format("{}; run it again, or give your own trajectory another name", error.what()));
     }
     return origin;
   }
@@ -201,7 +201,7 @@ class StartProvider::Search {
     const double seconds = seconds_since(begin_);
     if (!is_told_ && seconds > seconds_of_silence && provider_.on_long_search) {
       is_told_ = true;
-      provider_.on_long_search(fmt::format("looking for the common start of {}, for at most {:g} s (--start-seconds)",
+      provider_.on_long_search(fmt::format("searching for the common start of {}, at most {:g} s (--start-seconds)",
                                            case_.problem->name(), provider_.rules_.most_seconds));
     }
     return is_interrupted() || seconds >= provider_.rules_.most_seconds;
@@ -210,12 +210,13 @@ class StartProvider::Search {
   [[nodiscard]] std::string reason() const {
     const std::string& name = case_.problem->name();
     if (seconds_since(begin_) >= provider_.rules_.most_seconds) {
-      return fmt::format("It began at the guess: {} has no common start after {:g} s; allow more by --start-seconds.",
-                         name, provider_.rules_.most_seconds);
+      return fmt::format(
+          "It started at the guess: no common start of {} was found within {:g} s; allow more with --start-seconds.",
+          name, provider_.rules_.most_seconds);
     }
     return fmt::format(
-        "It began at the guess: {} has no common start, since from its guess no method finds a motion on {} or {} "
-        "intervals whose intervals, replayed alone, join, and join better on twice as many.",
+        "It started at the guess: {} has no common start, because from its guess no method finds a solution on {} or "
+        "{} intervals that follows the continuous dynamics, more closely on twice as many.",
         name, final_intervals, 2 * final_intervals);
   }
 
@@ -293,7 +294,7 @@ const Trajectory& StartProvider::motion_in_file(const Problem& problem) {
   if (!texts_) {
     std::error_code none;  // a failed lookup counts as missing
     if (!std::filesystem::exists(rules_.start, none))
-      throw Error(fmt::format("--start {} is neither common nor guess nor a file", rules_.start));
+      throw Error(fmt::format("--start takes common, guess or a file; {} is none of them", rules_.start));
     texts_ = read_motion_texts(rules_.start);
     origin_ = origin_of(rules_.start, *texts_);
   }
@@ -326,8 +327,9 @@ Start StartProvider::start_in_file(const Case& the_case) {
   const Trajectory& tables = motion_in_file(the_case.nominal ? *the_case.nominal : *the_case.problem);
   if (origin_ == identity_of(the_case.problem->name(), the_case.problem->settings(), the_case.method, the_case.tableau,
                              the_case.stages, the_case.intervals())) {
-    throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would be meaningless",
-                              rules_.start, the_case.label()));
+    throw NoStart(
+        fmt::format("--start {} is already the solution of {}; counts and times from there would be meaningless",
+                    rules_.start, the_case.label()));
   }
   const Motion motion = smooth_motion(tables);
   Start start{motion, rules_.reports_branch ? std::optional(motion) : std::nullopt};
@@ -341,12 +343,12 @@ Trajectory StartProvider::solve(const Case& the_case) {
   if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
   if (options_.stop_requested && options_.stop_requested()) throw Interrupted();
   if (!is_solved(solved.solution.status)) {
-    throw Error(fmt::format("{} has no usable answer ({}): {}", the_case.label(), name_of(solved.solution.status),
+    throw Error(fmt::format("{} has no usable solution ({}): {}", the_case.label(), name_of(solved.solution.status),
                             solved.solution.message));
   }
   throw Error(fmt::format("{} is solved, but not on a branch that is known to be the same for all methods: {}",
                           the_case.label(),
-                          start.note.empty() ? "its answer is far from its common start." : start.note));
+                          start.note.empty() ? "its solution is far from its common start." : start.note));
 }
 
 const StartProvider::FoundStart& StartProvider::common_start(const Case& the_case) {
@@ -400,8 +402,8 @@ std::string varied_in_words(const Problem& problem) {
   std::string words = "starts vary q and v";
   if (!varied.empty()) words += fmt::format(" and the controls {}", fmt::join(varied, ", "));
   if (!left.empty()) {
-    words +=
-        fmt::format("; not the controls {}, whose size follows from neither bounds nor guess", fmt::join(left, ", "));
+    words += fmt::format("; not the controls {}, because neither bounds nor guess determine their size",
+                         fmt::join(left, ", "));
   }
   return words;
 }

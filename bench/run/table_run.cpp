@@ -81,7 +81,7 @@ std::vector<TableFile> tables_of_stage(const Json& entry, const std::filesystem:
   for (const JsonPlace& json : place.at("tables").entries()) {
     const std::string name = json.at("name").text();
     if (!name.starts_with(store.stem().string()) || name.find('/') != std::string::npos) {
-      throw Error(fmt::format("{} names the table \"{}\", which is not one of this run; remove the file",
+      throw Error(fmt::format("{} names the table \"{}\", which this run does not write; remove the file",
                               store.string(), name));
     }
     TableFile& one = tables.emplace_back(TableFile{.file = store.parent_path() / (name + ".csv"),

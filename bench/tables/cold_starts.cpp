@@ -57,7 +57,7 @@ struct Effort {
 };
 constexpr std::array efforts{
     Effort{"iterations", "major_iterations", "", "major iterations of the best solutions"},
-    Effort{"evaluations", "evaluations", "", "evaluations of derivatives by the best solutions"},
+    Effort{"evaluations", "evaluations", "", "evaluations of derivatives for the best solutions"},
     Effort{"seconds", "seconds", "s", "time of the best solutions"}};
 constexpr std::array quartiles{std::pair{"_lower_quartile", 0.25}, std::pair{"_median", 0.5},
                                std::pair{"_upper_quartile", 0.75}};
@@ -98,13 +98,14 @@ Columns<EndsOfCell> columns_of_ends() {
                     {"starts", "", "number of starts", from(&Ends::solved, &ShareCount::trials)}} +
       share_columns("solved", "number of starts that ended at a confirmed optimum of the discrete program",
                     &Ends::solved) +
-      share_columns("confirmed", "number of solved starts whose intervals, replayed alone, join", &Ends::confirmed) +
+      share_columns("confirmed", "number of solved starts whose intervals, integrated alone, reach the next node",
+                    &Ends::confirmed) +
       share_columns("best", "number of confirmed starts that cost no more than the reference, to the tolerance",
                     &Ends::best) +
       Columns<Ends>{
           {"elsewhere", "", "number of confirmed starts that cost more than the reference",
            [](const Ends& ends) { return ends.confirmed.hits - ends.best.hits; }},
-          {"too_coarse", "", "number of solved starts whose solutions are too coarse on this grid",
+          {"too_coarse", "", "number of solved starts whose grid is too coarse",
            [](const Ends& ends) { return ends.solved.hits - ends.confirmed.hits; }},
           {"lost", "", "number of unsolved starts", &Ends::lost},
           {"failures", "", "the statuses of the unsolved starts, each with its number", &Ends::failures},

@@ -166,11 +166,13 @@ Columns<FittedCurve> order_columns() {
               from(&Curve::fitted, &Fit::coarse_end)},
              {"fine_end", "", "why no finer grid is used: the same, or floor", from(&Curve::fitted, &Fit::fine_end)},
              {"points", "", "number of grids used", from(&Curve::fit, &Fit::grids, &Selection::size)},
-             {"floor", "", "error at which round-off begins; empty if not measured", from(&Curve::fit, &Fit::floor)},
+             {"floor", "", "error at the level of round-off; empty if not measured", from(&Curve::fit, &Fit::floor)},
              {"verdict", "",
-              "slope; floor (round-off leaves too few grids), few grids, or unsteady (no four grids agree)",
+              "slope; floor (round-off leaves too few grids), few grids, or unsteady (no four neighbouring grids have "
+              "the same order)",
               from(&Curve::fit, &Fit::verdict)},
-             {"active", "", "what the active bounds and path constraints read; they lower orders", &Curve::active}};
+             {"active", "", "what the active bounds and path constraints limit (controls, states); they lower orders",
+              &Curve::active}};
 }
 
 /// Appends a fit, unless the quantity has no error on any grid.
@@ -209,7 +211,7 @@ std::optional<std::string> note_on_reference(const Selection& curve, long long r
       has_solved_status(meant) ? "is on another branch than the common start" : "has the status \"" + status + "\"",
       used ? fmt::format("errors are measured against N = {}, the finest grid that is solved", used->text("intervals"))
       : reference != 0 ? "there are no errors: choose a --reference that is solved"
-                       : "no grid is solved, so that there are no errors");
+                       : "no grid is solved, so there are no errors");
 }
 
 /// Why a curve has no order at all, if it has errors that one could be fitted to.
@@ -250,7 +252,7 @@ Columns<JumpsOfCurve> jump_columns() {
   constexpr auto orders = &JumpsOfCurve::orders;
   return head_columns<JumpsOfCurve>(curve_columns, in_key) +
          Columns<JumpsOfCurve>{
-             {"jump_slope", "", "fitted order of the largest jump of an interval that is replayed alone",
+             {"jump_slope", "", "fitted order of the largest jump of an interval",
               from(orders, &TwoOrders::jump, &FittedOrder::order)},
              {"jump_standard_error", "", "standard error of that order",
               from(orders, &TwoOrders::jump, standard_error_of)},

@@ -115,18 +115,19 @@ Columns<Minimum> minimum_columns(const std::vector<std::string>& methods) {
   return head_columns<Minimum>(group_columns, in_key) +
          Columns<Minimum>{
              {"minimum", "", "number of the minimum, from the lowest cost upwards", &Minimum::number, in_key},
-             {"objective", "cost", "the lowest among the solutions that are this minimum", &Minimum::objective},
+             {"objective", "cost", "the lowest cost of all solutions at this minimum", &Minimum::objective},
              {"is_best", "",
-              "yes for the lowest minimum that is confirmed on the finest grid, and for its like on other grids",
+              "yes for the lowest minimum on the finest grid that is not too coarse, and for the same minimum on other "
+              "grids",
               from(&Minimum::is_best, yes_or_no)},
-             {"is_motion", "", "yes if some solution is confirmed: integrating each interval meets the next node",
+             {"is_motion", "", "yes if the intervals of a solution, integrated one by one, reach the next node",
               from(&Minimum::answers, is_motion_in_words)},
              {"replay_confirmed", "",
-              "yes if the replay of the whole horizon ends near the final state for some solution",
+              "yes if the replay of a solution over the whole horizon ends near the final state",
               [](const Minimum& minimum) {
                 return yes_or_no(has_at_most(minimum.answers, "replay_error", confirmed_replay));
               }}} +
-         column_group<Minimum>(methods, "", "number of starts by which this method ended there", found_by);
+         column_group<Minimum>(methods, "", "number of starts from which this method ended there", found_by);
 }
 
 /// A start, and the minimum that it ended in, if it ended in one.
@@ -143,10 +144,10 @@ Columns<StartInPlane> basin_columns() {
          head_columns<StartInPlane>({"status"}) +
          Columns<StartInPlane>{
              {"minimum", "", "number of the minimum, from the lowest cost upwards", &StartInPlane::number},
-             {"objective", "cost", "the lowest among the solutions that are this minimum",
+             {"objective", "cost", "the lowest cost of all solutions at this minimum",
               from(&StartInPlane::minimum, &Selection::front,
                    [](const Row& lowest) { return lowest.number("objective"); })},
-             {"is_motion", "", "yes if some solution is confirmed: integrating each interval meets the next node",
+             {"is_motion", "", "yes if the intervals of a solution, integrated one by one, reach the next node",
               from(&StartInPlane::minimum, is_motion_in_words)}};
 }
 
@@ -169,7 +170,7 @@ Columns<StartsOfMethod> best_share_columns() {
              {"solved", "", "number of solved starts", &Starts::solved},
              {"unsolved", "", "number of unsolved starts",
               [](const Starts& starts) { return starts.best.trials - starts.solved; }},
-             {"unconfirmed", "", "number of starts that ended in a minimum that is not confirmed",
+             {"unconfirmed", "", "number of starts that ended in a minimum of a grid that is too coarse",
               &Starts::unconfirmed},
              {"best", "", "number of starts that ended in the best minimum", from(&Starts::best, &ShareCount::hits)},
              {"share", "", "best by starts", from(&Starts::best, &ShareCount::share)},

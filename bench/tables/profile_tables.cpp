@@ -87,10 +87,10 @@ Columns<Standing> standing_columns() {
     const bool is_time = measure == "seconds";
     columns.push_back({measure, is_time ? "s" : "", "shifted geometric mean over the common instances",
                        from(effort, &MeanEffort::mean)});
-    columns.push_back({"wins_" + measure, "",
-                       is_time ? "instances on which it is the fastest or as fast"
-                               : "instances on which it takes the fewest or as few",
-                       from(effort, &MeanEffort::wins)});
+    columns.push_back(
+        {"wins_" + measure, "",
+         is_time ? "instances on which no competitor is faster" : "instances on which no competitor takes fewer",
+         from(effort, &MeanEffort::wins)});
   }
   return columns;
 }
@@ -247,10 +247,9 @@ Table library_table(const Selection& rows) {
 std::string library_table_in_markdown(const Selection& library) {
   const std::vector<std::string> methods = library.distinct("method");
   std::string text =
-      "# The library\n\n"
-      "Every problem from its own guess: the cost that a method reaches and, in brackets, its relative difference from "
-      "the reference; where it was not solved, the status. \"Elsewhere\" is farther from the reference than counts as "
-      "a success: another minimum, or a grid that is too coarse.\n";
+      "# The library\n\nEvery problem from its own guess: the cost that a method reaches and, in brackets, its "
+      "relative difference from the reference; where it was not solved, the status. \"Elsewhere\" means that the cost "
+      "is too far from the reference to count as a success: another minimum, or a grid that is too coarse.\n";
   for (const Selection& scheme : library.group_by({"tableau", "stages", "solver", "derivatives"})) {
     const Row& head = scheme.front();
     text += fmt::format("\n## {} {}, {}, {}\n\n| problem | N | reference | {} |\n|---|---|---|", head.text("tableau"),

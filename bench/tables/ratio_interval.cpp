@@ -14,11 +14,10 @@ namespace dmocbench {
 namespace {
 
 void require_times(std::span<const double> times) {
-  if (times.empty()) throw Error("an interval of a ratio needs a round");
+  if (times.empty()) throw Error("a confidence interval of a ratio needs at least one round");
   for (const double time : times) {
     if (std::isfinite(time) && time > 0.0) continue;
-    throw Error(
-        fmt::format("a time, or a ratio of two, is {:g}: times must be above zero; did the clock stand still?", time));
+    throw Error(fmt::format("a time or a ratio of times is {:g}; times must be positive", time));
   }
 }
 

@@ -55,12 +55,11 @@ Columns<AccuracyCost> accuracy_cost_columns() {
                        {"error", "", "error that all methods reach with this tableau, solver and derivatives",
                         &Paid::error, in_key}} +
          head_columns<Paid>({"method"}, in_key) +
-         Columns<Paid>{{"intervals", "", "number of intervals N, not always whole where it is read off a curve",
-                        &Paid::intervals},
+         Columns<Paid>{{"intervals", "", "number of intervals N, interpolated between grids", &Paid::intervals},
                        {"variables", "", "number of free variables", &Paid::variables},
                        {"seconds", "s", "time of a solve", &Paid::seconds},
-                       {"variables_ratio", "", "variables by dmoc's at this error", &Paid::variables_ratio},
-                       {"seconds_ratio", "", "seconds by dmoc's at this error", &Paid::seconds_ratio}};
+                       {"variables_ratio", "", "ratio of variables to dmoc's at this error", &Paid::variables_ratio},
+                       {"seconds_ratio", "", "ratio of seconds to dmoc's at this error", &Paid::seconds_ratio}};
 }
 
 /// The cost of every method if all of them reach the error.

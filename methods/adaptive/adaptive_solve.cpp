@@ -91,7 +91,7 @@ class AdaptiveRun {
     }
     if (!between_.is_motion()) {
       return end(AdaptiveOutcome::not_solved,
-                 fmt::format("After {} grids the motion still violates its constraints between stages:{}",
+                 fmt::format("After {} grids the trajectory still violates constraints between stages:{}",
                              options_.most_grids, between_.words(answer_.trajectory, 1.0)));
     }
     return end(AdaptiveOutcome::too_many,
@@ -111,7 +111,7 @@ class AdaptiveRun {
     if (is_solved(solution.status)) {
       const double error = is_estimated_ ? answer_.estimate.relative : std::numeric_limits<double>::infinity();
       words =
-          fmt::format("The answer is the one on {} intervals, whose {}.", answer_.program->grid().intervals(),
+          fmt::format("The result is the solution on {} intervals, whose {}.", answer_.program->grid().intervals(),
                       std::isfinite(error) ? fmt::format("estimated error is {:.1e}", error) : "error is not known");
     }
     solution.status = stop_is_requested() ? Status::interrupted : Status::time_limit;
@@ -219,8 +219,8 @@ class AdaptiveRun {
     if (floor <= options_.accuracy) return false;
     answer_.outcome = AdaptiveOutcome::rounding;
     answer_.message = fmt::format(
-        "An accuracy of {:g} is more than doubles can give: with the steps that it takes, rounding of positions leaves "
-        "{:.0e} of the momenta; the estimated error is {:.1e}.",
+        "Double precision cannot reach an accuracy of {:g}: with the step sizes needed, round-off limits the momenta "
+        "to {:.0e}; the estimated error is {:.1e}.",
         options_.accuracy, floor, answer_.estimate.relative);
     return true;
   }
@@ -262,7 +262,8 @@ class AdaptiveRun {
     if (2 * intervals > options_.most_intervals || slow_grids_ >= most_slow_grids) {
       answer_.outcome = AdaptiveOutcome::too_many;
       answer_.message = fmt::format(
-          "An accuracy of {:g} takes too many intervals; on {} the estimated error is {:.1e}. More stages take fewer.",
+          "An accuracy of {:g} needs too many intervals; on {} the estimated error is {:.1e}. More stages need fewer "
+          "intervals.",
           options_.accuracy, intervals, now);
       return false;
     }
@@ -295,7 +296,7 @@ class AdaptiveRun {
     const Grid next = graded_grid(grid_, even.widths, options_.largest_ratio);
     if (static_cast<Eigen::Index>(next.intervals()) > options_.most_intervals) {
       answer_.outcome = AdaptiveOutcome::too_many;
-      answer_.message = fmt::format("An accuracy of {:g} takes more than {} intervals; the estimated error is {:.1e}.",
+      answer_.message = fmt::format("An accuracy of {:g} needs more than {} intervals; the estimated error is {:.1e}.",
                                     options_.accuracy, options_.most_intervals, estimate.relative);
       return false;
     }

@@ -153,7 +153,7 @@ PrimalDualStep step_to_optimum(const Transcription& program, const LinearisedCon
   };
   const auto by_intervals = kkt_system_by_intervals(program);
   if ((by_intervals && solves(*by_intervals)) || solves(*kkt_system_of_any_point(program))) return step;
-  throw Error("the error of the answer cannot be estimated: the matrix of its conditions is singular");
+  throw Error("the error of the solution cannot be estimated: the matrix of its optimality conditions is singular");
 }
 
 void require_smooth_optimum(const Transcription& program, const LinearisedConditions& at) {

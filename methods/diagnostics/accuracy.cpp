@@ -207,7 +207,7 @@ std::string lost_distance(const ProblemBounds& bounds, const Trajectory& motion,
   constexpr double most_missed = 0.5;
   if (!(distance > 0.0) || distance >= smallest_distance * size || missed < most_missed * distance) return {};
   return fmt::format(
-      "The given states are {:.1e} apart, so little that a trajectory at rest satisfies the program to the tolerance. "
+      "The given states are {:.1e} apart, so close that a trajectory at rest satisfies the program to the tolerance. "
       "State the problem in units in which this distance is about 1.",
       distance);
 }

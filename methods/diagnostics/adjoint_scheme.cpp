@@ -59,7 +59,7 @@ class AdjointEquations {
     const Eigen::MatrixXd of_momentum = values_.tail(n_ * size_of_momentum()).reshaped(n_, size_of_momentum());
     const std::optional<Eigen::VectorXd> rate_p =
         solve_if_invertible(of_momentum.leftCols(n_), -(by_point.segment(n_, n_) + psi_q));
-    if (!rate_p) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+    if (!rate_p) throw Error("the Lagrangian is not regular: L_vv is singular on the trajectory");
     return {.rate_q = -(by_point.head(n_) + of_momentum.middleCols(n_, n_).transpose() * *rate_p),
             .rate_p = *rate_p,
             .rate_y = -(by_point.tail(l_) + of_momentum.rightCols(l_).transpose() * *rate_p),
@@ -120,8 +120,8 @@ AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& traje
                                  const AdjointCoefficients& coefficients) {
   if (!trajectory.has_costates() || !trajectory.has_stage_costates()) {
     throw Error(
-        "the adjoint scheme needs costates at the stages: give it a solution with multipliers of a problem without "
-        "path constraints and bounds on velocities");
+        "the adjoint scheme needs costates at the stages: use a solution with multipliers, of a problem without path "
+        "constraints or bounds on velocities");
   }
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   AdjointEquations equations{TracedProblem(problem), trajectory.integral_prices};

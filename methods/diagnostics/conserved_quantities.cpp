@@ -21,7 +21,8 @@ namespace {
 /// The contribution of the integral constraints to the integrand of the cost.
 Expression priced_integrals(const TracedProblem::Values& values, const Trajectory& trajectory) {
   if (trajectory.integral_prices.size() != values.integrands.size()) {
-    throw Error("the control Hamiltonian needs the prices of the integral constraints: a solver with multipliers");
+    throw Error(
+        "the control Hamiltonian needs the multipliers of the integral constraints: use a solver with multipliers");
   }
   Expression sum;
   for (Eigen::Index i = 0; i < values.integrands.size(); ++i) {
@@ -79,7 +80,7 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   if (!traced.has_symmetry()) {
-    throw Error(problem.name() + " states no symmetry, so there is no momentum to watch");
+    throw Error(problem.name() + " states no symmetry, so it has no conserved momentum");
   }
   if (const PhasedProblem* const phased = problem.phased()) return consistency_of_phases(*phased, trajectory);
   PointFunction force_along(
@@ -186,7 +187,7 @@ EnergyBalance energy_balance(const Problem& problem, const Trajectory& trajector
 }
 
 Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& trajectory) {
-  if (!trajectory.has_costates()) throw Error("the control Hamiltonian needs costates: a solver with multipliers");
+  if (!trajectory.has_costates()) throw Error("the control Hamiltonian needs costates: use a solver with multipliers");
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   const Eigen::Index n = traced.configuration_size();

@@ -99,9 +99,9 @@ double ControlLagrangianResidual::largest() const { return std::max({adjoint, mo
 
 ControlLagrangianResidual control_lagrangian_residual(const Problem& problem, const Trajectory& trajectory,
                                                       ControlLagrangianForm form) {
-  if (!trajectory.has_costates()) throw Error("the control Lagrangian needs costates: take a solver with multipliers");
+  if (!trajectory.has_costates()) throw Error("the control Lagrangian needs costates: use a solver with multipliers");
   if (trajectory.stages() != 1 || trajectory.intervals() < 2) {
-    throw Error("the control Lagrangian is discretised by one stage on two intervals or more");
+    throw Error("the control Lagrangian is defined for one stage and at least two intervals");
   }
   const TracedProblem traced(problem);
   ControlLagrangian lagrangian(traced, form);

@@ -111,7 +111,8 @@ ExactInterval ExactDiscreteLagrangian::along(const LongVector& q_0, const LongVe
   interval.v_0 = v_0;
   interval.objects.left_momentum = momentum(0.0L);
   const auto equations = [this](const PhaseVector& at, PhaseVector& rate, long double t) { derivative(at, rate, t); };
-  if (!integrate(equations, state, 0.0L, h, h / 4.0L, tolerance)) throw Error("the exact motion's step size vanished");
+  if (!integrate(equations, state, 0.0L, h, h / 4.0L, tolerance))
+    throw Error("the step size of the exact trajectory vanished");
   interval.q_1 = x.q;
   interval.v_1 = x.v;
   interval.derivative.resize(2 * n_, 2 * n_);
@@ -123,7 +124,7 @@ ExactInterval ExactDiscreteLagrangian::along(const LongVector& q_0, const LongVe
       solve_square(LongMatrix(interval.right_by_velocity.transpose()), LongVector(x.work.tail(n_)));
   interval.objects.left_force = x.work.head(n_) - x.q_variation.leftCols(n_).transpose() * interval.objects.right_force;
   if (!interval.q_1.allFinite() || !interval.objects.left_force.allFinite()) {
-    throw Error("the exact motion leaves the set where the equations of motion make sense, or h is a conjugate time");
+    throw Error("the exact trajectory leaves the domain of the equations of motion, or h is a conjugate time");
   }
   return interval;
 }
@@ -140,7 +141,7 @@ ExactInterval ExactDiscreteLagrangian::between(const LongVector& q_0, const Long
     // Convergence is quadratic, so the next iterate is exact to rounding.
     if (step.lpNorm<Eigen::Infinity>() < last_step * (1.0L + v_0.lpNorm<Eigen::Infinity>())) return along(q_0, v_0, h);
   }
-  throw Error("shooting for the motion between two configurations does not converge; the step is too large");
+  throw Error("shooting for the trajectory between two configurations does not converge; the step is too large");
 }
 
 namespace {

@@ -115,7 +115,7 @@ ModifiedEnergy::ModifiedEnergy(const Problem& problem) {
   const PhaseSpace space(in.q, in.v, values);
   Expression energy = -problem.lagrangian({in.q, in.v, in.t});
   if (!gradient(energy, ExpressionVector::Constant(1, in.t))[0].is_zero()) {
-    throw Error(problem.name() + " has a Lagrangian that depends on time, so there is no energy to modify");
+    throw Error(problem.name() + " has a Lagrangian that depends on time, so its energy is not conserved");
   }
   for (Eigen::Index i = 0; i < n; ++i) energy += values.momentum[i] * in.v[i];
 

@@ -90,7 +90,7 @@ class Replay {
       throw Error(fmt::format("the replay's step size vanished in interval {}", k));
     }
     if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n_ + l_ + 1).allFinite()) {
-      throw Error(fmt::format("the replay left the set where the equations of motion make sense in interval {}", k));
+      throw Error(fmt::format("the replay left the domain of the equations of motion in interval {}", k));
     }
     if (constraints_) {
       constraints_->project(Eigen::Map<Eigen::VectorXd>(state.data(), n_),

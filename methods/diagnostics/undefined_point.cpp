@@ -9,9 +9,8 @@
 namespace dmocbench {
 
 std::string UndefinedPoint::words() const {
-  return fmt::format(
-      "The motion leaves the set where its formulas are defined: {} is not a number in interval {} (t = {:g}).",
-      quantity, interval, time);
+  return fmt::format("The trajectory leaves the domain of its formulas: {} is not a number in interval {} (t = {:g}).",
+                     quantity, interval, time);
 }
 
 namespace {

@@ -510,16 +510,17 @@ std::string ViolationBetweenStages::words(const Trajectory& trajectory, double t
   if (!keeps_state())
     add(state, state.share > 1.0 ? ", more than its scale" : fmt::format(", {:.2g} of its scale", state.share));
   if (!keeps_controls())
-    add(control, fmt::format("; with clipped controls the motion misses {:.1e} of its range", missed));
+    add(control,
+        fmt::format("; with controls clipped to their bounds the final state moves by {:.1e} of its range", missed));
   // At a switch of a control more intervals hardly help.
   if (keeps_state()) {
     return text +
-           " Take --method galerkin --control-nodes 1 or --stages 1, whose controls are constant in an interval, or "
-           "--accuracy, which narrows the intervals in which controls switch.";
+           " Use --method galerkin --control-nodes 1 or --stages 1, whose controls are constant in each interval, or "
+           "--accuracy, which shortens the intervals in which controls switch.";
   }
   const Eigen::VectorXd& c = trajectory.tableau.c;
   const bool are_stages_inside = c.minCoeff() > 0.0 || c.maxCoeff() < 1.0;
-  return fmt::format("{} Take more intervals{}{}.", text,
+  return fmt::format("{} Use more intervals{}{}.", text,
                      trajectory.stages() > 1 && state.is_bound ? ", --stages 1" : "",
                      !are_stages_inside         ? ""
                      : trajectory.stages() == 1 ? ", or --tableau lobatto --stages 2"

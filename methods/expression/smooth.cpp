@@ -10,7 +10,7 @@ namespace {
 
 void require_width(double eps, const char* function) {
   if (eps > 0.0) return;
-  throw Error(fmt::format("{} needs a width eps > 0 over which it is rounded, got {:g}", function, eps));
+  throw Error(fmt::format("{} needs a transition width eps > 0, got {:g}", function, eps));
 }
 
 Expression rounded_magnitude(const Expression& x, double eps) { return sqrt(x * x + eps * eps); }

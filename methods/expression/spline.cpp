@@ -14,9 +14,10 @@ namespace {
 
 void require_table(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() != y.size()) {
-    throw Error(fmt::format("the table of a spline has {} x and {} y; it takes as many of both", x.size(), y.size()));
+    throw Error(fmt::format("the table of a spline has {} x values but {} y values; their numbers must be equal",
+                            x.size(), y.size()));
   }
-  if (x.size() < 2) throw Error(fmt::format("the table of a spline takes at least two points, got {}", x.size()));
+  if (x.size() < 2) throw Error(fmt::format("the table of a spline needs at least two points, got {}", x.size()));
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (std::isfinite(x[i]) && std::isfinite(y[i]) && (i == 0 || x[i] > x[i - 1])) continue;
     throw Error(fmt::format("x in the table of a spline must ascend and all be finite, but point {} is ({:g}, {:g})",

@@ -9,8 +9,8 @@ namespace dmocbench::detail {
 void require_factors(Eigen::Index rows, Eigen::Index columns, Eigen::Index other_rows, Eigen::Index other_columns) {
   if (columns == other_rows) return;
   throw Error(
-      fmt::format("a product of {} x {} and {} x {} entries: the columns of the left factor are not as many as the "
-                  "rows of the right one",
+      fmt::format("a product of a {} x {} and a {} x {} matrix: the number of columns of the left factor must equal "
+                  "the number of rows of the right one",
                   rows, columns, other_rows, other_columns));
 }
 

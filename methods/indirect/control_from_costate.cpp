@@ -64,7 +64,7 @@ Eigen::VectorXd ControlFromCostate::control(const Eigen::VectorXd& q, const Eige
 
 Eigen::MatrixXd ControlFromCostate::at_nodes(const Trajectory& trajectory) const {
   if (!trajectory.has_costates()) {
-    throw Error("the control from the costate needs costates: give it a solution of a solver that has multipliers");
+    throw Error("the control from the costate needs costates: use the solution of a solver with multipliers");
   }
   const Eigen::Index nodes = trajectory.node_times.size();
   Eigen::MatrixXd controls(nodes, m_);

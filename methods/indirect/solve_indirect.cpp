@@ -54,7 +54,7 @@ Eigen::VectorXd phase_point(LegendreTransform& legendre, const BoundaryState& en
 
 void require_fit(const Problem& problem, const Trajectory& start) {
   if (!start.has_costates()) {
-    throw Error("the indirect method starts from costates: give it a solution of a solver that has multipliers");
+    throw Error("the indirect method starts from costates: use the solution of a solver with multipliers");
   }
   const Eigen::Index n = problem.configuration_size();
   const double horizon = problem.horizon();

@@ -124,7 +124,7 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
   needs_factors_of_rows_ = true;
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
-      "The residual of stationarity, {:.1g}, is excused by the round-off of large constraints, but it is {:.1g} of the "
+      "The residual of stationarity, {:.1g}, is within the round-off of large constraints, but it is {:.1g} of the "
       "gradient of the cost. State the constraints in units in which their sizes are about 1.",
       residual, gradient > 0.0 ? residual / gradient : unbounded);
 }
@@ -144,22 +144,22 @@ void Confirmation::require_settled(double tolerance, Solution& solution) {
   if (length <= settled) return;
   if (!std::isfinite(length)) {
     solution.status = Status::evaluation_failed;
-    solution.message = "A second derivative is not a number at the answer.";
+    solution.message = "A second derivative is not a number at the solution.";
     return;
   }
   if (step->of_state <= settled) {
     solution.status = Status::control_not_determined;
     solution.message = fmt::format(
-        "{} A Newton step would still move a control by {:.1g} of its size, and neither the state nor the cost: it is "
-        "singular, or near a bound that the solver has not reached; a smaller tolerance shows which.",
+        "{} A Newton step would move a control by {:.1g} of its size, but neither the state nor the cost: the control "
+        "is singular, or near a bound that the solver has not reached; a smaller tolerance distinguishes the two.",
         sentence_of(solution.status), length);
     return;
   }
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
-      "The residuals are below the tolerance, but a Newton step would still move the answer by {:.1g} of its size. A "
-      "cost scaled to about 1 or a smaller tolerance may settle it, but not where the cost hardly depends on the "
-      "moving unknowns.",
+      "The residuals are below the tolerance, but a Newton step would move the solution by {:.1g} of its size. Scaling "
+      "the cost to about 1 or a smaller tolerance may help, except where the cost hardly depends on the unknowns that "
+      "move.",
       length);
 }
 
@@ -216,9 +216,9 @@ Scaling Confirmation::scaling(double tolerance, const Eigen::VectorXd& start, co
 
 void tell_of_stop(Solution& solution) {
   solution.status = stop_is_requested() ? Status::interrupted : Status::time_limit;
-  solution.message = fmt::format(
-      "{} The residuals are below the tolerance; it is unknown whether Newton steps would settle the answer.",
-      sentence_of(solution.status));
+  solution.message =
+      fmt::format("{} The residuals are below the tolerance, but Newton steps have not confirmed the solution.",
+                  sentence_of(solution.status));
 }
 
 void refuse_small_cost(double factor, Solution& solution) {
@@ -226,8 +226,8 @@ void refuse_small_cost(double factor, Solution& solution) {
   // No Newton step may settle it either: its matrix holds the cost's curvature next to entries that round it away.
   solution.correction.reset();
   solution.message = fmt::format(
-      "The derivatives of the cost are below the tolerance, so that every feasible point passes for an optimum; "
-      "multiply the cost by about {:.0e} (`cost_scale` of a problem does so).",
+      "The derivatives of the cost are below the tolerance, so every feasible point looks optimal; multiply the cost "
+      "by about {:.0e} (set `cost_scale` of the problem).",
       factor);
 }
 

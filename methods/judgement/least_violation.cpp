@@ -211,7 +211,7 @@ constexpr int most_steps = 200;
 /// A descent that is cut short has shown nothing.
 void require_time(const CountedProgram& program, const SolverOptions& options) {
   if ((options.stop_requested && options.stop_requested()) || program.is_out_of_time()) {
-    throw Stopped("the descent on the violation was stopped, or took longer than the time given");
+    throw Stopped("the descent on the violation was stopped, or reached the time limit");
   }
 }
 
@@ -325,18 +325,17 @@ void judge_infeasibility(const CountedProgram& program, const SolverOptions& opt
   if (is_least && !is_certain && feasible_point(program, options, start).size() > 0) {
     solution.status = Status::step_failed;
     solution.message =
-        "Near the last point the constraints cannot be met any better, but descent on their violation alone, from the "
-        "start, from half way between the bounds or from another horizon, meets them: the program is feasible, and the "
-        "solver went astray; start from another motion.";
+        "The last point is a local minimum of the constraint violation, but descent on the violation from other points "
+        "satisfies the constraints: the program is feasible and the solver failed; start from another trajectory.";
     return;
   }
   if (!is_least && !claims) return;
   solution.status = is_least ? Status::infeasible : Status::step_failed;
-  solution.message = is_certain
-                         ? "Infeasible: no point meets the constraints, which are affine; the last point violates "
-                           "them least."
-                     : is_least ? ""
-                                : "The solver calls it infeasible, but its point does not minimise the violation.";
+  solution.message = is_certain ? "Infeasible: the constraints are affine and no point satisfies them; the last point "
+                                  "has the smallest violation."
+                     : is_least
+                         ? ""
+                         : "The solver reports infeasibility, but its last point does not minimise the violation.";
 }
 
 }  // namespace dmocbench

@@ -135,9 +135,9 @@ int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution&
     if (next.curvature) return 0;  // Newton's method leads to saddles too
     // If the cost is so small that any residual passes, an answer whose residuals were large remains unchecked.
     if (!was_unsettled && confirmation.scaling(tolerance, next.primal, next).of_cost != 1.0) return 0;
-    next.message += fmt::format(" It took {} Newton steps after the solver to settle the answer.", steps);
+    next.message += fmt::format(" {} Newton steps after the solver confirmed the solution.", steps);
     if (solution.status != Status::not_confirmed && !is_solved(solution.status)) {
-      next.message += fmt::format(" The solver itself had ended as \"{}\".", name_of(solution.status));
+      next.message += fmt::format(" The solver itself reported \"{}\".", name_of(solution.status));
     }
     solution = std::move(next);
     return steps;
@@ -174,8 +174,8 @@ void tell_of_equal_neighbours(NonlinearProgram& program, double tolerance, Solut
   }
   solution.status = Status::solved;
   solution.message = fmt::format(
-      "{} The tolerance does not determine the trajectory: others, {:.0e} of its size away on both sides, meet all "
-      "conditions at the same cost. A small term in the cost, such as the square of a control, would choose one.",
+      "{} The tolerance does not determine the trajectory: others, {:.0e} of its size away on both sides, satisfy all "
+      "conditions at the same cost. A small term in the cost, such as the square of a control, would select one.",
       sentence_of(solution.status), share * correction->length);
 }
 

@@ -105,7 +105,7 @@ struct SymmetricFactorisation::Mumps {
   void require_time_to_analyse() const {
     constexpr double seconds_per_entry = 2e-6;
     if (!positions.empty() || !(seconds_left() < seconds_per_entry * static_cast<double>(values.size()))) return;
-    throw Stopped("the time left is too short to choose an order of elimination");
+    throw Stopped("the remaining time is too short to choose an elimination order");
   }
 
   /// True if the pattern differs from the one analysed.

@@ -35,7 +35,7 @@ class TakenColumns {
     const std::string& owner = other->second;
     std::string fault = fmt::format("and \"{}\" would both have the column {}", owner, column);
     if (owner.empty()) fault = "is the name of the time";
-    if (owner == name) fault = "names two of them";
+    if (owner == name) fault = "is used twice";
     throw Error(fmt::format("{} \"{}\" {}; rename one", subject_, name, fault));
   }
 
@@ -86,8 +86,8 @@ void require_names(const Problem& problem) {
   const auto controls = names_of("control_names", [&] { return problem.control_names(); });
   if (configurations.empty()) {
     throw Error(problem.name() + ": " + member_name("configuration_names") +
-                " is empty; a problem needs a configuration, since for "
-                "first-order states alone all methods are the same");
+                " is empty; a problem needs at least one coordinate, because all methods are the same for first-order "
+                "states alone");
   }
   const auto first_order = names_of("first_order_names", [&] { return problem.first_order_names(); });
   for (const std::string& name : configurations) columns.take(name, name);

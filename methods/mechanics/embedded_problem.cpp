@@ -56,7 +56,7 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b
 
 EmbeddedProblem::EmbeddedProblem(std::shared_ptr<const Problem> redundant) : redundant_(std::move(redundant)) {
   if (!redundant_->unknowns().empty()) {
-    throw Error(redundant_->name() + ": an embedding cannot be taken where a parameter is an unknown");
+    throw Error(redundant_->name() + ": an embedding does not support unknown parameters");
   }
   trace_embedding();
   require_on_manifold();
@@ -79,11 +79,11 @@ void EmbeddedProblem::trace_embedding() {
   const Eigen::Index n = redundant_->configuration_size();
   const Eigen::Index c =
       call_formula(*redundant_, "constraints", [&] { return redundant_->constraints(input_vector(0, n)).size(); });
-  if (c == 0) throw Error(redundant_->name() + " has no constraints g(q) = 0, and needs no embedding");
+  if (c == 0) throw Error(redundant_->name() + " has no constraints g(q) = 0 and needs no embedding");
   freedoms_ = n - c;
   const ExpressionVector theta = input_vector(0, freedoms_);
   const ExpressionVector q = call_formula(*redundant_, "embedding", [&] { return redundant_->embedding(theta); });
-  if (q.size() == 0) throw Error(redundant_->name() + " states no embedding(theta); state it or take multipliers");
+  if (q.size() == 0) throw Error(redundant_->name() + " states no embedding(theta); state it or use multipliers");
   if (q.size() != n) {
     throw Error(fmt::format("{}: embedding has {} entries, expected {}", redundant_->name(), q.size(), n));
   }
@@ -103,8 +103,7 @@ void EmbeddedProblem::require_on_manifold() const {
     for (Eigen::Index a = 0; a < g.size(); ++a) {
       if (!(std::abs(g[a]) > 1e-10 * size)) continue;  // where Φ is not defined, it is not wrong
       throw Error(
-          fmt::format("{}: embedding(theta) does not keep constraints[{}]: g = {:.3g} at theta = ({:.3g}), and "
-                      "has to be 0",
+          fmt::format("{}: embedding(theta) violates constraints[{}]: g = {:.3g} at theta = ({:.3g}), but must be 0",
                       redundant_->name(), a, g[a], fmt::join(theta, ", ")));
     }
   }
@@ -123,9 +122,9 @@ Bounds EmbeddedProblem::bounds_on_theta(const ProblemBounds& bounds) const {
     result.upper[j] = std::min(result.upper[j], bounds.q.upper[i]);
   }
   if (is_possible) return result;
-  throw Error(redundant_->name() +
-              ": an embedding takes bounds between the ends only on coordinates that are entries of theta; take "
-              "multipliers");
+  throw Error(
+      redundant_->name() +
+      ": an embedding supports bounds between the ends only on coordinates that are entries of theta; use multipliers");
 }
 
 EmbeddedProblem::Chart EmbeddedProblem::chart_at(const Eigen::VectorXd& theta) const {
@@ -170,13 +169,13 @@ BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::V
                                       const char* end) const {
   const auto require_whole = [&](const Bounds& of, const char* what) {
     if (of.all_fixed() || !of.any()) return;
-    throw Error(fmt::format("{}: {} gives or bounds {} in part, which an embedding cannot take; take multipliers",
+    throw Error(fmt::format("{}: {} gives or bounds {} in part, which an embedding does not support; use multipliers",
                             redundant_->name(), member_name(end), what));
   };
   require_whole(bounds.q, "q");
   require_whole(bounds.v, "its rates");
   if (bounds.v.all_fixed() && !bounds.q.all_fixed()) {
-    throw Error(fmt::format("{}: {} gives the rates of q alone, which an embedding cannot take; take multipliers",
+    throw Error(fmt::format("{}: {} gives the rates of q alone, which an embedding does not support; use multipliers",
                             redundant_->name(), member_name(end)));
   }
   BoundaryState result{.q = theta, .v = rate_of(state.v, theta), .y = state.y};

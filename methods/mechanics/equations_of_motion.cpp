@@ -52,7 +52,7 @@ Eigen::VectorXd EquationsOfMotion::solved(const Eigen::Ref<const Eigen::VectorXd
     right << values_.head(n_), holonomic.head(c_);
     result = solve_if_invertible(saddle_matrix(mass, holonomic.tail(c_ * n_).reshaped(c_, n_)), right);
   }
-  if (!result) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+  if (!result) throw Error("the Lagrangian is not regular: L_vv is singular on the trajectory");
   return *result;
 }
 

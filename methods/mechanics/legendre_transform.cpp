@@ -76,7 +76,7 @@ Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eige
     const Eigen::VectorXd residual = p - values_.head(n_);
     const Eigen::MatrixXd mass = values_.segment(n_, n_ * n_).reshaped(n_, n_);
     const std::optional<Eigen::VectorXd> correction = velocity_correction(mass, residual, v);
-    if (!correction) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+    if (!correction) throw Error("the Lagrangian is not regular: L_vv is singular on the trajectory");
     // A residual of rounding size counts as zero, however large a correction an ill-conditioned L_vv makes of it.
     const Eigen::VectorXd smallest = rounding * (p.cwiseAbs() + mass.cwiseAbs() * v.cwiseAbs());
     const bool is_rounding = c_ == 0 && (residual.array().abs() <= smallest.array()).all();

@@ -41,9 +41,9 @@ void rethrow_naming(const std::string& name, const char* function) {
     if (std::string_view(error.what()).starts_with(name)) throw;
     throw Error(fmt::format("{}: {}: {}", name, member_name(function), error.what()));
   } catch (const std::exception& error) {
-    throw Error(fmt::format("{}: {} throws an exception: {}", name, member_name(function), error.what()));
+    throw Error(fmt::format("{}: {} threw an exception: {}", name, member_name(function), error.what()));
   } catch (...) {
-    throw Error(fmt::format("{}: {} throws an object that is not a std::exception; throw dmocbench::Error", name,
+    throw Error(fmt::format("{}: {} threw an object that is not a std::exception; throw dmocbench::Error", name,
                             member_name(function)));
   }
 }

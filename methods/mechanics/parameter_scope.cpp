@@ -94,16 +94,14 @@ ParameterTrace::ParameterTrace(const Problem& problem, const std::vector<std::st
   for (const std::string& name : names) {
     const std::size_t number = parameter_number(problem, name);
     if (problem.parameters()[number].whole) {
-      throw Error(
-          fmt::format("{}: the parameter {} is a whole number, which cannot be kept open", problem.name(), name));
+      throw Error(fmt::format("{}: the parameter {} is a whole number and cannot be kept open", problem.name(), name));
     }
     const bool is_open = std::ranges::find(open_, number) != open_.end();
     if (is_open && problem.parameters()[number].is_unknown) {
-      throw Error(fmt::format("{}: a solve chooses the unknown {}, which therefore takes no values from outside",
-                              problem.name(), name));
+      throw Error(fmt::format("{}: the unknown {} is determined by the solve and cannot be set", problem.name(), name));
     }
     if (is_open) {
-      throw Error(fmt::format("{}: the parameter {} is to be kept open twice", problem.name(), name));
+      throw Error(fmt::format("{}: the parameter {} is listed twice among the open parameters", problem.name(), name));
     }
     open_.push_back(number);
   }
@@ -122,12 +120,11 @@ void ParameterTrace::read_as_number(std::size_t parameter) {
   const auto& [name, is_unknown] =
       std::pair(problem_.parameters()[parameter].name, problem_.parameters()[parameter].is_unknown);
   if (is_unknown) {
-    throw Error(fmt::format("{}: a formula reads the unknown {} by {}, as a number; {} is the unknown", problem_.name(),
-                            name, member_name("parameter()"), member_name("varying()")));
+    throw Error(fmt::format("{}: a formula reads the unknown {} with {}, as a number; use {}", problem_.name(), name,
+                            member_name("parameter()"), member_name("varying()")));
   }
-  throw Error(
-      fmt::format("{}: the parameter {} cannot be kept open, since a formula reads it by {}; {} would let it vary",
-                  problem_.name(), name, member_name("parameter()"), member_name("varying()")));
+  throw Error(fmt::format("{}: the parameter {} cannot be kept open, because a formula reads it with {}; use {}",
+                          problem_.name(), name, member_name("parameter()"), member_name("varying()")));
 }
 
 void ParameterTrace::require_unknowns_read() const {

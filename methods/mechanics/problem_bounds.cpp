@@ -138,7 +138,7 @@ void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
     const std::string hint = bounds.upper == 0.0 ? fmt::format("; begin with {}, which fixes the ends and the horizon",
                                                                member_name("Problem::bounds()"))
                                                  : "";
-    throw Error(fmt::format("{}: {} must be positive and ascend, got {:g} and {:g}{}", problem.name(),
+    throw Error(fmt::format("{}: {} must be positive and increasing, got {:g} and {:g}{}", problem.name(),
                             member_name("bounds().horizon"), bounds.lower, bounds.upper, hint));
   }
 }

@@ -177,7 +177,7 @@ void TracedProblem::trace_holonomic(const Problem& problem) {
   holonomic_count_ = residual.size();
   if (holonomic_count_ == 0) return;
   if (holonomic_count_ >= n_) {
-    throw Error(fmt::format("{}: {} constraints leave {} coordinates no degree of freedom; there have to be fewer",
+    throw Error(fmt::format("{}: {} constraints leave no degree of freedom for {} coordinates; state fewer constraints",
                             problem.name(), holonomic_count_, n_));
   }
   for (Eigen::Index i = 0; i < holonomic_count_; ++i) {
@@ -194,7 +194,7 @@ void TracedProblem::trace_holonomic(const Problem& problem) {
 
 void TracedProblem::require_no_constraints(const char* method) const {
   if (holonomic_count_ == 0 && !has_embedding()) return;
-  throw Error(fmt::format("{} does not take {} g(q) = 0 ({}); state the problem in minimal coordinates", method,
+  throw Error(fmt::format("{} does not support {} g(q) = 0 ({}); state the problem in minimal coordinates", method,
                           has_embedding() ? "the embedding of constraints" : "constraints",
                           has_embedding() ? std::string("EmbeddedProblem") : member_name("Problem::constraints")));
 }

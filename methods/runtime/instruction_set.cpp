@@ -41,7 +41,7 @@ InstructionSet preferred_instruction_set() {
   const auto available = available_instruction_sets();
   const char* wanted = std::getenv("DMOCBENCH_INSTRUCTION_SET");  // NOLINT(concurrency-mt-unsafe): only read
   if (wanted == nullptr) return available.back();
-  return one_of(available, name_of, wanted, "DMOCBENCH_INSTRUCTION_SET: this machine does not run");
+  return one_of(available, name_of, wanted, "DMOCBENCH_INSTRUCTION_SET: this machine does not support");
 }
 
 }  // namespace dmocbench

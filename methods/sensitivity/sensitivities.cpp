@@ -99,7 +99,7 @@ struct Sensitivities::Optimum {
         kkt::FactorisationStatus::solved) {
       return;
     }
-    throw Error("the optimum has no sensitivities: the matrix of its conditions is singular");
+    throw Error("the optimum has no sensitivities: the matrix of its optimality conditions is singular");
   }
 };
 

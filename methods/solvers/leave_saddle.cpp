@@ -122,14 +122,14 @@ void leave_saddle(NonlinearProgram& program, double tolerance, const Confirmatio
   if (!at.curvature) return;
   if (const auto cost = descent.lowest_cost(); cost && is_lower(*cost, solution, tolerance)) {
     solution.status = Status::stationary;
-    solution.message =
-        fmt::format("{} A point whose cost is {:.3g} % lower meets the constraints, but no solve from there ended.",
-                    sentence_of(solution.status), decrease(solution.objective, *cost));
+    solution.message = fmt::format(
+        "{} A point whose cost is {:.3g} % lower satisfies the constraints, but no solve from there converged.",
+        sentence_of(solution.status), decrease(solution.objective, *cost));
     return;
   }
   solution.message +=
-      " The curvature is negative along a direction that meets the linearised constraints. This may be a saddle point, "
-      "although no solve from either side of it ended at a lower cost.";
+      " The curvature is negative along a direction that satisfies the linearised constraints. This may be a saddle "
+      "point, although no solve from either side of it reached a lower cost.";
 }
 
 }  // namespace dmocbench

@@ -59,7 +59,7 @@ std::pair<const Setting&, double> read_option(const std::string& name, const std
   const double value = parsed<double>(text).value_or(-1.0);
   const bool is_whole = name != "maxeval" || (value == std::floor(value) && value <= std::numeric_limits<int>::max());
   if (!std::isfinite(value) || value < 0.0 || !is_whole) {
-    throw Error(fmt::format("NLopt does not take the option {}={}; give a number that is not negative{}", name, text,
+    throw Error(fmt::format("NLopt rejects the option {}={}; give a number that is not negative{}", name, text,
                             name == "maxeval" ? " and whole" : ""));
   }
   return {setting, value};
@@ -113,8 +113,8 @@ class SlsqpRun {
     if (free_.empty()) return solution;  // NLopt needs a variable
     if (equalities_.size() > free_.size()) {
       return refused(Status::invalid_program,
-                     fmt::format("NLopt's SLSQP takes no more equalities than free variables, the program has {} and "
-                                 "{}; free some variables.",
+                     fmt::format("NLopt's SLSQP accepts at most as many equalities as free variables, but the program "
+                                 "has {} and {}; free some variables.",
                                  equalities_.size(), free_.size()));
     }
     handle_.reset(nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(free_.size())));
@@ -293,8 +293,8 @@ std::string NloptSolver::description() const {
 
 Solution NloptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
   if (const std::size_t free_count = free_variable_count(program); free_count > most_free_variables) {
-    return refused(Status::too_large, fmt::format("NLopt's SLSQP is dense and takes at most {} free variables, the "
-                                                  "program has {}; take fewer intervals or another solver.",
+    return refused(Status::too_large, fmt::format("NLopt's SLSQP is dense and accepts at most {} free variables, but "
+                                                  "the program has {}; use fewer intervals or another solver.",
                                                   most_free_variables, free_count));
   }
   return SlsqpRun(program, start, options(), named_).run();

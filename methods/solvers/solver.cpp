@@ -94,20 +94,19 @@ std::string fault_of_start(const Eigen::VectorXd& start) {
   return {};
 }
 
-/// The answer to a scaled program, as one of the program itself.
+/// The solution of a scaled program, as one of the program itself.
 void state_without_scaling(NonlinearProgram& program, const Scaling& scaling, const ScaledProgram& scaled,
                            Solution& solution) {
   if (scaling.of_cost != 1.0) {
     solution.message += fmt::format(
-        " The cost was too small for the tolerance: the solver got it multiplied by {:.0e}, as `cost_scale` of a "
-        "problem does.",
+        " The cost was too small for the tolerance and was multiplied by {:.0e} for the solver, as by `cost_scale` of "
+        "a problem.",
         scaling.of_cost);
   }
   if (scaling.of_rows.size() > 0) {
-    solution.message += fmt::format(
-        " The solver got {} constraints multiplied by powers of two ({:.0e} to {:.0e}), since their sizes are far from "
-        "1.",
-        (scaling.of_rows.array() != 1.0).count(), scaling.of_rows.minCoeff(), scaling.of_rows.maxCoeff());
+    solution.message +=
+        fmt::format(" {} constraints, whose sizes are far from 1, were multiplied by {:.0e} to {:.0e} for the solver.",
+                    (scaling.of_rows.array() != 1.0).count(), scaling.of_rows.minCoeff(), scaling.of_rows.maxCoeff());
   }
   if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would ignore the factors
   if (solution.barrier_parameter) *solution.barrier_parameter /= scaling.of_cost;
@@ -150,7 +149,7 @@ void Solver::check(const NonlinearProgram& program, const Eigen::VectorXd& start
                    std::optional<double> barrier_parameter) {
   const auto require = [](Eigen::Index given, std::size_t wanted, const char* what, const char* of_program) {
     if (static_cast<std::size_t>(given) == wanted) return;
-    throw Error(fmt::format("{} {} entries, the program {} {}", what, given, wanted, of_program));
+    throw Error(fmt::format("{} {} entries, but the program has {} {}", what, given, wanted, of_program));
   };
   require(start.size(), program.variable_count(), "the start has", "variables");
   if (multipliers.size() > 0) {

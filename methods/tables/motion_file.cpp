@@ -64,7 +64,7 @@ Eigen::VectorXd times_in(const Table& table, const std::filesystem::path& file) 
   Eigen::VectorXd times = columns(table, {"t"}, "", file);
   for (Eigen::Index k = 0; k < times.size(); ++k) {
     if (std::isfinite(times[k]) && (k == 0 || times[k] > times[k - 1])) continue;
-    throw Error(fmt::format("{}: t must be finite and ascend, but does not in row {}", file.string(), k + 1));
+    throw Error(fmt::format("{}: t must be finite and increase, which fails in row {}", file.string(), k + 1));
   }
   return times;
 }
@@ -127,8 +127,8 @@ void require_one_motion(const Trajectory& motion, const std::filesystem::path& n
     return;
   }
   throw Error(
-      fmt::format("{} has stages from t = {:g} to {:g}, and the nodes in {} reach from 0 to {:g}: they are not of "
-                  "one motion, or one of the files was cut",
+      fmt::format("{} has stages from t = {:g} to {:g}, and the nodes in {} reach from 0 to {:g}: they belong to "
+                  "different trajectories, or one of the files is truncated",
                   stages.string(), first_stage, last_stage, nodes.filename().string(), motion.node_times[last]));
 }
 
@@ -137,8 +137,9 @@ void require_one_motion(const Trajectory& motion, const std::filesystem::path& n
 void require_similar_horizon(const Problem& problem, double horizon, const std::filesystem::path& nodes) {
   constexpr double most = 10.0;
   if (horizon <= most * problem.horizon() && most * horizon >= problem.horizon()) return;
-  throw Error(fmt::format("{}: the motion lasts {:g}, {} lasts {:g}; a start is stretched by a factor of at most {:g}",
-                          nodes.string(), horizon, problem.name(), problem.horizon(), most));
+  throw Error(fmt::format(
+      "{}: the trajectory lasts {:g}, but {} lasts {:g}; a start can be stretched by a factor of at most {:g}",
+      nodes.string(), horizon, problem.name(), problem.horizon(), most));
 }
 
 std::vector<std::string> unknown_names(const Problem& problem) {
@@ -174,7 +175,7 @@ PointFunction path_function(const Problem& problem) {
 Series priced(const std::string& prefix, const std::vector<std::string>& names, const Eigen::MatrixXd& prices,
               const std::string& of) {
   return {prefix, prices.size() > 0 ? names : std::vector<std::string>(), prices,
-          "growth of the least cost per unit of the bound of " + of};
+          "increase of the optimal cost per unit of the bound of " + of};
 }
 
 /// λ at the stages, whatever the method; without columns where there are none, or the equations of motion are singular.
@@ -207,7 +208,7 @@ std::vector<Series> constants(const Problem& problem, const Trajectory& trajecto
   for (Eigen::Index i = 1; i <= trajectory.integrals.size(); ++i) integrals.push_back(fmt::format("integral_{}", i));
   std::vector<Series> all{{"", unknown_names(problem), repeated(trajectory.unknowns), "unknown parameter"},
                           priced("price_", unknown_names(problem), repeated(prices.unknowns), "an unknown parameter"),
-                          {"", integrals, repeated(trajectory.integrals), "integral over the motion"},
+                          {"", integrals, repeated(trajectory.integrals), "integral over the trajectory"},
                           priced("price_", integrals, repeated(trajectory.integral_prices), "an integral")};
   if (trajectory.has_costates() && problem.bounds().horizon.is_free()) {
     all.push_back(priced("price_", {"horizon"}, repeated(Eigen::VectorXd::Constant(1, prices.horizon)), "T"));
@@ -354,7 +355,7 @@ Trajectory motion_in_tables(const Problem& problem, const Table& nodes, const st
   Trajectory trajectory;
   trajectory.tableau = gauss_tableau(1);
   trajectory.node_times = times_in(nodes, file);
-  if (trajectory.node_times.size() < 2) throw Error(fmt::format("{} holds no motion", file.string()));
+  if (trajectory.node_times.size() < 2) throw Error(fmt::format("{} contains no trajectory", file.string()));
   if (std::abs(trajectory.node_times[0]) > 1e-9 * trajectory.node_times.tail<1>()[0])
     throw Error(fmt::format("{}: t must begin at 0", file.string()));
   require_similar_horizon(problem, trajectory.node_times.tail<1>()[0], file);
@@ -366,7 +367,7 @@ Trajectory motion_in_tables(const Problem& problem, const Table& nodes, const st
   } else {
     const std::filesystem::path stages_file = stages_file_of(file);
     trajectory.stage_times = times_in(*stages, stages_file);
-    if (trajectory.stage_times.size() == 0) throw Error(fmt::format("{} holds no motion", stages_file.string()));
+    if (trajectory.stage_times.size() == 0) throw Error(fmt::format("{} contains no trajectory", stages_file.string()));
     require_one_motion(trajectory, file, stages_file);
     trajectory.stage_u = columns(*stages, problem.control_names(), "", stages_file);
   }
@@ -469,14 +470,14 @@ Table quantity_table(const Problem& problem) {
   Table table({"kind", "quantity", "unit", "lower", "upper", "time"});
   constexpr FieldType text{FieldKind::text, true};
   constexpr FieldType number{FieldKind::number, true};
-  table.describe(
-      {{"kind", {"", "t, q, u or h, a path constraint", text}},
-       {"quantity", {"", "the column with this name in the tables of the motion", text}},
-       {"unit", {"", "as the problem states it; empty where it states none", text}},
-       {"lower", {"", "its lower bound; empty for none", number}},
-       {"upper", {"", "its upper bound; empty for none", number}},
-       {"time",
-        {"", "time at which these bounds hold, as a share of T; empty for bounds along the whole motion", number}}});
+  table.describe({{"kind", {"", "t, q, u or h, a path constraint", text}},
+                  {"quantity", {"", "the column with this name in the tables of the trajectory", text}},
+                  {"unit", {"", "as the problem states it; empty where it states none", text}},
+                  {"lower", {"", "its lower bound; empty for none", number}},
+                  {"upper", {"", "its upper bound; empty for none", number}},
+                  {"time",
+                   {"", "time at which these bounds hold, as a share of T; empty for bounds along the whole trajectory",
+                    number}}});
   table.set_key({"kind", "quantity", "time"});
   Row time;
   time.set("kind", "t");

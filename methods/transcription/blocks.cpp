@@ -168,10 +168,10 @@ void add_element_equations(const Sizes& of, const EndRules& ends, const Interval
     declare.in_intervals(kind, of.n, {ComponentNames::configuration, sentence, equation_number}, stage);
   };
   if (!functions.has_stage_unknowns) {
-    add(motion, "the motion from node to node: {}", no_stage);
+    add(motion, "the trajectory from node to node: {}", no_stage);
     add(second_motion,
-        has_momenta ? "the motion from node to node: the momentum of {}"
-                    : "the motion from node to node: the velocity of {}",
+        has_momenta ? "the trajectory from node to node: the momentum of {}"
+                    : "the trajectory from node to node: the velocity of {}",
         no_stage);
   } else if (ends.carries_q_alone() && count == (functions.rates.stages() - 1) * of.n) {
     for (Eigen::Index i = 0; i + 1 < functions.rates.stages(); ++i) add(euler_lagrange, euler_lagrange_of, i);

@@ -254,7 +254,7 @@ std::string vanishing_conditions(const Problem& problem, Transcription& transcri
     const auto node = place.kind == Place::Kind::node ? static_cast<Eigen::Index>(place.index)
                                                       : static_cast<Eigen::Index>(transcription.blocks().intervals());
     text += fmt::format(
-        " {} is rank deficient: its derivatives vanish at node {} (t = {:.4g}); state it by a formula whose "
+        " {} is rank deficient: its derivatives vanish at node {} (t = {:.4g}); state it with a formula whose "
         "derivatives do not vanish where it holds.",
         entry_of("boundary_conditions", i, problem.card().boundary_condition_names), node,
         transcription.node_times(x)[node]);
@@ -275,8 +275,9 @@ std::string dependent_constraints(const Problem& problem, Transcription& transcr
   if (rows.size() > most_named) named.push_back(fmt::format("{} more", rows.size() - most_named));
   const std::string last = named.back();
   named.pop_back();
-  return fmt::format(" Constraints depend on each other, so that one of them is implied or cannot be met: {} and {}.",
-                     fmt::join(named, "; "), last);
+  return fmt::format(
+      " These constraints depend on each other, so one of them is implied or cannot be satisfied: {} and {}.",
+      fmt::join(named, "; "), last);
 }
 
 /// A sentence if no unknown is left to choose: the equations alone determine the motion.
@@ -332,7 +333,7 @@ std::string idle_controls(const Problem& problem) {
     }
   }
   if (std::any_of(acts.begin(), acts.begin() + m, std::identity{})) return "";
-  return fmt::format(" No entry of force reads a control{}, so that no control steers this motion.",
+  return fmt::format(" No entry of force depends on a control{}, so no control can steer the system.",
                      l > 0 ? ", nor a first-order state that one acts on" : "");
 }
 
@@ -361,7 +362,7 @@ std::string contradiction(const Transcription& transcription) {
   if (transcription.traced_problem().integral_count() > 0) parts.push_back(member_name("bounds().integrals"));
   if (transcription.traced_problem().holonomic_count() > 0) parts.emplace_back("constraints");
   if (parts.empty()) return "";
-  std::string text = " The solver found no motion near this one that meets " + parts.front();
+  std::string text = " The solver found no trajectory near this one that satisfies " + parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
   return text + " within the bounds and the horizon.";
 }
@@ -392,8 +393,8 @@ std::string describe_flat_constraint(const Problem& problem, Transcription& tran
   const FlatRow& worst = *std::ranges::max_element(flat, {}, violation);
   const ConstraintWords words(problem, transcription, guess);
   return fmt::format(
-      "The guess violates {}, whose derivative by {} vanishes there, so that it does not show on which side to pass: "
-      "guess a trajectory next to it.",
+      "The guess violates {}, whose derivative with respect to {} vanishes there, so it does not determine on which "
+      "side to pass: guess a trajectory on one side of it.",
       words.row(worst.row), words.component(worst.unknown));
 }
 

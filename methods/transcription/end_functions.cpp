@@ -44,8 +44,8 @@ void require_quadratic(const Problem& problem, const TracedProblem& traced) {
     const double change = (mass_at(share * speed.cwiseProduct(order)) - at_rest).lpNorm<Eigen::Infinity>();
     if (change <= 1e-9 * at_rest.lpNorm<Eigen::Infinity>()) continue;
     throw Error(problem.name() +
-                ": hamiltonian takes constraints g(q) = 0 only where L is quadratic in the velocity, and here L_vv "
-                "depends on it; take dmoc or tangent");
+                ": hamiltonian supports constraints g(q) = 0 only if L is quadratic in the velocity, but L_vv depends "
+                "on it; use dmoc or tangent");
   }
 }
 
@@ -243,7 +243,7 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
     if (!(excess > uncertainty(h, x, values))) continue;  // a NaN at an end may be a number inside
     throw Error(
         fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} there (t = "
-                    "{:g}), and has to be at {} {:g}",
+                    "{:g}), but must be at {} {:g}",
                     problem.name(), member_name(point.name), i, names.empty() ? "" : " (" + names[i] + ")", value,
                     point.time, is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]));
   }
@@ -273,8 +273,8 @@ void require_holonomic_constraints_at_ends(const Problem& problem, const TracedP
     const Eigen::VectorXd terms = constraints.jacobian().cwiseAbs() * of.cwiseAbs();
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       if (std::abs(values[i]) <= known_digits * (1.0 + terms[i])) continue;
-      throw Error(fmt::format("{}: {} does not keep constraints[{}]: {} = {:.3g} there, and has to be 0",
-                              problem.name(), member_name(name), i, what, values[i]));
+      throw Error(fmt::format("{}: {} violates constraints[{}]: {} = {:.3g} there, but must be 0", problem.name(),
+                              member_name(name), i, what, values[i]));
     }
   };
   for (const auto& [end, name] : {std::pair(&bounds.first, "initial_state"), std::pair(&bounds.last, "final_state")}) {

@@ -106,7 +106,8 @@ LocalFunctions trace_velocity_tie(const TracedProblem& traced, const Element& el
 IntervalFunctions trace_interval(const TracedProblem& traced, const Element& element, const Tableau& tableau,
                                  const IntervalRules& rules) {
   if (traced.has_embedding() && !element.takes_embedding(tableau)) {
-    throw Error("the embedding of constraints is offered with dmoc and hamiltonian by --tableau gauss --stages 1 only");
+    throw Error(
+        "the embedding of constraints is supported by dmoc and hamiltonian with --tableau gauss --stages 1 only");
   }
   const Unknowns unknowns = make_unknowns(traced, element, tableau, rules);
   const TracedProblem problem = traced.with_open_inputs(unknowns.parameters);

@@ -83,7 +83,7 @@ LaneTranscription::LaneTranscription(const Transcription& program)
     throw Error("a batch supports neither first-order states nor integral constraints");
   }
   if (program.traced_problem().unknown_count() > 0) throw Error("a batch needs given parameters; some are unknown");
-  if (!program.bounds().interior.empty()) throw Error("a batch supports no bounds between the ends");
+  if (!program.bounds().interior.empty()) throw Error("a batch does not support bounds between the ends");
   if (program.has_free_horizon()) throw Error("a batch needs a given horizon, but this problem's is free");
   const ProgramBlocks& blocks = program.blocks();
   const auto add = [&](const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
@@ -195,7 +195,7 @@ std::function<void(const Eigen::VectorXd&)> parameters_of(Transcription& program
 ClampedEnds::ClampedEnds(const Transcription& program) : program_(program), legendre_(program.traced_problem()) {
   const bool are_clamped = program.bounds().first.all_fixed() && program.bounds().last.all_fixed();
   if (!are_clamped || program.has_free_horizon()) {
-    throw Error("the ends of this problem are not clamped: a batch cannot give every instance its own");
+    throw Error("the end states of this problem are not fixed, so instances of a batch cannot differ in them");
   }
 }
 

@@ -57,7 +57,7 @@ SingleShooting::SingleShooting(Transcription& program)
     : program_(program), interval_(program.functions().rows.schedule), workspace_(interval_) {
   const ProgramBlocks& blocks = program.blocks();
   if (blocks.unknown(Quantity::integral).width > 0)
-    throw Error("single shooting has no integral constraints; take multiple_shooting");
+    throw Error("single shooting does not support integral constraints; use multiple_shooting");
   if (program.functions().has_stage_unknowns || blocks.unknown(Quantity::cost).width > 0) {
     throw Error("single shooting condenses programs of multiple shooting in Bolza form only");
   }
@@ -66,8 +66,8 @@ SingleShooting::SingleShooting(Transcription& program)
   const Eigen::Index entries = std::ssize(simulated_) * std::ssize(kept_);
   if (entries > most_entries) {
     throw Error(
-        fmt::format("single shooting keeps a dense matrix of {} states by {} unknowns, of at most {} entries; "
-                    "take fewer intervals, or multiple_shooting",
+        fmt::format("single shooting keeps a dense matrix of {} states by {} unknowns, of at most {} entries; use "
+                    "fewer intervals, or multiple_shooting",
                     simulated_.size(), kept_.size(), most_entries));
   }
   set_structures();

@@ -38,15 +38,15 @@ void require_equalities_fit(const Problem& problem, const TracedProblem& traced,
     ++equalities;
     if (controls.stages() < tableau.stages()) {
       throw Error(
-          fmt::format("{}: {} makes path_constraints[{}] an equality at {} points of an interval, more than "
-                      "its {} control nodes; take as many --control-nodes",
+          fmt::format("{}: {} makes path_constraints[{}] an equality at {} points of an interval, more than its {} "
+                      "control nodes; use as many --control-nodes",
                       problem.name(), member_name("bounds().path"), i, tableau.stages(), controls.stages()));
     }
     const bool is_same = controls.shares_controls || !traced.constraints_read_controls()[static_cast<std::size_t>(i)];
     if (!has_stages_at_nodes || !is_same) continue;
     throw Error(
-        fmt::format("{}: {} makes path_constraints[{}] an equality, which with stages at the nodes "
-                    "two intervals would impose on the same numbers; take --tableau gauss",
+        fmt::format("{}: {} makes path_constraints[{}] an equality, which two intervals would impose on the same node; "
+                    "use --tableau gauss",
                     problem.name(), member_name("bounds().path"), i));
   }
   if (equalities <= traced.control_size()) return;
@@ -106,8 +106,7 @@ void require_same_times(const Problem& problem, const ProblemBounds& before, con
   };
   if (std::ranges::equal(before.interior, now.interior, is_same)) return;
   throw Error(problem.name() + ": " + member_name("bounds().interior") +
-              " has other times than before, or bounds on other velocities; that is another "
-              "transcription");
+              " has other times than before, or bounds on other velocities; make a new transcription");
 }
 
 }  // namespace
@@ -233,7 +232,7 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
   if (surplus >= 0) return;
   if (gain <= 0) {
     throw Error(
-        fmt::format("{} has no control that is free: no number of intervals lets it meet both ends", problem.name()));
+        fmt::format("{} has no free control, so no number of intervals can satisfy both end states", problem.name()));
   }
   const auto smallest = static_cast<long long>(intervals) + (-surplus + gain - 1) / gain;
   throw Error(fmt::format("{} with {} has fewer free variables than equations on {} intervals; it needs at least {}",

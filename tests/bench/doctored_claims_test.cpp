@@ -278,7 +278,7 @@ TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
     write("objective", columns, rows);
   };
   slip_in("objective", columns, {rows.begin(), rows.end() - 1});
-  expect("6 rows and objective.csv has 5");
+  expect("6 rows but objective.csv has 5");
   ColumnNames more = columns;
   more.emplace_back("wish");
   slip_in("objective", more, rows);
@@ -306,7 +306,7 @@ TEST_F(DoctoredClaims, AreNotJudgedWhereAnyTableIsNotAsItsRunWroteIt) {
     bool is_told = false;
     const Judgements judged = judge();
     for (const JudgedClaim& claim : std::views::values(judged)) {
-      if (claim.measured().find(name + ".csv is not as its run wrote it") == std::string::npos) continue;
+      if (claim.measured().find(name + ".csv was changed after its run") == std::string::npos) continue;
       is_told = true;
       EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << claim.id();
     }

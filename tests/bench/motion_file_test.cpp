@@ -64,11 +64,11 @@ TEST_F(MotionFile, IsRefusedWithItsNameWhereItIsNoMotion) {
   expect("t,q,v_q\n0,0,0\n0.25,nan,1\n1,1,0\n", stages_text, {"X_nodes.csv", "column q"});
   expect("t,q,v_q\n0,0,0\n0.25,0,inf\n1,1,0\n", stages_text, {"X_nodes.csv", "column v_q"});
   expect("t,q,v_q\n0,0,0\n0.25,0\n1,1,0\n", stages_text, {"X_nodes.csv", "record 3"});
-  expect("t,q,v_q\n0,0,0\n0.5,0,0\n0.5,0,0\n1,1,0\n", stages_text, {"X_nodes.csv", "ascend"});
+  expect("t,q,v_q\n0,0,0\n0.5,0,0\n0.5,0,0\n1,1,0\n", stages_text, {"X_nodes.csv", "increase"});
   expect("t,q,v_q\n0.1,0,0\n1,1,0\n", stages_text, {"X_nodes.csv", "begin at 0"});
-  expect("t,q,v_q\n0,0,0\n", stages_text, {"X_nodes.csv", "no motion"});
-  expect("t,q,v_q\n0,0,0\n0.25,0.1,1\n0.5,0.5,1.5\n", stages_text, {"X_stages.csv", "cut"});
-  expect(nodes_text, "t,u\n0.125,4\n0.375,2\n", {"X_stages.csv", "cut"});
+  expect("t,q,v_q\n0,0,0\n", stages_text, {"X_nodes.csv", "no trajectory"});
+  expect("t,q,v_q\n0,0,0\n0.25,0.1,1\n0.5,0.5,1.5\n", stages_text, {"X_stages.csv", "truncated"});
+  expect(nodes_text, "t,u\n0.125,4\n0.375,2\n", {"X_stages.csv", "truncated"});
   const std::string costates = "t,q,v_q,psi_q_q,psi_p_q\n0,0,0,1,1\n0.5,0.5,1,";
   expect(costates + "x,1\n1,1,0,1,1\n", stages_text, {"X_nodes.csv", "column psi_q_q"});
   expect(costates + "1,\n1,1,0,1,1\n", stages_text, {"X_nodes.csv", "column psi_p_q"});

@@ -89,7 +89,7 @@ TEST_F(Stores, OfACopiedFolderHaveTheirTablesThere) {
   };
   for (const char* const name :
        {"/tmp/victim", "../invariants", "invariants/../../victim", ".bashrc", "convergence", ""})
-    expect_refused("name", name, "not one of this run");
+    expect_refused("name", name, "which this run does not write");
   for (const char* const member : {"name", "csv", "facts", "key", "not_measured"})
     expect_refused(member, nullptr, member);
 }

@@ -165,7 +165,7 @@ TEST(ProblemCheck, RefusesColumnsThatWouldShareAName) {
     expect_refused({"\"x\"", other}, [&](Words& words) { words.q = {other, "x"}; });
     expect_refused({"\"x\"", other}, [&](Words& words) { words.u = {"f", other}; });
   }
-  expect_refused({"\"x\"", "two"}, [](Words& words) { words.u = {"x", "g"}; });
+  expect_refused({"\"x\"", "twice"}, [](Words& words) { words.u = {"x", "g"}; });
   expect_refused({"time"}, [](Words& words) { words.q = {"t", "x"}; });
   const auto pictured = [](std::vector<std::pair<std::string, std::string>> quantities) {
     return [=](Words& words) {
@@ -176,7 +176,7 @@ TEST(ProblemCheck, RefusesColumnsThatWouldShareAName) {
       };
     };
   };
-  expect_refused({"picture", "\"a\"", "two"}, pictured({{"a", ""}, {"a", ""}}));
+  expect_refused({"picture", "\"a\"", "twice"}, pictured({{"a", ""}, {"a", ""}}));
   expect_refused({"picture", "a_in_m"}, pictured({{"a", "m"}, {"a_in_m", ""}}));
   expect_refused({"picture", "time"}, pictured({{"t", ""}}));
   expect_refused({"picture", "time"}, pictured({{"t", "s"}}));

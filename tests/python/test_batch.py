@@ -50,7 +50,7 @@ class Batches(unittest.TestCase):
         self.assertAlmostEqual(batch.cost[1], db.solve("cart_pole", intervals=48).cost, places=6)
 
     def test_refuse_values_of_what_a_solve_chooses(self):
-        with self.assertRaisesRegex(db.Error, "^cannonball: a solve chooses the unknown radius, which therefore takes no values"):
+        with self.assertRaisesRegex(db.Error, "^cannonball: the unknown radius is determined by the solve and cannot be set"):
             db.solve_batch("cannonball", parameters={"radius": [0.04, 0.05]})
 
 

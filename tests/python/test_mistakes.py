@@ -126,7 +126,7 @@ class Mistakes(unittest.TestCase):
         solution = db.solve(restated.TwoLinkWithMotors(), intervals=64, stages=2)
         with self.assertRaisesRegex(db.Error, "first-order states"):
             solution.estimated_error()
-        with self.assertRaisesRegex(db.Error, "a batch cannot take"):
+        with self.assertRaisesRegex(db.Error, "cannot be solved in a batch"):
             db.solve_batch(restated.TwoLinkWithMotors(), start=np.zeros((3, 4)))
         self.refused("start= has 2 coordinates, .* but the problem 1, 1 and 0", PendulumSwingUp(), start=solution)
         self.refused("tableau=\"gauss\", stages=1", "cart_pole_cartesian", method="dmoc", stages=2)

@@ -118,9 +118,9 @@ std::string refusal(PendulumByRod::Embedding embedding, bool has_wall = false) {
 
 TEST(EmbeddedProblemRefuses, ThatLeaveTheConstraints) {
   const std::string sentence = refusal([](const Expression& theta) { return ExpressionVector{{sin(theta), theta}}; });
-  EXPECT_NE(sentence.find("pendulum_by_rod: embedding(theta) does not keep constraints[0]: g = "), std::string::npos)
+  EXPECT_NE(sentence.find("pendulum_by_rod: embedding(theta) violates constraints[0]: g = "), std::string::npos)
       << sentence;
-  EXPECT_NE(sentence.find(", and has to be 0"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find(", but must be 0"), std::string::npos) << sentence;
 }
 
 TEST(EmbeddedProblemRefuses, ThatMissAnEnd) {
@@ -137,14 +137,14 @@ TEST(EmbeddedProblemRefuses, OfAnotherSizeOrNone) {
   EXPECT_EQ(refusal([](const Expression& theta) { return ExpressionVector{{theta}}; }),
             "pendulum_by_rod: embedding has 1 entries, expected 2");
   EXPECT_EQ(refusal([](const Expression&) { return ExpressionVector(); }),
-            "pendulum_by_rod states no embedding(theta); state it or take multipliers");
+            "pendulum_by_rod states no embedding(theta); state it or use multipliers");
 }
 
 TEST(EmbeddedProblemRefuses, BoundsOnCoordinatesThatAreNotItsOwn) {
   EXPECT_EQ(
       refusal(on_circle, true),
-      "pendulum_by_rod: an embedding takes bounds between the ends only on coordinates that are entries of theta; "
-      "take multipliers");
+      "pendulum_by_rod: an embedding supports bounds between the ends only on coordinates that are entries of theta; "
+      "use multipliers");
 }
 
 TEST(EmbeddedProblemRefuses, OtherMethodsAndTableaus) {
@@ -153,7 +153,7 @@ TEST(EmbeddedProblemRefuses, OtherMethodsAndTableaus) {
                                Scheme{"multiple_shooting_rk4_1", 1}}) {
     EXPECT_EQ(
         tests::sentence_of_error([&] { static_cast<void>(tests::transcribe(problem, scheme, Grid::uniform(8))); }),
-        "the embedding of constraints is offered with dmoc and hamiltonian by --tableau gauss --stages 1 only");
+        "the embedding of constraints is supported by dmoc and hamiltonian with --tableau gauss --stages 1 only");
   }
 }
 

@@ -374,7 +374,7 @@ TEST_P(EverySolver, IsCountedByWhatTheProgramSees) {
 TEST_P(EverySolver, RefusesAStartOfTheWrongSize) {
   SmallProgram program = tests::rosenbrock();
   EXPECT_EQ(tests::sentence_of_error([&] { static_cast<void>(solve(program, everywhere(3, 0.0))); }),
-            "the start has 3 entries, the program 2 variables");
+            "the start has 3 entries, but the program has 2 variables");
 }
 
 }  // namespace

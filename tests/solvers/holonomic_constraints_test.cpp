@@ -305,7 +305,7 @@ TEST(HolonomicConstraintsWithoutInertia, HaveOrderTwoByDmocWithOneGaussStage) {
 
 TEST(HolonomicConstraintsWithoutInertia, AreRefusedByOtherMethods) {
   for (const Scheme& scheme : {Scheme{"dmoc", 2, "lobatto"}, Scheme{"tangent", 1}}) {
-    tests::expect_error_naming({"L_vv is singular", "take dmoc with --tableau gauss --stages 1"},
+    tests::expect_error_naming({"L_vv is singular", "use dmoc with --tableau gauss --stages 1"},
                                [&] { static_cast<void>(tests::transcribe(Bead(), scheme, Grid::uniform(8))); });
   }
 }
@@ -352,12 +352,11 @@ TEST(HolonomicConstraintsRefused, ThatLeaveNoFreedom) {
   EXPECT_EQ(refusal([](const ExpressionVector& q) {
               return ExpressionVector{{q[0], q[1]}};
             }),
-            "misstated: 2 constraints leave 2 coordinates no degree of freedom; there have to be fewer");
+            "misstated: 2 constraints leave no degree of freedom for 2 coordinates; state fewer constraints");
 }
 
 TEST(HolonomicConstraintsRefused, WhereAnEndIsOffTheManifold) {
-  EXPECT_EQ(refusal(on_diagonal, 1.5),
-            "misstated: final_state does not keep constraints[0]: g = 0.5 there, and has to be 0");
+  EXPECT_EQ(refusal(on_diagonal, 1.5), "misstated: final_state violates constraints[0]: g = 0.5 there, but must be 0");
 }
 
 TEST(HolonomicConstraintsRefused, WithGradientsThatVanish) {
@@ -367,15 +366,15 @@ TEST(HolonomicConstraintsRefused, WithGradientsThatVanish) {
 
 TEST(HolonomicConstraintsRefused, ByTableausThatAreNotOffered) {
   EXPECT_EQ(refusal(on_diagonal, 1.0, {"dmoc", 2}),
-            "dmoc has constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
+            "dmoc supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
   EXPECT_EQ(refusal(on_diagonal, 1.0, {"hamiltonian", 2}),
-            "hamiltonian has constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
-  EXPECT_EQ(
-      refusal(on_diagonal, 1.0, {"tangent", 3}),
-      "tangent has constraints g(q) = 0 with --tableau gauss --stages 1 or 2, or --tableau lobatto --stages 2 or 3");
+            "hamiltonian supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
+  EXPECT_EQ(refusal(on_diagonal, 1.0, {"tangent", 3}),
+            "tangent supports constraints g(q) = 0 with --tableau gauss --stages 1 or 2, or --tableau lobatto --stages "
+            "2 or 3");
   EXPECT_EQ(
       refusal(on_diagonal, 1.0, {"multiple_shooting_rk4_1", 1}),
-      "constraints g(q) = 0 are not offered with --method multiple_shooting_rk4_1; take dmoc, hamiltonian or tangent");
+      "constraints g(q) = 0 are not supported with --method multiple_shooting_rk4_1; use dmoc, hamiltonian or tangent");
 }
 
 /// A particle on a line whose inertia grows with its speed.
@@ -404,8 +403,8 @@ TEST(HolonomicConstraintsRefused, ByHamiltonianCollocationWhereInertiaDependsOnT
   for (const Scheme& scheme : {Scheme{"hamiltonian", 1}, Scheme{"hamiltonian", 2, "lobatto"}}) {
     EXPECT_EQ(
         tests::sentence_of_error([&] { static_cast<void>(tests::transcribe(problem, scheme, Grid::uniform(8))); }),
-        "faster_is_heavier: hamiltonian takes constraints g(q) = 0 only where L is quadratic in the velocity, and "
-        "here L_vv depends on it; take dmoc or tangent");
+        "faster_is_heavier: hamiltonian supports constraints g(q) = 0 only if L is quadratic in the velocity, but "
+        "L_vv depends on it; use dmoc or tangent");
   }
   for (const Scheme& scheme : {Scheme{"dmoc", 1}, Scheme{"tangent", 1}}) {
     solved(problem, scheme, 16, guessed_motion(problem));  // fails where it is not confirmed

@@ -204,8 +204,7 @@ TEST_F(WiderStatementsRefused, UnknownThatAFormulaReadsAsANumber) {
       return parameter("a") * x.u[0] * x.u[0];
     }
   };
-  EXPECT_EQ(sentence(Number()),
-            "number: a formula reads the unknown a by parameter(), as a number; varying() is the unknown");
+  EXPECT_EQ(sentence(Number()), "number: a formula reads the unknown a with parameter(), as a number; use varying()");
 }
 
 TEST_F(WiderStatementsRefused, BoundsOfAnotherSize) {
@@ -241,7 +240,7 @@ TEST_F(WiderStatementsRefused, EqualitiesThatLeaveNothingFree) {
               s.path_constraints = [](const ControlledState& x) { return one(x.u[0] - x.q[0]); };
               s.path = Bounds::all(1, 0.0, 0.0);
             }),
-            "double_integrator has no control that is free: no number of intervals lets it meet both ends");
+            "double_integrator has no free control, so no number of intervals can satisfy both end states");
 }
 
 TEST_F(WiderStatementsRefused, EqualityThatTwoIntervalsWouldImposeOnANode) {
@@ -251,8 +250,8 @@ TEST_F(WiderStatementsRefused, EqualityThatTwoIntervalsWouldImposeOnANode) {
     s.path = Bounds::all(1, 0.0, 0.0);
   });
   EXPECT_EQ(sentence(problem, {"dmoc", 2, "lobatto"}),
-            "two_forces: bounds().path makes path_constraints[0] an equality, which with stages at the nodes two "
-            "intervals would impose on the same numbers; take --tableau gauss");
+            "two_forces: bounds().path makes path_constraints[0] an equality, which two "
+            "intervals would impose on the same node; use --tableau gauss");
 }
 
 }  // namespace

@@ -76,8 +76,9 @@ TEST_P(ViolationInWords, UnreachableFinalStateIsNamedWithTheBoundsThatHold) {
   EXPECT_PRED2(says, words, " of q[0] (q1) ");
   EXPECT_PRED2(says, words, "(t = ");
   EXPECT_PRED2(says, words, "bounds().u holds u[0] (u1) at ");
-  EXPECT_PRED2(says, words,
-               "The solver found no motion near this one that meets final_state within the bounds and the horizon.");
+  EXPECT_PRED2(
+      says, words,
+      "The solver found no trajectory near this one that satisfies final_state within the bounds and the horizon.");
   const std::string before = "The largest violation is ";
   const double amount = std::stod(words.substr(words.find(before) + before.size()));
   EXPECT_NEAR(amount, constraint_violation(*ended.transcription, ended.solution.primal), 0.01 * amount);
@@ -207,7 +208,7 @@ TEST_P(ViolationInWords, TellsTheNamesOfConstraintsAndThatNoForceReadsAControl) 
   const Idle problem;
   Ended ended(problem, GetParam());
   EXPECT_PRED2(says, ended.words(), "path_constraints[1] (ceiling) in interval ");
-  EXPECT_PRED2(says, ended.words(), "No entry of force reads a control");
+  EXPECT_PRED2(says, ended.words(), "No entry of force depends on a control");
   const auto last = static_cast<std::size_t>(ended.transcription->constraint_count()) - 1;
   EXPECT_EQ(describe_constraint(problem, *ended.transcription, ended.solution.primal, last),
             "boundary_conditions[0] (gate)");
@@ -238,7 +239,7 @@ class ByWayOfTwoRates final : public tests::SmallProblem {
 
 TEST_P(ViolationInWords, FollowsControlsThroughFirstOrderStates) {
   const ByWayOfTwoRates steered(true);
-  EXPECT_EQ(Ended(steered, GetParam()).words().find("no control steers"), std::string::npos);
+  EXPECT_EQ(Ended(steered, GetParam()).words().find("no control can steer"), std::string::npos);
   const ByWayOfTwoRates idle(false);
   EXPECT_PRED2(says, Ended(idle, GetParam()).words(), "nor a first-order state that one acts on");
 }

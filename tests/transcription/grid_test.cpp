@@ -61,7 +61,7 @@ TEST(Grid, RefusesNodesThatDoNotAscendStrictlyFromZeroToOne) {
 TEST(Grid, RefusesAnIntervalSoNarrowThatRoundingDrownsTheMotion) {
   EXPECT_NO_THROW(static_cast<void>(Grid::from_nodes(nodes({0.0, 0.3, 0.3 + 2e-8, 1.0}))));
   for (const double width : {5e-9, 1e-11, 6e-17}) {
-    tests::expect_error_naming({"1 and 2", "rounding"}, [&] {
+    tests::expect_error_naming({"1 and 2", "round-off"}, [&] {
       static_cast<void>(Grid::from_nodes(nodes({0.0, 0.3, 0.3 + width, 1.0})));
     });
   }

@@ -111,7 +111,7 @@ TEST(Transcription, RefusesAProblemWithoutControlsAndNamesNoNumberOfIntervals) {
     [[nodiscard]] ExpressionVector force(const ControlledState&) const override { return one(0.0); }
     [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.v[0] * x.v[0]; }
   };
-  tests::expect_error_naming({"adrift", "no control"}, [] {
+  tests::expect_error_naming({"adrift", "no free control"}, [] {
     tests::transcribe(Adrift(), {"dmoc", 1}, Grid::uniform(8));
   });
 }

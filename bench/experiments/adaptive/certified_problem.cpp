@@ -28,7 +28,7 @@ Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const So
   const SolvedCase solved =
       solve_case(the_case, Start{guessed_motion(*problem)}, *make_solver("auto", options), options.tolerance, 1);
   if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
-  throw Error(fmt::format("{} has no usable answer ({}): {}", the_case.label(), name_of(solved.solution.status),
+  throw Error(fmt::format("{} has no usable solution ({}): {}", the_case.label(), name_of(solved.solution.status),
                           solved.solution.message));
 }
 

@@ -143,7 +143,7 @@ Columns<NeededGrid> needed_columns() {
          Columns<N>{
              {"grid", "", "uniform, or adapted", &N::grid, in_key},
              {"accuracy", "", "requested relative error of q, p and cost", &N::accuracy},
-             {"status", "", "of the last solve, or why there is no such grid", &N::status},
+             {"status", "", "status of the last solve, or why there is no such grid", &N::status},
              {"intervals", "", "number of intervals N", &N::intervals},
              {"variables", "", "of the program", &N::variables},
              {"variables_at_accuracy", "", "variables times (true error / accuracy)^(1/order)",
@@ -152,10 +152,11 @@ Columns<NeededGrid> needed_columns() {
              {"estimated_error", "", "relative, by the estimate", &N::estimated_error},
              {"largest_step", "", "h", &N::largest_step},
              {"smallest_step", "", "h", &N::smallest_step},
-             {"grids", "", "on the way, the last one included", &N::grids},
-             {"seconds", "s", "of the whole way by interior_point, median of the rounds",
+             {"grids", "", "number of grids, including the last one", &N::grids},
+             {"seconds", "s", "time of the whole refinement by interior_point, median of the rounds",
               [](const N& found) { return found.rounds.empty() ? std::nullopt : std::optional(median(found.rounds)); }},
-             {"round_seconds", "s", "of every round", [](const N& found) { return joined_numbers(found.rounds); }}};
+             {"round_seconds", "s", "time of every round",
+              [](const N& found) { return joined_numbers(found.rounds); }}};
 }
 
 Columns<StepOfGrid> step_columns() {

@@ -104,8 +104,8 @@ std::vector<Situation> example_situations() {
 Situation situation_of(const std::shared_ptr<const Problem>& problem) {
   const ProblemBounds bounds = problem->bounds();
   if (bounds.horizon.is_free()) {
-    throw Error("smoothness compares motions at equal times, and " + problem->name() +
-                " has a free horizon: take `convergence` for it");
+    throw Error("smoothness compares trajectories at equal times, but " + problem->name() +
+                " has a free horizon: use `convergence`");
   }
   return {.name = problem->name(),
           .active = {},

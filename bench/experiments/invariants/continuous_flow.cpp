@@ -52,7 +52,7 @@ FlowMomentum momentum_along(const InvariantSystem& system) {
   state.insert(state.end(), system.start.v.begin(), system.start.v.end());
   state.push_back(0.0);
   if (!integrate<double>(rate, state, 0.0, horizon, 0.1, tolerance)) {
-    throw Error("the motion of " + problem.name() + " could not be integrated");
+    throw Error("the trajectory of " + problem.name() + " could not be integrated");
   }
   const Eigen::Map<const Eigen::VectorXd> q(state.data(), n);
   const Eigen::Map<const Eigen::VectorXd> v(state.data() + n, n);

@@ -141,7 +141,7 @@ const Columns<Drift> drift_columns =
                    {"h", "", "step", &Drift::h},
                    {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself",
                     &Drift::truncation, in_key},
-                   {"drift", "", "max - min of the truncated modified energy over the motion", &Drift::drift}};
+                   {"drift", "", "max - min of the truncated modified energy over the trajectory", &Drift::drift}};
 
 struct FreeSystem {
   std::shared_ptr<const Problem> problem;

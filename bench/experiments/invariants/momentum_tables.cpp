@@ -145,11 +145,11 @@ const Columns<KeptMomentum> kept_momentum_columns =
     Columns<KeptMomentum>{
         {"intervals", "", "number of intervals N", &KeptMomentum::intervals, in_key},
         {"h", "", "step", &KeptMomentum::h},
-        {"objective", "", "cost of the optimal motion", &KeptMomentum::objective},
+        {"objective", "", "cost of the optimal trajectory", &KeptMomentum::objective},
         {"momentum", "", "J_0 = p_0·xi", &KeptMomentum::momentum},
-        {"momentum_deviation", "", "max over k of |J_k - J_0| along the optimal motion", &KeptMomentum::deviation},
+        {"momentum_deviation", "", "max over k of |J_k - J_0| along the optimal trajectory", &KeptMomentum::deviation},
         {"largest_control", "", "largest control of a stage", &KeptMomentum::control},
-        {"rounding", "", "machine epsilon times max |q| / h, which momenta from differences of positions carry",
+        {"rounding", "", "machine epsilon times max |q| / h, the round-off of momenta from differences of positions",
          &KeptMomentum::rounding}};
 
 KeptMomentum measured(const Case& the_case, const Trajectory& motion) {

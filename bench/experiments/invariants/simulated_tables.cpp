@@ -199,7 +199,8 @@ Table noether_table(int steps) {
       {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); DMOC only",
        &Forced::work_of_discrete_forces},
       {"defect", "", "max over k of |J_k - J_0 - work|", &Forced::defect},
-      {"defect_in_long_double", "", "the same with 64 bits of mantissa: rounding shrinks, discretisation stays",
+      {"defect_in_long_double", "",
+       "the same with 64 bits of mantissa, which reduces round-off but not the discretisation error",
        &Forced::defect_in_long_double},
   };
   return table_of(scheme_columns<Forced>() + columns, rows);

@@ -128,7 +128,8 @@ Table step_table(const std::vector<SequenceStep>& steps) {
           {"iterations", "", "of the warm solve", from(&SequenceStep::warm, &StepSolve::iterations)},
           {"microseconds", "us", "of the warm solve, the solver alone",
            from(&SequenceStep::warm, &StepSolve::microseconds)},
-          {"start_barrier_parameter", "", "that the warm solve began with; empty where the problem has no barrier",
+          {"start_barrier_parameter", "",
+           "barrier parameter at the start of the warm solve; empty where the problem has no barrier",
            from(&SequenceStep::start_barrier_parameter)},
           {"cold_status", "", "of a solve from the guess; empty if not requested", of_cold(&StepSolve::status)},
           {"cold_iterations", "", "its iterations", of_cold(&StepSolve::iterations)},
@@ -189,14 +190,15 @@ Columns<SummarisedSteps> summary_columns() {
          Columns<Steps>{{"intervals", "", "number of intervals N", &Steps::intervals, in_key},
                         {"sequence", "", "receding_horizon or homotopy", &Steps::sequence, in_key},
                         {"steps", "", "number of steps", [](const Steps& of) { return of.steps.size(); }},
-                        {"solved", "", "how many of them were solved", &Steps::solved}} +
+                        {"solved", "", "number of solved steps", &Steps::solved}} +
          quantile_columns("iterations", "", "iterations of a warm solve", warm, &StepSolve::iterations) +
          quantile_columns("microseconds", "us", "time of a warm solve", warm, &StepSolve::microseconds) +
          quantile_columns("cold_iterations", "", "iterations of a solve from the guess", cold, &StepSolve::iterations) +
          quantile_columns("cold_microseconds", "us", "time of a solve from the guess", cold, &StepSolve::microseconds) +
-         Columns<Steps>{{"compared_with_cold", "", "how many were solved from the guess too", &Steps::compared},
-                        {"warm_is_worse", "", "share of those that cost more than the answer from the guess",
-                         &Steps::share_of_worse}};
+         Columns<Steps>{
+             {"compared_with_cold", "", "number of steps that were also solved from the guess", &Steps::compared},
+             {"warm_is_worse", "", "share of these whose cost exceeds the cost from the guess",
+              &Steps::share_of_worse}};
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ OptimalPoint closed_form_point(const Problem& problem, double t) {
 
 double closed_form_cost(const Problem& problem) {
   const std::optional<ReferenceOptimum> reference = problem.card().reference;
-  if (!reference) throw Error(problem.name() + " states no cost of its optimum");
+  if (!reference) throw Error(problem.name() + " does not state the cost of its optimum");
   return reference->objective;
 }
 
@@ -78,7 +78,7 @@ KnownOptimum::Sampled KnownOptimum::finer_at(const Trajectory& motion) const {
       motion.stage_u, finer_->cost};
   for (Eigen::Index k = 0; k < motion.q.rows(); ++k) {
     const auto node = node_at(finer_->node_times, motion.node_times[k]);
-    if (!node) throw Error("a node of the motion is not a node of the finer reference for its errors");
+    if (!node) throw Error("the reference grid lacks a node of the trajectory");
     sampled.q.row(k) = finer_->q.row(*node);
     sampled.p.row(k) = finer_->p.row(*node);
     sampled.psi_q.row(k) = finer_->psi_q.row(*node);

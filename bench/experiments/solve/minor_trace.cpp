@@ -52,7 +52,7 @@ bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path
 
 void MinorTrace::add_to(CommandLine& line) {
   line.option("--trace", file_,
-              "file for every minor iteration of one solve by sqp, a row each; the metadata list it if it is in the "
+              "file with a row for every minor iteration of one solve by sqp; listed in the metadata if it is in the "
               "folder of --out");
 }
 
@@ -65,7 +65,7 @@ void MinorTrace::check(const std::vector<Case>& cases, const ExperimentCard& car
   own.insert(own.end(), {".csv", ".json"});
   for (const std::string& suffix : own) {
     if (place_of(file_) != place_of(card.options.out / (card.options.name + suffix))) continue;
-    throw Error(fmt::format("--trace {} is a file that the run itself writes; name another", file_));
+    throw Error(fmt::format("--trace {} is a file that this run writes; choose another", file_));
   }
   if (!is_in_folder(file_, card.options.out)) require_writable(file_);
 }

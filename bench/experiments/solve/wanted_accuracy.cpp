@@ -53,10 +53,9 @@ SolvedCase solve_accurately(Case the_case, const Start& start, const AdaptiveOpt
 }
 
 void WantedAccuracy::add_to(CommandLine& line) {
-  line.option(
-      "--accuracy", accuracy_,
-      "estimated relative error of q, p and cost at which to stop, 1e-14 to 0.1: refines one case grid by grid, "
-      "beginning with --intervals or --grid; counts and times are of all grids together");
+  line.option("--accuracy", accuracy_,
+              "refines the grid of one case, starting at --intervals or --grid, until the estimated relative error of "
+              "q, p and cost is at most this value, 1e-14 to 0.1; counts and times include all grids");
   line.option("--refine", refine_, "with --accuracy: h (steps) or hp (steps, and up to three stages); default: h");
 }
 

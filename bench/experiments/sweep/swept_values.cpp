@@ -84,7 +84,7 @@ SweptQuantity parse_over(const std::string& text, bool is_sampled) {
   quantity.upper =
       parse_number(option, range.substr(first + 1, second == std::string_view::npos ? second : second - first - 1));
   if (!std::isfinite(quantity.lower) || !std::isfinite(quantity.upper) || !(quantity.lower < quantity.upper)) {
-    throw Error(fmt::format("{}: the range must be finite and ascend, got {:g} to {:g}", option, quantity.lower,
+    throw Error(fmt::format("{}: the range must be finite and increasing, got {:g} to {:g}", option, quantity.lower,
                             quantity.upper));
   }
   const bool has_count = second != std::string_view::npos;
@@ -142,8 +142,8 @@ void require_quantities(const Problem& problem, const std::vector<SweptQuantity>
     const EndBounds& end = entry->is_first ? bounds.first : bounds.last;
     const Bounds& part = entry->is_velocity ? end.v : end.q;
     if (!part.is_fixed(entry->number)) {
-      throw Error(fmt::format("--over {}: {} does not prescribe that entry, so that it has no value to vary",
-                              quantity.name, problem.name()));
+      throw Error(fmt::format("--over {}: {} does not prescribe that entry, so it cannot be varied", quantity.name,
+                              problem.name()));
     }
   }
 }

@@ -19,8 +19,8 @@ namespace dmocbench {
   }
   if (family_of(cases.front().method).is_condensed) {
     throw Error(
-        "single_shooting simulates and cannot be written as formulas of its unknowns; multiple_shooting is the same "
-        "program with the nodes as unknowns");
+        "single_shooting simulates and cannot be written as formulas; use multiple_shooting, the same program with the "
+        "nodes as unknowns");
   }
   return cases.front();
 }

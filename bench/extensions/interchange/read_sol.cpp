@@ -14,18 +14,16 @@ namespace dmocbench::read_sol_program {
 class ReadSol final : public ExperimentOf<IndependentChecks> {
  public:
   ReadSol()
-      : ExperimentOf(
-            {.name = "read-sol",
-             .description =
-                 "Reads the answer of another solver to a program that write-nl has written with the same "
-                 "options, judges it like any other answer, and writes its motion: NAME_nodes.csv (t, q, v, p, psi), "
-                 "NAME_stages.csv (t, u) and NAME_picture.csv.",
-             .options = {.intervals = "128", .start = "guess"},
-             .further_files = endings_of_motion_files(),
-             .rows = RowUse::motions}) {}
+      : ExperimentOf({.name = "read-sol",
+                      .description = "Reads the solution that another solver found for a program of write-nl (with the "
+                                     "same options), judges it like any other solution, and writes its trajectory: "
+                                     "NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and NAME_picture.csv.",
+                      .options = {.intervals = "128", .start = "guess"},
+                      .further_files = endings_of_motion_files(),
+                      .rows = RowUse::motions}) {}
   [[nodiscard]] Columns<IndependentChecks> columns() const override { return check_columns(); }
   void add_options(CommandLine& line) override {
-    line.option("--sol", file_, "FILE.sol, the answer. It is matched to the program by its sizes alone");
+    line.option("--sol", file_, "FILE.sol, the solution; only its sizes are compared with the program");
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const Case& the_case = exchanged_case(chosen);

@@ -22,7 +22,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& file) {
 
 /// Throws `Error` unless all files can be written and none exists.
 void check(const std::filesystem::path& nl) {
-  if (nl.extension() != ".nl") throw Error(fmt::format("--to {}: the name has to end in .nl", nl.string()));
+  if (nl.extension() != ".nl") throw Error(fmt::format("--to {}: the name must end in .nl", nl.string()));
   for (const std::filesystem::path& file : files_of(nl)) {
     std::error_code none;
     if (std::filesystem::exists(std::filesystem::symlink_status(file, none))) {
@@ -36,10 +36,9 @@ int write(CommandLine& line) {
   ExperimentOptions options{.intervals = "128", .start = "guess", .name = "write-nl"};
   std::string file;
   add_options(line, options);
-  line.option(
-      "--to", file,
-      "FILE.nl, for the program of one case and its start; the names of constraints and unknowns go to FILE.row "
-      "and FILE.col");
+  line.option("--to", file,
+              "FILE.nl, the program of one case and its start; FILE.row and FILE.col get the names of constraints and "
+              "unknowns");
   parse_with_libraries(line);
   const Case the_case = exchanged_case(expand_cases(options));
   check(file);
@@ -61,7 +60,7 @@ int write(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program("write-nl",
                      "Writes the program of one case as text in AMPL's format, which Ipopt, Knitro, SNOPT and others "
-                     "read. read-sol, with the same options, takes an answer back.",
+                     "read. read-sol, with the same options, reads the solution.",
                      argc, argv, write);
 }
 

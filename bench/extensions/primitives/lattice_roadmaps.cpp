@@ -61,8 +61,8 @@ Trajectory first_motion(const Problem& problem, const PrimitiveOptions& options)
   stop_if_requested();
   if (!is_solved(solution.status)) {
     throw Error(
-        fmt::format("{}: no lattice of states without a first motion, which DMOC does not find from the guess "
-                    "with N = {}: {}; improve the guess",
+        fmt::format("{}: a lattice of states needs a first trajectory, which DMOC does not find from the guess with N "
+                    "= {}: {}; improve the guess",
                     problem.name(), intervals, solution.message));
   }
   return read_trajectory(*program, solution.primal, {});

@@ -67,9 +67,9 @@ const Columns<PlannedMotion> columns{
     {"total_seconds", "s", "roadmap, search, concatenation and full solve", &PlannedMotion::seconds},
     {"starts", "", "starts of multi-start in the same time", from(&PlannedMotion::multi_start, &MultiStart::starts)},
     {"solved_starts", "", "number of them that were solved", from(&PlannedMotion::multi_start, &MultiStart::solved)},
-    {"start_motions", "", "1 if they have a best one, 0 if none of the cheapest is a trajectory",
+    {"start_motions", "", "1 if the cheapest solution is confirmed, 0 otherwise",
      [](const PlannedMotion& p) { return p.multi_start.best ? 1 : 0; }},
-    {"best_of_starts", "cost", "least cost of the starts whose solutions are trajectories",
+    {"best_of_starts", "cost", "least cost of the starts whose solutions are confirmed",
      from(&PlannedMotion::multi_start, &MultiStart::best)},
     {"excess_of_starts", "", "best_of_starts / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, p.multi_start.best); }}};
@@ -128,7 +128,7 @@ int measure_all(CommandLine& line) {
   TableRun run("primitives", line);
   const auto problems = run.selected(options.asked);
   if (problems.size() != 1 && !(options.roadmap.empty() && options.store.empty())) {
-    throw Error("--roadmap and --store are about the roadmap of one problem: name it by --problem");
+    throw Error("--roadmap and --store need exactly one problem; name it with --problem");
   }
   if (!options.store.empty()) require_writable(options.store);
   std::vector<PlannedMotion> rows;
@@ -152,10 +152,10 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "primitives",
-      "Roadmaps of short DMOC solves between trims or states: nodes, edges and time to build; the time of a search; "
-      "the cost of the path found, before and after a full solve that starts there, compared with the optimum that the "
-      "problem states and the best of many perturbed guesses in the same total time (primitives.csv; trajectories and "
-      "nodes in primitives_picture.csv).",
+      "Builds roadmaps of short DMOC solves between trims or states and measures nodes, edges and time to build, the "
+      "time of a search, and the cost of the path found, before and after a full solve that starts there, compared "
+      "with the optimum that the problem states and the best of many perturbed guesses in the same total time "
+      "(primitives.csv; trajectories and nodes in primitives_picture.csv).",
       argc, argv, measure_all);
 }
 

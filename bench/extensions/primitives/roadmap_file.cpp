@@ -129,7 +129,7 @@ RoadmapJson checked_content(std::string_view text) {
   }
   const RoadmapJson& content = place.at("content").json();
   if (place.at("crc32").text() != checksum_of(content.dump())) {
-    throw Error("it is damaged: its checksum does not fit its content");
+    throw Error("it is damaged: its checksum does not match its content");
   }
   return content;
 }

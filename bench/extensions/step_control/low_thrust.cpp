@@ -65,7 +65,7 @@ const Columns<Measured> columns =
         {"momentum_defect", "", "largest change of an interval's angular momentum without work",
          from(errors, &TransferErrors::momentum)},
         {"momentum_balance", "", "the same over the whole horizon", from(errors, &TransferErrors::balance)},
-        {"replay_error", "", "miss of the final state by the replayed control", &Measured::replay_error}};
+        {"replay_error", "", "distance from the final state when the control is replayed", &Measured::replay_error}};
 
 struct Reference {
   std::string problem;
@@ -166,9 +166,9 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "low_thrust",
-      "The orbital transfer with many revolutions and few steps in each: errors of cost, state and control against a "
-      "certified optimum, momentum against the work of the thrust, and the replay of the controls, over the steps per "
-      "revolution, by one Gauss stage (low_thrust.csv; the optima in low_thrust_reference.csv).",
+      "Solves the orbital transfer with many revolutions and few steps in each: errors of cost, state and control "
+      "against a certified optimum, momentum against the work of the thrust, and the replay of the controls, over the "
+      "steps per revolution, by one Gauss stage (low_thrust.csv; the optima in low_thrust_reference.csv).",
       argc, argv, measure_all);
 }
 

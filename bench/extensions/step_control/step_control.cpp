@@ -135,7 +135,7 @@ const Columns<Transfer> transfer_columns{
     {"control_error", "", "max over the stages of |u - u*|", from(solved, transfer_errors, &StepsErrors::control)},
     {"momentum_defect", "", "largest change of an interval's angular momentum without work",
      from(solved, transfer_errors, &StepsErrors::momentum)},
-    {"replay_error", "", "miss of the final state by the replayed control",
+    {"replay_error", "", "distance from the final state when the control is replayed",
      from(solved, transfer_errors, &StepsErrors::replay)}};
 
 /// Uniform steps, and every rule with each of some functions.
@@ -260,12 +260,12 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "step_control",
-      "Step sizes that are proportional to a function of the trajectory along Kepler ellipses, as a constraint of the "
-      "variational principle, imposed on plain DMOC, and known before each step: the symplectic form of the extended "
-      "map (step_control_symplecticity.csv), momentum against work (step_control_momentum.csv), the energy over many "
-      "periods (step_control_energy.csv, step_control_energy_behaviour.csv), errors of a period and of uniform steps "
-      "(step_control.csv, step_control_slopes.csv), and the optimal transfer between ellipses "
-      "(step_control_transfer.csv).",
+      "Compares step sizes that are proportional to a function of the trajectory along Kepler ellipses: as a "
+      "constraint of the variational principle, imposed on plain DMOC, and computed before each step. Measures the "
+      "symplectic form of the extended map (step_control_symplecticity.csv), momentum against work "
+      "(step_control_momentum.csv), the energy over many periods (step_control_energy.csv, "
+      "step_control_energy_behaviour.csv), errors of a period and of uniform steps (step_control.csv, "
+      "step_control_slopes.csv), and the optimal transfer between ellipses (step_control_transfer.csv).",
       argc, argv, measure_all);
 }
 

@@ -359,7 +359,7 @@ _remedies = {
     "other_units": "other units: {coordinate} is about {size:.1g}, {smallest} about {smallest_size:.1g}; sizes near 1 suit solvers.",
     "longer_horizon": "a longer horizon than T = {size:g}, or wider bounds: the ends may be out of reach.",
     "solver_auto": "solver=\"auto\".",
-    "several_solvers": "solver=\"auto\": interior_point, then ipopt, then a feasible motion as the start.",
+    "several_solvers": "solver=\"auto\": interior_point, then ipopt, then a feasible trajectory as the start.",
     "common_start": "another start: start= with a solution by another method.",
     "another_guess": "another guess, or start= with a solution near the one you want.",
     "finer_grid": "accuracy=1e-4, or more intervals: with these controls {coordinate} ends {size:.2g} of its range from where it "

@@ -31,8 +31,8 @@ class SolutionLines {
   std::string_view next(std::string_view wanted) {
     const std::size_t end = rest_.find('\n');
     if (end == std::string_view::npos) {
-      throw Error(fmt::format("it ends with line {}, and {} is missing: it is cut off, or no answer of a solver",
-                              number_ + 1, wanted));
+      throw Error(
+          fmt::format("the file ends at line {} before {}; it is truncated or not a .sol file", number_ + 1, wanted));
     }
     const std::string_view line = trimmed(rest_.substr(0, end));
     rest_.remove_prefix(end + 1);
@@ -45,7 +45,7 @@ class SolutionLines {
     const std::string_view line = next(wanted);
     const auto value = parsed<Number>(line.starts_with('+') ? line.substr(1) : line);
     if (!value)
-      throw Error(fmt::format("line {} should be a number ({}), but reads \"{}\"", number_, wanted, shortened(line)));
+      throw Error(fmt::format("line {} must be a number ({}), but is \"{}\"", number_, wanted, shortened(line)));
     return *value;
   }
   Eigen::Index count(std::string_view wanted) {
@@ -95,7 +95,7 @@ void skip_options(SolutionLines& lines) {
 
 Eigen::VectorXd values(SolutionLines& lines, Eigen::Index count, std::string_view wanted) {
   if (std::cmp_greater(count, lines.characters_left())) {  // a line each
-    throw Error(fmt::format("it ends with line {}, and {} is missing: it is cut off", lines.line_number(), wanted));
+    throw Error(fmt::format("the file ends at line {} before {}; it is truncated", lines.line_number(), wanted));
   }
   Eigen::VectorXd result(count);
   for (double& value : result) value = lines.number<double>(wanted);
@@ -143,7 +143,7 @@ Status AmplSolution::status() const noexcept {
 
 AmplSolution read_ampl_solution(std::string_view text) {
   if (text.find('\0') != std::string_view::npos) {
-    throw Error("it is not a text file; write the .nl file in text form so that the solver answers in text");
+    throw Error("it is not a text file; write the .nl file in text form so that the solver writes text");
   }
   SolutionLines lines(text);
   AmplSolution solution;
@@ -167,7 +167,7 @@ void AmplAnswer::require_fit(const NonlinearProgram& program) const {
       std::cmp_equal(answer_.constraint_count, program.constraint_count())) {
     return;
   }
-  throw Error(fmt::format("it answers a program of {} variables and {} constraints, this one has {} and {}",
+  throw Error(fmt::format("it solves a program with {} variables and {} constraints, but this one has {} and {}",
                           answer_.variable_count, answer_.constraint_count, program.variable_count(),
                           program.constraint_count()));
 }

@@ -58,8 +58,8 @@ int ampl_number(Operation operation) {
       return 53;
     default:
       throw Error(
-          "a formula has an operation that AMPL's format lacks, as erf and splines are; write it by +, -, *, /, powers "
-          "and the elementary functions");
+          "a formula contains an operation that AMPL's format does not have, such as erf or a spline; write it with +, "
+          "-, *, /, powers and elementary functions");
   }
 }
 

@@ -127,8 +127,9 @@ void check(const Problem& problem, const LatticeOptions& options) {
   }
   const auto intervals = static_cast<Eigen::Index>(options.connection) * options.intervals_per_step;
   if (intervals * problem.control_size() < 2 * n) {
-    throw Error(fmt::format("connections of {} intervals have fewer controls than a state of {} has entries; take more",
-                            intervals, problem.name()));
+    throw Error(fmt::format(
+        "connections of {} intervals have fewer controls than a state of {} has entries; use more intervals", intervals,
+        problem.name()));
   }
 }
 

@@ -52,7 +52,7 @@ void require_true_costs(const PrimitiveLibrary& library, const Problem& problem)
     }
     if (std::abs(each.cost - sum) <= digits * size + share_of_largest * largest) continue;
     throw Error(
-        fmt::format("the primitives of {} are damaged: the stated cost of one is {:g}, and its motion costs {:g}",
+        fmt::format("the primitives of {} are damaged: the stated cost of one is {:g}, but its trajectory costs {:g}",
                     problem.name(), each.cost, sum));
   }
 }

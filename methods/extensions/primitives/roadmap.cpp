@@ -105,7 +105,8 @@ std::optional<RoadmapPath> cheapest_path(const Roadmap& roadmap, std::size_t fro
     throw Error(fmt::format("the roadmap has {} nodes, numbered from 0: there is no path from {} to {}",
                             roadmap.nodes().size(), from, to));
   }
-  if (duration < 0) throw Error(fmt::format("a path cannot take {} time steps; the least is 0", duration));
+  if (duration < 0)
+    throw Error(fmt::format("a path cannot take {} time steps; the number must not be negative", duration));
   const CostTable table(roadmap, from, duration);
   int best = duration;
   if (arrival == Arrival::at_latest) {

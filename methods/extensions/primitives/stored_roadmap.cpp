@@ -55,7 +55,7 @@ Trajectory motion_along(const PrimitiveLibrary& library, const Roadmap& roadmap,
 
 Trajectory concatenate(const Problem& problem, const PrimitiveLibrary& library, const Roadmap& roadmap,
                        const RoadmapPath& path) {
-  if (path.edges.empty()) throw Error("a path without edges is not a motion; choose a goal other than the start");
+  if (path.edges.empty()) throw Error("a path needs at least one edge; choose a goal other than the start");
   Trajectory motion = motion_along(library, roadmap, path);
   const Eigen::Index intervals = motion.intervals();
   const Eigen::VectorXd first_times = motion.node_times.head(intervals);

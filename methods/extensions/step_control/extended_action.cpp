@@ -94,13 +94,13 @@ class DensityOfSteps {
 void require_positive_step(double sigma, double t) {
   if (sigma > 0.0 && std::isfinite(sigma)) return;
   throw Error(
-      fmt::format("the function that steps are proportional to is {:g} at t = {:g}; it has to be positive and finite "
-                  "along the whole motion",
+      fmt::format("the function that steps are proportional to is {:g} at t = {:g}; it must be positive and finite "
+                  "along the whole trajectory",
                   sigma, t));
 }
 
 StepTimes step_times(const StepFunction& sigma, const Motion& motion, Eigen::Index intervals) {
-  if (intervals < 1) throw Error("a motion is divided into at least one step");
+  if (intervals < 1) throw Error("a trajectory needs at least one step");
   const Eigen::Index parts = std::max<Eigen::Index>(4096, 8 * intervals);
   const double width = motion.horizon / static_cast<double>(parts);
   const DensityOfSteps density(sigma, motion.at(0.0));

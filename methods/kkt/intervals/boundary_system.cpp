@@ -7,7 +7,8 @@ namespace dmocbench::kkt {
 
 BoundarySystem::Made BoundarySystem::make(const NonlinearProgram& program, const IntervalEntries& entries) {
   BoundarySystem system(entries);
-  if (!system.place(entries)) return tl::unexpected(std::string("an entry of the ends belongs to neither of them"));
+  if (!system.place(entries))
+    return tl::unexpected(std::string("an entry of the end conditions belongs to neither end"));
   system.drop_what_is_fixed(program);
   return system;
 }

@@ -49,7 +49,7 @@ class AutoRun final : public PreparedRun {
     if (moved.size() > 0) {
       continue_with(0, moved, solution);
       solution.failed_before =
-          "interior_point and ipopt failed; interior_point began again next to the guess, on which derivatives of a "
+          "interior_point and ipopt failed; interior_point restarted next to the guess, where derivatives of a "
           "violated path constraint vanish.";
       if (!leaves_hope(solution.status)) return;
     }
@@ -57,7 +57,7 @@ class AutoRun final : public PreparedRun {
     if (feasible.size() == 0) return;
     continue_with(0, feasible, solution);
     solution.failed_before =
-        "interior_point and ipopt failed; interior_point began again at a motion that meets the constraints.";
+        "interior_point and ipopt failed; interior_point restarted at a trajectory that satisfies the constraints.";
   }
 
  private:
@@ -88,7 +88,7 @@ AutoSolver::AutoSolver(const SolverOptions& options, AutoOptions choices)
     : Solver(options), first_(options, std::move(choices.interior_point)), second_(options, std::move(choices.ipopt)) {}
 
 std::string AutoSolver::description() const {
-  return "interior_point, then ipopt from its point, then from a feasible motion";
+  return "interior_point, then ipopt from its last point, then interior_point from a feasible trajectory";
 }
 
 std::unique_ptr<PreparedRun> AutoSolver::prepare(CountedProgram& program) const {

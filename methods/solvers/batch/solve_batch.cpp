@@ -42,7 +42,7 @@ class PlainSource final : public BatchSource {
 
 Eigen::VectorXd usual_jacobian(NonlinearProgram& program, const Eigen::VectorXd& usual) {
   if (static_cast<std::size_t>(usual.size()) != program.variable_count()) {
-    throw Error(fmt::format("the usual start of a batch has {} entries, the program {} variables", usual.size(),
+    throw Error(fmt::format("the usual start of a batch has {} entries, but the program has {} variables", usual.size(),
                             program.variable_count()));
   }
   Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size()));
@@ -56,7 +56,7 @@ std::unique_ptr<kkt::LaneKkt> make_kkt(const NonlinearProgram& program, const Ei
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.variable_count()));
   const Eigen::VectorXd compliance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count()));
   auto made = kkt::LaneKkt::make(program, {hessian, jacobian, diagonal, compliance});
-  if (!made) throw Error(fmt::format("a batch cannot take this program: {}", made.error()));
+  if (!made) throw Error(fmt::format("this program cannot be solved in a batch: {}", made.error()));
   return std::move(*made);
 }
 

@@ -222,7 +222,7 @@ class InteriorPointRun final : public PreparedRun {
   /// constraints hold and, where these end, descent on the violation, which like section 3.3 needs no such place.
   [[nodiscard]] std::optional<Status> restoration_phase() {
     if (values_.theta <= options_.tolerance) {
-      message_ = "No step along the Newton direction is an improvement, though all constraints hold.";
+      message_ = "No step along the Newton direction is an improvement, although all constraints hold.";
       return Status::step_failed;
     }
     line_search_.begin_restoration(values_);
@@ -364,7 +364,7 @@ InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOpt
     : Solver(std::move(options)), choices_(std::move(choices)) {}
 
 std::string InteriorPointSolver::description() const {
-  return "interior-point method whose linear systems are eliminated interval by interval; exact Hessian";
+  return "interior-point method that eliminates its linear systems interval by interval; exact Hessian";
 }
 
 std::unique_ptr<PreparedRun> InteriorPointSolver::prepare(CountedProgram& program) const {

@@ -24,8 +24,8 @@ class AdolcTag {
     const std::lock_guard lock(mutex());
     if (is_swept_in_reverse_ && swept_in_reverse() == most) {
       throw Error(
-          "ADOL-C differentiates 32 recordings in reverse, two or three per program: have fewer programs at a time, or "
-          "take another back end of derivatives");
+          "ADOL-C differentiates 32 recordings in reverse, two or three per program: use fewer programs at a time, or "
+          "another back end of derivatives");
     }
     swept_in_reverse() += is_swept_in_reverse_ ? 1 : 0;
     while (used().contains(number_)) ++number_;

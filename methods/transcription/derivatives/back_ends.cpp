@@ -64,7 +64,7 @@ constexpr auto back_ends = std::to_array<Entry>({
      make_differences<DifferenceKind::central>},
     {"forward_differences", "one-sided differences of values, half the evaluations and half the digits",
      make_differences<DifferenceKind::forward>},
-    {"dense_differences", "one-sided differences of the values of the whole program, an unknown after the other",
+    {"dense_differences", "one-sided differences of the values of the whole program, one unknown after the other",
      make_dense_differences},
 });
 

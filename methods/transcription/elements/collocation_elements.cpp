@@ -14,7 +14,7 @@ ExpressionVector hidden_constraint(const TracedProblem& problem, const State& at
   const TracedProblem::Values values = problem.at(State{at.q, none, at.t, at.y});
   const ExpressionVector velocity =
       solve_symmetric(values.mass, p - values.momentum,
-                      "hamiltonian cannot have constraints g(q) = 0 where L_vv is singular; take dmoc");
+                      "hamiltonian does not support constraints g(q) = 0 where L_vv is singular; use dmoc");
   return problem.holonomic_at(at.q, none).jacobian * velocity;
 }
 
@@ -37,7 +37,7 @@ std::string HamiltonianElement::description() const {
 Eigen::Index HamiltonianElement::multipliers(const Tableau& tableau) const {
   if (tableau.stages() == 1) return 2;
   if (has_stages_at_nodes(tableau)) return tableau.stages();
-  throw Error("hamiltonian has constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
+  throw Error("hamiltonian supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
 }
 
 IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tableau& tableau,
@@ -92,7 +92,8 @@ Eigen::Index TangentElement::multipliers(const Tableau& tableau) const {
   const Eigen::Index s = tableau.stages();
   if (s > (has_stages_at_nodes(tableau) ? 3 : 2)) {
     throw Error(
-        "tangent has constraints g(q) = 0 with --tableau gauss --stages 1 or 2, or --tableau lobatto --stages 2 or 3");
+        "tangent supports constraints g(q) = 0 with --tableau gauss --stages 1 or 2, or --tableau lobatto --stages 2 "
+        "or 3");
   }
   return s == 1 ? 2 : s + 2;
 }

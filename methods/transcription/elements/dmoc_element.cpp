@@ -11,7 +11,7 @@ std::string DmocElement::description() const {
 Eigen::Index DmocElement::multipliers(const Tableau& tableau) const {
   if (tableau.stages() == 1) return 1;
   if (has_stages_at_nodes(tableau)) return tableau.stages() - 1;
-  throw Error("dmoc has constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
+  throw Error("dmoc supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
 }
 
 IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& tableau,

@@ -7,7 +7,7 @@
 namespace dmocbench {
 
 Eigen::Index Element::multipliers(const Tableau& /*tableau*/) const {
-  throw Error("constraints g(q) = 0 are not offered with --method " + name() + "; take dmoc, hamiltonian or tangent");
+  throw Error("constraints g(q) = 0 are not supported with --method " + name() + "; use dmoc, hamiltonian or tangent");
 }
 
 bool Element::takes_embedding(const Tableau& /*tableau*/) const { return false; }

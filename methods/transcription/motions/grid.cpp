@@ -35,8 +35,8 @@ Grid Grid::from_nodes(Eigen::VectorXd relative_times) {
     }
     if (widths[k] < narrowest) {
       throw Error(
-          fmt::format("relative node times {} and {} are {:.1e} apart, less than {:g}: rounding would hide the motion "
-                      "between them; take one of the two out",
+          fmt::format("relative node times {} and {} are {:.1e} apart, less than {:g}: round-off would dominate the "
+                      "step between them; remove one of the two",
                       k, k + 1, widths[k], narrowest));
     }
   }
@@ -48,8 +48,9 @@ Grid Grid::with_nodes_at(const std::vector<double>& times) const {
   const auto count = std::ssize(times);
   const Eigen::Index last = nodes_.size() - 1;
   if (last <= count) {
-    throw Error(fmt::format("{} times between the ends need a node each, and at least {} intervals, not {}", count,
-                            count + 1, last));
+    throw Error(
+        fmt::format("{} times between the ends need a node each, so the grid needs at least {} intervals, not {}",
+                    count, count + 1, last));
   }
   Eigen::VectorXd moved(nodes_.size());
   Eigen::Index from = 0;  // the node that was moved last, and where to

@@ -106,7 +106,7 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
     if (!is_invertible(mass)) {
       if (constraints) {
         throw Error(place_of(times[i], problem, grid) +
-                    "L_vv is singular; with constraints g(q) = 0 take dmoc with --tableau gauss --stages 1");
+                    "L_vv is singular; with constraints g(q) = 0 use dmoc with --tableau gauss --stages 1");
       }
       throw Error(place_of(times[i], problem, grid) + "L_vv is singular, so the Lagrangian is not regular");
     }
@@ -181,8 +181,8 @@ class WindowSearch {
     const std::vector<std::string> names = problem_.card().path_constraint_names;
     const auto number = static_cast<std::size_t>(i);
     throw Error(fmt::format(
-        "{}: path_constraints[{}]{} acts on the guess from t = {:.4g} to {:.4g} only, between the stages "
-        "at t = {:.4g} and {:.4g}, where no stage meets it; take more intervals, or a grid with a stage there",
+        "{}: path_constraints[{}]{} acts on the guess from t = {:.4g} to {:.4g} only, between the stages at t = {:.4g} "
+        "and {:.4g}, where no stage imposes it; use more intervals, or a grid with a stage there",
         problem_.name(), i, number < names.size() ? " (" + names[number] + ")" : "", times_[first], times_[end - 1],
         *(after - 1), *after));
   }

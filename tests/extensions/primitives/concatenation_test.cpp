@@ -87,7 +87,7 @@ TEST(Concatenation, HasTheMomentaOfItsVelocities) {
 TEST(Concatenation, RefusesAPathWithoutEdges) {
   const Glide glide;
   const Roadmap roadmap = glide.roadmap();
-  tests::expect_error_naming({"without edges"},
+  tests::expect_error_naming({"at least one edge"},
                              [&] { static_cast<void>(concatenate(glide.problem, glide.library, roadmap, {})); });
 }
 

@@ -109,7 +109,7 @@ TEST(CheapestPath, TakesTheDearEdgeWhereTheCheapOneIsTooSlow) {
 TEST(CheapestPath, RefusesNodesThatDoNotExist) {
   const Roadmap roadmap = BareGraph(2).roadmap();
   tests::expect_error_naming({"2 nodes"}, [&] { static_cast<void>(cheapest_path(roadmap, 0, 2, 1)); });
-  tests::expect_error_naming({"the least is 0"}, [&] { static_cast<void>(cheapest_path(roadmap, 0, 1, -1)); });
+  tests::expect_error_naming({"must not be negative"}, [&] { static_cast<void>(cheapest_path(roadmap, 0, 1, -1)); });
 }
 
 TEST(Roadmap, RefusesAnEdgeThatEndsElsewhereThanItsPrimitive) {

@@ -240,7 +240,7 @@ struct Mistake {
 const std::vector<Mistake>& mistakes() {
   static const std::vector<Mistake> all = {
       {"ForceTooShort", "force has 1 entries, expected 2", statement<ForceTooShort>()},
-      {"ForceForgotten", "No entry of force reads a control", statement<ForceForgotten>()},
+      {"ForceForgotten", "No entry of force depends on a control", statement<ForceForgotten>()},
       {"OneControlForgotten", "no formula reads the control pull", statement<OneControlForgotten>()},
       {"ForceReadsFar", "a formula reads u[2], but u has 2 entries", statement<ForceReadsFar>()},
       {"VelocityReadsFar", "a formula reads v[2]", statement<VelocityReadsFar>()},
@@ -257,7 +257,7 @@ const std::vector<Mistake>& mistakes() {
       {"HorizonZero", "the horizon must be positive, got 0", statement<HorizonZero>()},
       {"HorizonNegative", "the horizon must be positive, got -2", statement<HorizonNegative>()},
       {"NoConfiguration", "configuration_names is empty", statement<NoConfiguration>()},
-      {"SameNameTwice", "\"x\" names two of them", statement<SameNameTwice>()},
+      {"SameNameTwice", "\"x\" is used twice", statement<SameNameTwice>()},
       {"EmptyName", "is not a name for a column", statement<EmptyName>()},
       {"NameWithComma", "\"left, in m\" is not a name for a column", statement<NameWithComma>()},
       {"OneControlName", "u has 1 entry", statement<OneControlName>()},
@@ -285,7 +285,7 @@ const std::vector<Mistake>& mistakes() {
       {"no such tableau", "choose one of gauss", [] { return std::to_string(make_tableau("radau", 2).b.size()); }},
       {"a grid without intervals", "got 0", [] { return std::to_string(plain(0).variable_count()); }},
       {"no such solver", "choose one of ipopt", [] { return make_solver("snopt")->name(); }},
-      {"a start of the wrong size", "the start has 3 entries, the program 34 variables",
+      {"a start of the wrong size", "the start has 3 entries, but the program has 34 variables",
        [] { return message_from(Eigen::VectorXd::Zero(3)); }},
       {"a start that is not a number", "Entry 0 of the start is nan",
        [] { return message_from(Eigen::VectorXd::Constant(34, std::numeric_limits<double>::quiet_NaN())); }},
