@@ -15,7 +15,7 @@ namespace dmocbench {
 
 namespace {
 
-Eigen::VectorXd joined(const BoundaryState& state) {
+Eigen::VectorXd in_one_vector(const BoundaryState& state) {
   Eigen::VectorXd all(state.q.size() + state.v.size() + state.y.size());
   all << state.q, state.v, state.y;
   return all;
@@ -61,7 +61,7 @@ SwitchMap::SwitchMap(const PhasedProblem& problem, std::size_t i, const Eigen::V
 
 BoundaryState SwitchMap::after(const BoundaryState& before, double time, const BoundaryState& start) const {
   constexpr int most_steps = 50;
-  Eigen::VectorXd x = joined(start);
+  Eigen::VectorXd x = in_one_vector(start);
   const Eigen::Index state_size = x.size();
   if (solved_ > state_size) {
     x.conservativeResize(solved_);
@@ -69,8 +69,8 @@ BoundaryState SwitchMap::after(const BoundaryState& before, double time, const B
   }
   for (int step = 0; step < most_steps; ++step) {
     Eigen::VectorXd inputs(unknowns_.size() + 2 * before.q.size() + before.y.size() + 1 + state_size);
-    inputs << (solved_ > state_size ? Eigen::VectorXd(x.tail(unknowns_.size())) : unknowns_), joined(before), time,
-        x.head(state_size);
+    inputs << (solved_ > state_size ? Eigen::VectorXd(x.tail(unknowns_.size())) : unknowns_), in_one_vector(before),
+        time, x.head(state_size);
     const std::vector<double> values =
         replay<double>(conditions_, std::span<const double>(inputs.data(), static_cast<std::size_t>(inputs.size())));
     const Eigen::Map<const Eigen::VectorXd> all(values.data(), std::ssize(values));
