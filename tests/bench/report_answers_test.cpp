@@ -106,68 +106,69 @@ std::string answer_to(const ResultsFolder& results, const std::string& question)
   return "";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool states(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(ReportAnswers, FollowTheLargestDifferenceAndTheVerdictOnEqualSolutions) {
   Tables tables;
-  EXPECT_TRUE(has(answer_to(tables.folder(), "accurate"), "have equal solutions, to round-off."));
-  EXPECT_TRUE(has(answer_to(tables.folder(), "accurate"), "2·10⁻¹³"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"), "have equal solutions, to round-off."));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"), "2·10⁻¹³"));
   tables.difference = "3e-5";
   tables.verdict = "differs";
-  EXPECT_TRUE(has(answer_to(tables.folder(), "accurate"), "have different solutions."));
-  EXPECT_TRUE(has(answer_to(tables.folder(), "accurate"), "3·10⁻⁵"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"), "have different solutions."));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"), "3·10⁻⁵"));
   tables.verdict = "undecided";
-  EXPECT_TRUE(has(answer_to(tables.folder(), "accurate"), "undecided"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"), "undecided"));
 }
 
 TEST(ReportAnswers, CompareErrorsOnTheFinestGridOfBothMethods) {
   Tables tables;
-  EXPECT_TRUE(has(answer_to(tables.folder(), "accurate"), "its state error is equal on the orbit"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"), "its state error is equal on the orbit"));
   tables.errors[std::string(orbit) + ",tangent"] = "1.5e-5";
   tables.errors[std::string(two_link) + ",tangent"] = "9.9e-6";
-  EXPECT_TRUE(has(answer_to(tables.folder(), "accurate"),
-                  "its state error is 50 % larger on the orbit and on the arm 1 % smaller (N = 512)."));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"),
+                     "its state error is 50 % larger on the orbit and on the arm 1 % smaller (N = 512)."));
 }
 
 TEST(ReportAnswers, StateBothDirectionsWhereReplayErrorsGoInOppositeOnes) {
   Tables tables;
-  EXPECT_TRUE(has(answer_to(tables.folder(), "structure"),
-                  "Balance does not bound the error: replayed, DMOC's controls miss the final state by 20 % less than "
-                  "tangent-space collocation on the orbit. On the arm they miss it by 100 % more (N = 512)."));
+  EXPECT_TRUE(
+      states(answer_to(tables.folder(), "structure"),
+             "Balance does not bound the error: replayed, DMOC's controls miss the final state by 20 % less than "
+             "tangent-space collocation on the orbit. On the arm they miss it by 100 % more (N = 512)."));
   tables.replays[std::string(two_link) + ",tangent"] = "1.25e-5";
   const std::string same = answer_to(tables.folder(), "structure");
-  EXPECT_TRUE(has(same, "Replayed, DMOC's controls") && has(same, "by 20 % less (N = 512).")) << same;
-  EXPECT_FALSE(has(same, "Balance does not bound"));
+  EXPECT_TRUE(states(same, "Replayed, DMOC's controls") && states(same, "by 20 % less (N = 512).")) << same;
+  EXPECT_FALSE(states(same, "Balance does not bound"));
 }
 
 TEST(ReportAnswers, NameTheMethodWithFewerUnknownsOnlyIfItHasFewerOnBothProblems) {
   Tables tables;
-  EXPECT_TRUE(has(answer_to(tables.folder(), "unknowns"), "DMOC, on both problems"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "unknowns"), "DMOC, on both problems"));
   tables.ratios[std::string(two_link) + ",hamiltonian"] = "0.9";
-  EXPECT_TRUE(has(answer_to(tables.folder(), "unknowns"), "It depends"));
-  EXPECT_TRUE(has(answer_to(tables.folder(), "unknowns"), "0.9 to 1.6 ×"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "unknowns"), "It depends"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "unknowns"), "0.9 to 1.6 ×"));
 }
 
 TEST(ReportAnswers, NameTheFasterMethodOnlyIfIntervalsAndVerdictExcludeEqualTimes) {
   Tables tables;
-  EXPECT_TRUE(has(answer_to(tables.folder(), "faster"), "DMOC, per iteration."));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "DMOC, per iteration."));
   tables.times[std::string(orbit) + ",tangent"] = "1.5,0.9,1.6";
-  EXPECT_TRUE(has(answer_to(tables.folder(), "faster"), "do not exclude equal times"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "do not exclude equal times"));
   tables.times[std::string(orbit) + ",tangent"] = "0.8,0.7,0.9";
-  EXPECT_TRUE(has(answer_to(tables.folder(), "faster"), "on both sides of 1"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "on both sides of 1"));
   tables = Tables();
   tables.verdict = "undecided";
-  EXPECT_TRUE(has(answer_to(tables.folder(), "faster"), "do not exclude equal times"));
-  EXPECT_FALSE(has(answer_to(tables.folder(), "faster"), "as in the paper"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "do not exclude equal times"));
+  EXPECT_FALSE(states(answer_to(tables.folder(), "faster"), "as in the paper"));
 }
 
 TEST(ReportAnswers, NameTheMoreReliableMethodOnlyIfAllDifferencesHaveOneSign) {
   Tables tables;
-  EXPECT_TRUE(has(answer_to(tables.folder(), "reliably"), "None is clearly ahead"));
-  EXPECT_TRUE(has(answer_to(tables.folder(), "reliably"), "4.0 points"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "reliably"), "None is clearly ahead"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "reliably"), "4.0 points"));
   tables.starts[std::string(two_link) + ",tangent"] = "90,40";
-  EXPECT_TRUE(has(answer_to(tables.folder(), "reliably"), "Collocation, on both problems."));
-  EXPECT_TRUE(has(answer_to(tables.folder(), "reliably"), "10.0 points"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "reliably"), "Collocation, on both problems."));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "reliably"), "10.0 points"));
 }
 
 TEST(ReportAnswers, LeaveOutAQuestionWhoseRowsAreMissing) {
@@ -203,7 +204,7 @@ TEST(SmallPicture, NamesEachCurveOnceAndApartAndCurvesThatCoincideTogether) {
     EXPECT_GE(labels()[i]["y"].get<double>(), labels()[i - 1]["y"].get<double>() + 11.0);
   EXPECT_LE(labels()[2]["y"].get<double>(), picture_height);
   curves[1].points[1].second = 1e-3;
-  for (const Json& label : labels()) EXPECT_FALSE(has(label["text"].get<std::string>(), "="));
+  for (const Json& label : labels()) EXPECT_FALSE(states(label["text"].get<std::string>(), "="));
 }
 
 TEST(SmallPicture, OrdersPointsAsTheirValuesAndLeavesOutThoseThatLogarithmsLack) {
