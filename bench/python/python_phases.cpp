@@ -86,6 +86,11 @@ ExpressionVector PythonPhases::conditions(const std::vector<PhaseEnd>& first, co
   });
 }
 
+double PythonPhases::cost_scale() const {
+  if (!python_.states("cost_scale")) return PhasedProblem::cost_scale();
+  return python_.asked("cost_scale", [&] { return python_.object().attr("_number_of")("cost_scale").cast<double>(); });
+}
+
 ProblemCard PythonPhases::card() const {
   ProblemCard card = PhasedProblem::card();
   return python_.asked("card", [&] {

@@ -24,6 +24,7 @@ class PythonPhases final : public PhasedProblem {
   [[nodiscard]] std::string name() const override { return python_.name(); }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override;
   [[nodiscard]] ProblemCard card() const override;
+  [[nodiscard]] double cost_scale() const override;
   [[nodiscard]] ExpressionVector link(std::size_t i, const PhaseEnd& before, const PhaseEnd& after) const override;
   [[nodiscard]] ExpressionVector conditions(const std::vector<PhaseEnd>& first,
                                             const std::vector<PhaseEnd>& last) const override;

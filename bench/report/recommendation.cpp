@@ -61,7 +61,9 @@ std::string recommended(const Selection& costs, const Selection& solves) {
   const Selection state = at_smallest_error(costs, "state");
   const Selection replay = at_smallest_error(costs, "replay");
   std::string words;
-  if (state.empty()) {
+  if (state.size() == 1) {
+    words = fmt::format("One method alone was run for {}.", problem);
+  } else if (state.empty()) {
     words = fmt::format("No method is recommended for {}: no state error is reached by all methods.", problem);
   } else if (!is_decided(state)) {
     words = fmt::format("No method is ahead for {}: at a state error of {:.1e}, {}.", problem,
@@ -70,7 +72,7 @@ std::string recommended(const Selection& costs, const Selection& solves) {
     words = fmt::format("Use {} for {}: at a state error of {:.1e} {}.", state.front().text("method"), problem,
                         state.front().needed("error"), counts_in_words(state));
   }
-  if (is_decided(replay) && replay.front().text("method") != state.front().text("method"))
+  if (!state.empty() && is_decided(replay) && replay.front().text("method") != state.front().text("method"))
     words += fmt::format(" If the controls drive the real system, compare replay errors: at {:.1e} {}.",
                          replay.front().needed("error"), counts_in_words(replay));
   return words + lacking_in_words(solves);

@@ -46,24 +46,33 @@ std::string*& complaint_of_thread() {
   return complaint;
 }
 
-/// Of the program that runs in this thread.
-std::string& name_of_program() {
-  thread_local std::string name = "dmocbench";
-  return name;
-}
-
-/// The name of the program within its scope; Python runs one program within another.
-class NameScope {
+/// A program that runs in this thread; Python runs one program within another.
+class RunningProgram {
  public:
-  explicit NameScope(const std::string& name) : outer_(std::exchange(name_of_program(), name)) {}
-  ~NameScope() { name_of_program() = outer_; }
-  NameScope(const NameScope&) = delete;
-  NameScope& operator=(const NameScope&) = delete;
-  NameScope(NameScope&&) = delete;
-  NameScope& operator=(NameScope&&) = delete;
+  explicit RunningProgram(const std::string& name) : name_(name), outer_(std::exchange(innermost(), this)) {}
+  ~RunningProgram() { innermost() = outer_; }
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+  RunningProgram(RunningProgram&&) = delete;
+  RunningProgram& operator=(RunningProgram&&) = delete;
+
+  /// Null outside of programs.
+  static RunningProgram*& innermost() {
+    thread_local RunningProgram* program = nullptr;
+    return program;
+  }
+
+  void add(std::string remark) { remarks_.push_back(std::move(remark)); }
+  /// Prints the remarks once the command line has been accepted: bad input gets one line, its error.
+  void print_remarks() {
+    for (const std::string& remark : std::exchange(remarks_, {}))
+      static_cast<void>(std::fputs((name_ + ": " + one_line(remark) + "\n").c_str(), stderr));
+  }
 
  private:
-  std::string outer_;
+  std::string name_;
+  RunningProgram* outer_;
+  std::vector<std::string> remarks_;
 };
 
 int report_error(const std::string& name, const std::string& sentence) {
@@ -113,8 +122,8 @@ std::string one_line(std::string_view text) {
 }
 
 void remark(const std::string& sentence) {
-  if (sentence.empty()) return;
-  static_cast<void>(std::fputs((name_of_program() + ": " + one_line(sentence) + "\n").c_str(), stderr));
+  RunningProgram* const program = RunningProgram::innermost();
+  if (!sentence.empty() && program != nullptr) program->add(sentence);
 }
 
 void print_line(const std::string& text) { fmt::print("{}\n", one_line(text)); }
@@ -292,10 +301,11 @@ int run_program(const std::string& name, const std::string& description, int arg
   occupy_closed_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe without a reader: locks and parts are removed
-  const NameScope scope(name);
+  RunningProgram program(name);
   try {
     CommandLine line(app, argc, argv);
     const int code = body(line);
+    program.print_remarks();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     return report_error(name, "cannot write to standard output");
   } catch (const CLI::Success& request) {  // --help

@@ -109,8 +109,8 @@ inline constexpr const char* group_of_output = "Output";  ///< where results go
 /// Prints `one_line` of a text, and ends the line.
 void print_line(const std::string& text);
 
-/// Prints a sentence about an option that the running program does not follow as given, on standard error and with the
-/// program's name in front; the run goes on. An empty sentence is not printed.
+/// Notes a sentence about an option that the running program does not follow as given. The program prints it on
+/// standard error at its end, with its name in front, unless it ends with an error. An empty sentence is not printed.
 void remark(const std::string& sentence);
 
 /// Runs a program: `body` declares its options, parses them and returns the exit code. Every error becomes one line on

@@ -88,6 +88,7 @@ Eigen::MatrixXd jumps_of(const TracedProblem& traced, const Trajectory& trajecto
 
 /// See `Accuracy::cost_error`.
 double cost_error_of(const TracedProblem& traced, const Trajectory& trajectory) {
+  constexpr double smallest_cost = 1e-6;  // below it round-off and the tolerance decide
   using FinerRule = boost::math::quadrature::gauss<double, 7>;
   PointFunction running_cost(
       traced.configuration_size(), traced.control_size(),
@@ -115,7 +116,8 @@ double cost_error_of(const TracedProblem& traced, const Trajectory& trajectory) 
     finer += of_interval;
     size += std::abs(of_interval);
   }
-  return size > 0.0 ? std::abs(finer - of_program) / size : 0.0;
+  if (!std::isfinite(finer)) return std::numeric_limits<double>::infinity();
+  return std::abs(finer - of_program) / std::max({size, std::abs(trajectory.cost), smallest_cost});
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ struct Accuracy {
   /// The same of the sum of the jumps of intervals 0 to k, with their signs, the largest over k. A force whose period
   /// is the step is sampled at one phase: no interval misses by much, but all miss to the same side.
   double accumulated_jump = 0.0;
-  /// |∫C dt - Σ h b_i C_i| / Σ_k |∫C dt over interval k| along the elements' polynomials: the part of the running cost
-  /// that the quadrature of the program misses, by one of order 14. A cost that oscillates as fast as the grid is
-  /// sampled at one phase.
+  /// |∫C dt - Σ h b_i C_i| along the elements' polynomials, the error of the program's quadrature by one of order 14,
+  /// as a share of Σ_k |∫C dt over interval k|, of the whole cost, or of 1e-6, whichever is most. A cost that
+  /// oscillates as fast as the grid is sampled at one phase.
   double cost_error = 0.0;
 
   /// Whether neither a single jump, nor their sum, nor the error of the cost is too large for a motion.

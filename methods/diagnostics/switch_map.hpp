@@ -12,8 +12,9 @@ namespace dmocbench {
 /// The state after a switch of a phased problem, as a function of the state before it.
 class SwitchMap {
  public:
-  /// Of switch i, with the unknown parameters as solved, in the order of `Problem::unknowns`. Durations keep these
-  /// values; impulses and other unknowns that only the switch determines follow from the state before.
+  /// Of switch i, with the unknown parameters as solved, in the order of `Problem::unknowns`. Where it has more
+  /// conditions than the state after has components, unknowns such as impulses follow from the state before too; more
+  /// conditions than these are met in the least-squares sense.
   SwitchMap(const PhasedProblem& problem, std::size_t i, const Eigen::VectorXd& unknowns);
 
   /// The state after the switch in the velocities of its phase, by Newton's method from `start`. `before`: in the

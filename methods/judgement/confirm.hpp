@@ -32,7 +32,7 @@ void judge_residuals(NonlinearProgram& program, Solution& solution);
 /// Powers of two by which a program has to be multiplied before its tolerance can distinguish a solution from other
 /// points.
 struct Scaling {
-  double of_cost = 1.0;
+  double of_cost = 1.0;     ///< 1 where the cost is large enough
   Eigen::VectorXd of_rows;  ///< constraint_count() entries; empty where all are 1
 
   /// True where nothing has to be multiplied.

@@ -39,15 +39,28 @@ std::optional<HiddenViolation> ConstraintSizes::hidden_violation(const Nonlinear
     if (!(violation > std::max(largest_share, worst ? worst->share : 0.0) * size) || size == 0.0) continue;
     worst = HiddenViolation{.row = i, .size = size, .share = violation / size};
   }
+  add_distances_from_bounds(program, memory.constraints);
   return worst;
+}
+
+void ConstraintSizes::add_distances_from_bounds(const NonlinearProgram& program, const Eigen::VectorXd& constraints) {
+  for (Eigen::Index i = 0; i < of_rows_.size(); ++i) {
+    const double lower = program.constraint_lower()[i];
+    const double upper = program.constraint_upper()[i];
+    if (lower == upper) continue;
+    const double distance = std::min(std::abs(constraints[i] - lower), std::abs(upper - constraints[i]));
+    of_rows_[i] = std::isfinite(distance) ? std::max(of_rows_[i], distance) : 0.0;
+  }
 }
 
 Eigen::VectorXd ConstraintSizes::factors() const {
   static constexpr int most = 1000;  // a factor stays finite
-  return of_rows_.unaryExpr([](double size) {
+  Eigen::VectorXd factors = of_rows_.unaryExpr([](double size) {
     if (size == 0.0 || (size >= smallest_size && size <= 1.0 / smallest_size)) return 1.0;
     return std::ldexp(1.0, std::clamp(-std::ilogb(size), -most, most));
   });
+  if ((factors.array() == 1.0).all()) return {};
+  return factors;
 }
 
 bool ConstraintSizes::has_small_inequality(const NonlinearProgram& program) const {

@@ -29,8 +29,11 @@ class ConstraintSizes {
   [[nodiscard]] std::optional<HiddenViolation> hidden_violation(const NonlinearProgram& program,
                                                                 const Eigen::VectorXd& primal, const KktMemory& memory);
 
+  // The size of an inequality is, from here on, at least its distance from the nearer bound: a derivative may vanish
+  // far from the bound, and a constraint in tiny units is near it in these.
+
   /// The powers of two that bring constraints smaller than `smallest_size` or larger than its inverse to a size of
-  /// about 1, at the point of the last `hidden_violation`; constraint_count() entries.
+  /// about 1, at the point of the last `hidden_violation`; constraint_count() entries, or none where all are 1.
   [[nodiscard]] Eigen::VectorXd factors() const;
 
   /// True if an inequality is smaller than `smallest_size` there: solvers then stop a visible distance from its bound.
@@ -42,6 +45,7 @@ class ConstraintSizes {
   static constexpr double smallest_size = 1e-5;
 
  private:
+  void add_distances_from_bounds(const NonlinearProgram& program, const Eigen::VectorXd& constraints);
   void measure_unknowns(const NonlinearProgram& program, const Eigen::VectorXd& primal);
 
   Eigen::VectorXd of_unknowns_;

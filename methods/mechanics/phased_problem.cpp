@@ -416,11 +416,21 @@ MotionPoint PhasedProblem::guess(double t) const {
 
 ProblemBounds PhasedProblem::phase_bounds(std::size_t i) const { return in_phase(i, problem_bounds); }
 
+void PhasedProblem::require_stated_range(std::size_t i, const HorizonBounds& now) const {
+  const Parameter& stated = parameters()[parameter_number(*this, name_of_duration(i))];
+  if (stated.lower == now.lower && stated.upper == now.upper) return;
+  throw Error(fmt::format(
+      "phase {}: the range of its duration was {:g} to {:g} and is {:g} to {:g} with these parameters; state "
+      "it without parameters",
+      phases_[i].name, stated.lower, stated.upper, now.lower, now.upper));
+}
+
 ProblemBounds PhasedProblem::bounds() const {
   ProblemBounds all;
   all.horizon = {.lower = horizon(), .upper = horizon()};
   for (std::size_t i = 0; i < phases_.size(); ++i) {
     const ProblemBounds own = phase_bounds(i);
+    if (parts_[i].is_free) require_stated_range(i, own.horizon);
     const auto in_shared_time = [&](const Bounds& v) {
       return parts_[i].is_free ? kept_by_scaling(v) : scaled(v, guessed_share(i));
     };

@@ -81,6 +81,10 @@ class PhasedProblem : public Problem {
   [[nodiscard]] const std::vector<Phase>& phases() const noexcept { return phases_; }
   /// Where each phase stands.
   [[nodiscard]] const std::vector<Part>& parts() const noexcept { return parts_; }
+  /// The coordinates of phase i whose velocities have a bound.
+  [[nodiscard]] std::vector<Eigen::Index> bounded_velocities(std::size_t i) const {
+    return phase_bounds(i).bounded_velocities();
+  }
   /// Of the unknown T_i.
   [[nodiscard]] std::string name_of_duration(std::size_t i) const;
   /// The conditions of switch i at two states in the time and the velocities of their own phases.
@@ -140,6 +144,8 @@ class PhasedProblem : public Problem {
   [[nodiscard]] ControlledState in_own_velocities(std::size_t i, const ControlledState& x) const;
   [[nodiscard]] BoundaryState ends(BoundaryState (Problem::*end)() const) const;
   [[nodiscard]] ProblemBounds phase_bounds(std::size_t i) const;
+  /// Throws `Error` if the range of a free duration has changed with the parameters since the construction.
+  void require_stated_range(std::size_t i, const HorizonBounds& now) const;
   void add_interior(ProblemBounds& all, std::size_t i, const InteriorBounds& at) const;
   /// Of a state with the phase's own time and velocities.
   [[nodiscard]] PhaseEnd end_of(std::size_t i, const State& own) const;

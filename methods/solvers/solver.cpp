@@ -105,8 +105,8 @@ void state_without_scaling(NonlinearProgram& program, const Scaling& scaling, co
   }
   if (scaling.of_rows.size() > 0) {
     solution.message +=
-        fmt::format(" {} constraints, whose sizes are far from 1, were multiplied by {:.0e} to {:.0e} for the solver.",
-                    (scaling.of_rows.array() != 1.0).count(), scaling.of_rows.minCoeff(), scaling.of_rows.maxCoeff());
+        fmt::format(" {} constraints, whose sizes are far from 1, were multiplied by powers of two for the solver.",
+                    (scaling.of_rows.array() != 1.0).count());
   }
   if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would ignore the factors
   if (solution.barrier_parameter) *solution.barrier_parameter /= scaling.of_cost;

@@ -77,6 +77,15 @@ TEST(Accuracy, FindsACostThatOscillatesAsFastAsTheGrid) {
   EXPECT_TRUE(error_on(512).is_motion());
 }
 
+TEST(Accuracy, DoesNotJudgeACostThatIsRoundOff) {
+  const tests::DoubleIntegrator problem;
+  Trajectory motion = exact_optimum(problem, 8);
+  motion.stage_u *= 1e-9;
+  motion.stage_u.reverseInPlace();
+  motion.cost = 0.0;
+  EXPECT_LT(accuracy(problem, motion).cost_error, 1e-9);
+}
+
 TEST(Accuracy, DoesNotCallABodyAtRestTornByRounding) {
   const tests::DoubleIntegrator problem;
   Trajectory at_rest = exact_optimum(problem, 8);

@@ -49,6 +49,34 @@ TEST(HiddenViolation, OfUnknownsAtRestIsComparedWithOne) {
   EXPECT_NEAR(hidden->share, 1.0, 1e-12);  // 2 of 1 + 1
 }
 
+/// scale (36 - x_0²) >= 0.
+SmallProgram limited_square(double scale) {
+  SmallProgram::Statement statement;
+  statement.objective = [](const HyperVector& x) { return 0.5 * x[0] * x[0]; };
+  statement.rows = [scale](const HyperVector& x) { return HyperVector{scale * (36.0 - x[0] * x[0])}; };
+  statement.variable_lower = vector({-unbounded});
+  statement.variable_upper = vector({unbounded});
+  statement.row_lower = vector({0.0});
+  statement.row_upper = vector({unbounded});
+  return SmallProgram(statement);
+}
+
+TEST(HiddenViolation, DoesNotTakeAnInequalityForTinyFarFromItsBound) {
+  const auto is_small = [](double scale, double x) {
+    SmallProgram program = limited_square(scale);
+    KktMemory memory;
+    evaluate_kkt(program, vector({x}), vector({0.0}), memory);
+    ConstraintSizes sizes;
+    EXPECT_FALSE(sizes.hidden_violation(program, vector({x}), memory));
+    EXPECT_EQ(sizes.factors().size() > 0, sizes.has_small_inequality(program));
+    return sizes.has_small_inequality(program);
+  };
+  EXPECT_FALSE(is_small(1.0, 1e-12));  // the derivative nearly vanishes, the distance is 36
+  EXPECT_FALSE(is_small(1.0, 5.9));
+  EXPECT_TRUE(is_small(1e-12, 1e-12));
+  EXPECT_TRUE(is_small(1e-12, 5.9));
+}
+
 TEST(HiddenViolation, TakesSolvedBackWhereTheToleranceDoesNotSeeTheConstraint) {
   SmallProgram program = sum_of_two(1e-12);
   Solution solution;

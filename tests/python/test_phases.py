@@ -160,6 +160,15 @@ class Mistakes(unittest.TestCase):
         with self.assertRaisesRegex(db.Error, "no parameter moon"):
             Ball(moon=1.0)
 
+    def test_of_members_that_phases_state(self):
+        for member in ("guess", "final_cost", "path_constraints", "waypoints"):
+            with self.subTest(member), self.assertRaisesRegex(db.Error, f"states {member}, which is not read; each phase"):
+                db.solve(variant(**{member: lambda self, *arguments: []})(), intervals=8)
+
+    def test_of_a_scaled_cost_are_the_same(self):
+        plain, scaled = db.solve(Ball(), intervals=8), db.solve(variant(cost_scale=1e-3)(), intervals=8)
+        self.assertAlmostEqual(scaled.cost, plain.cost, delta=1e-8 * plain.cost)
+
     def test_without_a_positive_duration(self):
         flight = rise()
         flight.horizon = db.between(0.0, 2.0, guess=0.6)

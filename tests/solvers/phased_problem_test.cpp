@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/motions/phase_trajectories.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
@@ -199,6 +200,45 @@ TEST(PhasedProblem, HoldsBoundsOfVelocitiesWhateverTheDuration) {
     EXPECT_LE(motion.v(8, 0) / shares[0], 0.9 + 1e-9);
     EXPECT_LE(motion.stage_v.col(1).maxCoeff() / shares[1], 1.2 + 1e-9);
   }
+}
+
+/// In a plane from rest to rest, slowly along the second axis.
+class Plane final : public Problem {
+ public:
+  explicit Plane(double longest) : Problem({{.name = "longest", .value = longest, .lower = 0.5}}) {}
+  [[nodiscard]] std::string name() const override { return "plane"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
+  [[nodiscard]] ProblemCard card() const override { return {.description = "two masses"}; }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"f", "g"}; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
+  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector2d(0, 0)); }
+  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(Eigen::Vector2d(1, 1)); }
+  [[nodiscard]] double horizon() const override { return 1.0; }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    bounds.horizon = {0.5, parameter("longest")};
+    bounds.v = Bounds::none(2);
+    bounds.v.upper[1] = 1.2;
+    return bounds;
+  }
+};
+
+TEST(PhasedProblem, GivesTheMultiplierOfAVelocityToItsCoordinate) {
+  Composed phased({{"a", std::make_shared<Plane>(1.0)}});
+  const Trajectory motion = solved(phased, {"dmoc", 1}, 16);
+  const Eigen::MatrixXd prices = phase_trajectories(phased, motion)[0].motion.prices.stage_v;
+  ASSERT_EQ(prices.cols(), 2);
+  EXPECT_EQ(prices.col(0).lpNorm<Eigen::Infinity>(), 0.0);
+  EXPECT_GT(prices.col(1).lpNorm<Eigen::Infinity>(), 1e-3);
+}
+
+TEST(PhasedProblem, RefusesARangeOfDurationsThatFollowsAParameter) {
+  Composed phased({{"a", std::make_shared<Plane>(1.0)}});
+  phased.set_parameter("longest", 2.0);
+  tests::expect_error_naming({"phase a", "0.5 to 1", "0.5 to 2"}, [&] { static_cast<void>(phased.bounds()); });
 }
 
 TEST(PhasedProblem, HoldsPathConstraintsAndTheirCounts) {

@@ -10,7 +10,7 @@ import numpy as np
 from . import _core
 from ._core import Error
 from .points import Point, named
-from .problem import Problem, _parameters_of
+from .problem import Problem, _members, _parameters_of
 
 
 class PhaseEnd(Point):
@@ -110,6 +110,9 @@ class Phases(Problem):
         name = self._problem_name()
         if not self._stated_phases():
             raise Error(f"{name} has no phases; write fall = Flight(), with a class Flight derived from Problem")
+        for member in sorted(_members - {"name", "source", "reference", "cost_scale"}):
+            if getattr(self, member, None) is not None:
+                raise Error(f"{name} states {member}, which is not read; each phase states its own")
         names = list(self._stated_phases())
         for member in vars(type(self)):
             before, found, after = member.partition("_to_")

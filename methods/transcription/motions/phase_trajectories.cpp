@@ -33,18 +33,31 @@ Eigen::VectorXd own_unknowns(const PhasedProblem& problem, std::size_t i, const 
   return own;
 }
 
+/// The multipliers of bounds on velocities, which are path constraints of a phase with a free duration; n columns.
+Eigen::MatrixXd prices_of_velocities(const PhasedProblem& problem, std::size_t i, const BoundMultipliers& all,
+                                     double share) {
+  const PhasedProblem::Part& part = problem.parts()[i];
+  if (!part.is_free) return columns(all.stage_v, part.q);
+  if (part.bounded_velocities.size == 0 || all.path.size() == 0) return {};
+  const std::vector<Eigen::Index> bounded = problem.bounded_velocities(i);
+  Eigen::MatrixXd prices = Eigen::MatrixXd::Zero(all.path.rows(), part.q.size);
+  for (std::size_t k = 0; k < bounded.size(); ++k) {
+    prices.col(bounded[k]) = all.path.col(part.bounded_velocities.first + static_cast<Eigen::Index>(k)) / share;
+  }
+  return prices;
+}
+
 BoundMultipliers own_prices(const PhasedProblem& problem, std::size_t i, const BoundMultipliers& all, double share) {
   const PhasedProblem::Part& part = problem.parts()[i];
   // Per unit and time, which passes faster or slower here.
-  return {
-      .q = columns(all.q, part.q),
-      .v = columns(all.v, part.q, share),
-      .y = columns(all.y, part.y),
-      .stage_v = part.is_free ? columns(all.path, part.bounded_velocities, 1.0 / share) : columns(all.stage_v, part.q),
-      .stage_u = columns(all.stage_u, part.u, 1.0 / share),
-      .path = columns(all.path, part.path, 1.0 / share),
-      .unknowns = own_unknowns(problem, i, all.unknowns),
-      .horizon = of_unknown(problem, all.unknowns, problem.name_of_duration(i))};
+  return {.q = columns(all.q, part.q),
+          .v = columns(all.v, part.q, share),
+          .y = columns(all.y, part.y),
+          .stage_v = prices_of_velocities(problem, i, all, share),
+          .stage_u = columns(all.stage_u, part.u, 1.0 / share),
+          .path = columns(all.path, part.path, 1.0 / share),
+          .unknowns = own_unknowns(problem, i, all.unknowns),
+          .horizon = of_unknown(problem, all.unknowns, problem.name_of_duration(i))};
 }
 
 }  // namespace
