@@ -15,6 +15,7 @@
 #include "problems/cannonball.hpp"
 #include "problems/cart_pole.hpp"
 #include "problems/cart_pole_cartesian.hpp"
+#include "problems/chaplygin_sleigh.hpp"
 #include "problems/compass_gait.hpp"
 #include "problems/container_crane.hpp"
 #include "problems/control_rate.hpp"
@@ -117,6 +118,7 @@ Registry problems_of_the_suite() {
   registry.add<TwoStageRocket>();
   registry.add<Refraction>();
   registry.add<SwingAndRelease>();
+  registry.add<ChaplyginSleigh>();
   return registry;
 }
 
