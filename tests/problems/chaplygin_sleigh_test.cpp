@@ -79,7 +79,7 @@ class SleighByMultiplier final : public SleighByForce {
   [[nodiscard]] Expression force_of_blade(const ControlledState& x) const override { return x.u[2]; }
 };
 
-Trajectory solved(const Problem& problem, const Scheme& scheme, Eigen::Index intervals) {
+Trajectory solved_sleigh(const Problem& problem, const Scheme& scheme, Eigen::Index intervals) {
   return tests::confirmed(problem, scheme, intervals, guessed_motion(problem), 1e-9).motion;
 }
 
@@ -102,30 +102,30 @@ TEST(ChaplyginSleigh, HasTheOptimumAndTheOrderOfTheTableauInBothStatements) {
     for (const std::string& method : paper_families()) {
       for (const int s : {1, 2}) {
         SCOPED_TRACE(problem->name() + ", " + method + ", s = " + std::to_string(s));
-        const double coarse = solved(*problem, {method, s}, 64).cost - optimum();
-        const double fine = solved(*problem, {method, s}, 128).cost - optimum();
+        const double coarse = solved_sleigh(*problem, {method, s}, 64).cost - optimum();
+        const double fine = solved_sleigh(*problem, {method, s}, 128).cost - optimum();
         EXPECT_LT(std::abs(fine), s == 1 ? 5e-4 : 1e-8);
         EXPECT_NEAR(order(coarse, fine), 2.0 * s, 0.1);
       }
     }
   }
-  EXPECT_NEAR(solved(by_quasi_velocities, {"dmoc", 4}, 64).cost, optimum(), 5e-15 * optimum());
+  EXPECT_NEAR(solved_sleigh(by_quasi_velocities, {"dmoc", 4}, 64).cost, optimum(), 5e-15 * optimum());
 }
 
 TEST(ChaplyginSleigh, SlipsByTheOrderOfTheTableauWhereTheForceOfTheBladeIsAFormula) {
   const SleighByForce problem;
   for (const int s : {1, 2}) {
-    const double fine = drift(solved(problem, {"dmoc", s}, 128));
+    const double fine = drift(solved_sleigh(problem, {"dmoc", s}, 128));
     EXPECT_LT(fine, s == 1 ? 1e-4 : 1e-8);
-    EXPECT_NEAR(order(drift(solved(problem, {"dmoc", s}, 64)), fine), 2.0 * s, 0.2);
+    EXPECT_NEAR(order(drift(solved_sleigh(problem, {"dmoc", s}, 64)), fine), 2.0 * s, 0.2);
   }
 }
 
 /// Two stages have order 2 instead of 4.
 TEST(ChaplyginSleigh, LosesOrderWhereTheForceOfTheBladeIsAControl) {
   const SleighByMultiplier problem;
-  const double coarse = solved(problem, {"dmoc", 2}, 64).cost - optimum();
-  const double fine = solved(problem, {"dmoc", 2}, 128).cost - optimum();
+  const double coarse = solved_sleigh(problem, {"dmoc", 2}, 64).cost - optimum();
+  const double fine = solved_sleigh(problem, {"dmoc", 2}, 128).cost - optimum();
   EXPECT_GT(std::abs(fine), 1e-7);
   EXPECT_NEAR(order(coarse, fine), 2.0, 0.2);
 }
