@@ -205,7 +205,8 @@ TEST(PhasedProblem, HoldsBoundsOfVelocitiesWhateverTheDuration) {
 /// In a plane from rest to rest, slowly along the second axis.
 class Plane final : public Problem {
  public:
-  explicit Plane(double longest) : Problem({{.name = "longest", .value = longest, .lower = 0.5}}) {}
+  explicit Plane(double longest)
+      : Problem({{.name = "longest", .value = longest, .unit = "s", .meaning = "upper bound", .lower = 0.5}}) {}
   [[nodiscard]] std::string name() const override { return "plane"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override { return {.description = "two masses"}; }
