@@ -172,7 +172,9 @@ PageModel intervals_picture(const std::string& caption, const std::vector<Interv
   const Scale x = linear(low - room, high + room, left, picture_width - 12.0);
   Json picture{{"w", picture_width}, {"h", picture_height}, {"caption", caption},    {"one", x(1.0)},
                {"top", top},         {"base", base},        {"lines", Json::array()}};
-  const double step = high - low > 2.0 ? 1.0 : 0.5;
+  double step = 0.5;
+  constexpr double most_steps = 4.0;
+  while (high - low > most_steps * step) step *= 2.0;
   for (double value = std::ceil(low / step) * step; value < high + room; value += step)
     if (value != 1.0)
       picture["ticks"].push_back({{"x", x(value)}, {"ty", picture_height - 3.0}, {"text", tick(value)}});

@@ -133,7 +133,7 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
       found.accumulated_jump <= largest_accumulated_jump_of_a_motion) {
     solved.solution.message = fmt::format(
         "{} The quadrature of the program misses {:.2g} of the running cost along its own trajectory: the cost "
-        "oscillates within the intervals.",
+        "varies too fast within the intervals.",
         sentence_of(Status::too_coarse), found.cost_error);
     return;
   }
