@@ -182,7 +182,7 @@ class Certify final : public ExperimentOf<Measured> {
         replay_error_column(&Measured::replay),
         {"replay_objective", "cost", "cost of the trajectory, its intervals integrated one by one",
          &Measured::replay_objective},
-        {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
+        {"polish_steps", "", "Newton steps after the solve", &Measured::polish_steps},
         {"indirect_objective", "cost", "cost by the indirect method",
          from(&Measured::indirect, &IndirectSolution::cost)},
         {"indirect_digits", "", "certified digits of this cost",

@@ -48,7 +48,7 @@ class Iterations final : public ExperimentOf<Measured> {
         {"predicted_minors", "", "minor iterations predicted from the numbers of variables and iterations",
          &Measured::predicted_minors},
         {"kkt_nonzeros", "", "entries of the KKT matrix, lower triangle", from(fill, &KktFill::nonzeros)},
-        {"factor_nonzeros", "", "entries of its factor", from(fill, &KktFill::factor_nonzeros)},
+        {"factor_nonzeros", "", "nonzeros of the factor of the KKT matrix", from(fill, &KktFill::factor_nonzeros)},
         {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
          from(solution, &Solution::total_evaluations)},
         replay_error_column(&Measured::replay),

@@ -61,7 +61,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
                       .takes_batches = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return Columns<Measured>{
-               {"start", "", "number of the start; 0 is the guess itself", &Measured::start, in_key},
+               {"start", "", "number of the start; 0 is the initial guess", &Measured::start, in_key},
                {"bulge_1", "", "perturbation of the start in q_1, relative to the range of that coordinate (--plane)",
                 &Measured::bulge_1},
                {"bulge_2", "", "perturbation of the start in q_2, or with twice the frequency if there is no q_2",

@@ -47,7 +47,7 @@ class Profile final : public ExperimentOf<Measured> {
                {"reference_digits", "", "valid digits of this cost", from(reference, &ReferenceOptimum::digits)},
                {"reference_kind", "", "stated by the problem, or the best cost of all methods on the finest grid",
                 [](const Measured& measured) { return measured.reference ? stated_reference : ""; }},
-               {"objective_error", "cost", "distance from it", &Measured::error},
+               {"objective_error", "cost", "distance from reference_objective", &Measured::error},
                {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
                 &Measured::evaluations},
            } +

@@ -37,12 +37,18 @@ void for_each_solve(const ResultsFolder& results, const std::string& problem,
   }
 }
 
-/// The lowest cost of a problem in all solved rows; empty if there are none.
+/// The lowest cost of a problem on the finest grid of all solved rows, since coarse grids may cost less than the
+/// optimum; empty if there are none.
 std::optional<double> lowest_cost(const ResultsFolder& results, const std::string& problem) {
   std::optional<double> lowest;
-  for_each_solve(results, problem, [&lowest](const Row& row) {
+  double finest = 0.0;
+  for_each_solve(results, problem, [&](const Row& row) {
     const auto cost = row.number("objective");
-    if (cost && !is_unsolved(row)) lowest = std::min(lowest.value_or(*cost), *cost);
+    if (!cost || is_unsolved(row)) return;
+    const double intervals = row.number("intervals").value_or(0.0);
+    if (intervals < finest) return;
+    lowest = intervals > finest ? *cost : std::min(lowest.value_or(*cost), *cost);
+    finest = intervals;
   });
   return lowest;
 }

@@ -120,7 +120,7 @@ std::vector<std::size_t> CaseRows::take(const StoredEntries& stored) {
     const std::vector<std::string> fields = place.at("row").texts();
     const std::string name = fmt::format("{}: case {}", stored.file.string(), number);
     if (number < 1 || number > rows_.size() || fields.size() != columns_.size())
-      throw Error(fmt::format("{} with {} fields belongs to another run; remove the file", name, fields.size()));
+      throw Error(fmt::format("{} with {} fields was written by another run; remove the file", name, fields.size()));
     Row row;
     for (std::size_t i = 0; i < fields.size(); ++i) row.set(columns_[i], fields[i]);
     require_measured(row, columns_, name);

@@ -71,7 +71,7 @@ Table with_statements(const Table& table, const std::set<Statement>& statements)
   result.describe(table.facts());
   constexpr FieldType text{FieldKind::text, true};
   result.describe({{"library", {"", "file of the problem's library; empty for problems of the suite", text}},
-                   {"settings", {"", "parameters that differ from their defaults, with spaces between them", text}}});
+                   {"settings", {"", "parameters that differ from their defaults, separated by spaces", text}}});
   result.set_key(with_statement_after_problem(table.key()));
   for (Row row : table.rows()) {
     const auto stated = std::ranges::find(statements, row.text("problem"), &Statement::problem);

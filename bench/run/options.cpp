@@ -282,7 +282,7 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--stages", options.stages, "numbers of stages s; each tableau uses the ones that it supports");
   line.option("--controls", options.controls,
               "stage: every stage has its own control; shared: neighbouring intervals share the control at their node, "
-              "only with --tableau lobatto, which tables name lobatto_shared");
+              "requires --tableau lobatto; tables name it lobatto_shared");
   line.list(
       "--quadrature", options.quadratures,
       "quadrature of galerkin: gauss or lobatto; its number of stages s is the degree of q; default: the tableaus");
@@ -309,11 +309,11 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
       "time limit for finding the common start of a problem (and tableau); afterwards solves start at the guess");
   line.group("Solver");
   line.list("--solver", options.solvers,
-            std::string("solvers, as `list` names them") +
+            std::string("names of solvers; see `dmocbench list`") +
                 (options.solvers.empty() ? "; default: ipopt for the paper's two problems, auto for others" : ""));
-  line.list("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them");
+  line.list("--derivatives", options.derivatives, "derivative back ends; see `dmocbench list`");
   line.option("--tolerance", options.tolerance, "tolerance for the KKT residual of the scaled program");
-  line.option("--iterations", options.most_iterations, "largest number of iterations of a solver");
+  line.option("--iterations", options.most_iterations, "maximum number of solver iterations");
   line.number("--seconds", options.most_seconds, 0.0, 1e6,
               "time limit of a case, its set-up and all of its grids; 0: no limit");
   line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");

@@ -65,7 +65,7 @@ const Columns<SolvedCase>& core_columns() {
       {"horizon", "time", "T of the solution, or of the guess, in the problem's unit of time", horizon_of},
       {"library", "", "file of the problem's library; empty for problems of the suite",
        [](const SolvedCase& s) { return library_of(s.the_case.problem->name()); }, in_key},
-      {"settings", "", "parameters that differ from their defaults, with spaces between them: mass=2 length=0.5",
+      {"settings", "", "parameters that differ from their defaults, separated by spaces: mass=2 length=0.5",
        [](const SolvedCase& s) { return s.the_case.problem->settings(); }, in_key},
       {"variables", "", "unknowns of the program", count([](P p) { return p.variable_count(); })},
       {"free_variables", "", "unknowns that are not fixed by their bounds",
@@ -120,11 +120,12 @@ std::vector<double> seconds_of_rounds(const SolvedCase& solved) {
 
 Columns<std::vector<double>> round_columns() {
   constexpr double quarter = 0.25;
-  return {
-      {"seconds_lower_quartile", "s", "lower quartile of the seconds of all rounds", quantile_of_rounds(quarter)},
-      {"seconds_upper_quartile", "s", "upper quartile of the seconds of all rounds", quantile_of_rounds(1.0 - quarter)},
-      {"round_seconds", "s", "wall clock of the solve in each round, with spaces between them",
-       [](const std::vector<double>& seconds) { return joined_numbers(seconds); }}};
+  return {{"seconds_lower_quartile", "s", "lower quartile of the time of the solve over all rounds",
+           quantile_of_rounds(quarter)},
+          {"seconds_upper_quartile", "s", "upper quartile of the time of the solve over all rounds",
+           quantile_of_rounds(1.0 - quarter)},
+          {"round_seconds", "s", "wall-clock time of the solve in each round, separated by spaces",
+           [](const std::vector<double>& seconds) { return joined_numbers(seconds); }}};
 }
 
 Columns<IndependentChecks> check_columns() {

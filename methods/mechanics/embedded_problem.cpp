@@ -83,7 +83,8 @@ void EmbeddedProblem::trace_embedding() {
   freedoms_ = n - c;
   const ExpressionVector theta = input_vector(0, freedoms_);
   const ExpressionVector q = call_formula(*redundant_, "embedding", [&] { return redundant_->embedding(theta); });
-  if (q.size() == 0) throw Error(redundant_->name() + " states no embedding(theta); state it or use multipliers");
+  if (q.size() == 0)
+    throw Error(redundant_->name() + " does not define embedding(theta); define it or use multipliers");
   if (q.size() != n) {
     throw Error(fmt::format("{}: embedding has {} entries, expected {}", redundant_->name(), q.size(), n));
   }

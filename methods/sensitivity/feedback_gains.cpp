@@ -71,7 +71,7 @@ void require_feedback(const Transcription& program, const Eigen::VectorXd& prima
                        : program.interval_structure()->has_interior_equations ? "conditions between the ends"
                                                                               : nullptr;
   if (reason != nullptr) {
-    throw Error(std::string("there are no feedback gains with ") + reason +
+    throw Error(std::string("feedback gains are not available with ") + reason +
                 ": the optimal control does not follow from the state at a node alone");
   }
 }

@@ -333,8 +333,8 @@ std::string idle_controls(const Problem& problem) {
     }
   }
   if (std::any_of(acts.begin(), acts.begin() + m, std::identity{})) return "";
-  return fmt::format(" No entry of force depends on a control{}, so no control can steer the system.",
-                     l > 0 ? ", nor a first-order state that one acts on" : "");
+  return fmt::format(" The force does not depend on a control{}, so no control can steer the system.",
+                     l > 0 ? ", directly or through a first-order state" : "");
 }
 
 /// A sentence if the cost is so far below 0 that it may have no lower bound: scaled costs are of order 1.

@@ -389,7 +389,8 @@ void Transcription::use(Values values) {
                             values.horizon, horizon.lower, horizon.upper));
   }
   if (horizon.is_free() != end_rules_.free_horizon) {
-    throw Error(problem_->name() + ": whether the horizon is free cannot change; make a new transcription");
+    throw Error(problem_->name() +
+                ": a fixed horizon cannot become free, nor a free one fixed; create a new transcription");
   }
   require_same_velocities(*problem_, problem_bounds_, values.bounds);
   require_same_times(*problem_, problem_bounds_, values.bounds);

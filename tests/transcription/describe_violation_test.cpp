@@ -208,7 +208,7 @@ TEST_P(ViolationInWords, TellsTheNamesOfConstraintsAndThatNoForceReadsAControl) 
   const Idle problem;
   Ended ended(problem, GetParam());
   EXPECT_PRED2(says, ended.words(), "path_constraints[1] (ceiling) in interval ");
-  EXPECT_PRED2(says, ended.words(), "No entry of force depends on a control");
+  EXPECT_PRED2(says, ended.words(), "The force does not depend on a control");
   const auto last = static_cast<std::size_t>(ended.transcription->constraint_count()) - 1;
   EXPECT_EQ(describe_constraint(problem, *ended.transcription, ended.solution.primal, last),
             "boundary_conditions[0] (gate)");

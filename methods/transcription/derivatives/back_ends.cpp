@@ -71,7 +71,7 @@ constexpr auto back_ends = std::to_array<Entry>({
 constexpr auto back_end_name = [](const Entry& entry) { return entry.name; };
 
 const Entry& entry_named(std::string_view name) {
-  std::string refusal = "there are no derivatives by";
+  std::string refusal = "there is no derivative back end";
 #ifndef DMOCBENCH_WITH_ADOLC
   if (name.starts_with("adolc"))
     refusal = "this build has no ADOL-C (install it and configure again), hence no derivatives by";

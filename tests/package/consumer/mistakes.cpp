@@ -240,13 +240,13 @@ struct Mistake {
 const std::vector<Mistake>& mistakes() {
   static const std::vector<Mistake> all = {
       {"ForceTooShort", "force has 1 entries, expected 2", statement<ForceTooShort>()},
-      {"ForceForgotten", "No entry of force depends on a control", statement<ForceForgotten>()},
+      {"ForceForgotten", "The force does not depend on a control", statement<ForceForgotten>()},
       {"OneControlForgotten", "no formula reads the control pull", statement<OneControlForgotten>()},
       {"ForceReadsFar", "a formula reads u[2], but u has 2 entries", statement<ForceReadsFar>()},
       {"VelocityReadsFar", "a formula reads v[2]", statement<VelocityReadsFar>()},
       {"NegativeEntry", "a formula reads v[-1]", statement<NegativeEntry>()},
-      {"HalfIsAnInteger", "L_vv has an empty row for left", statement<HalfIsAnInteger>()},
-      {"MassForgotten", "L_vv has an empty row for right", statement<MassForgotten>()},
+      {"HalfIsAnInteger", "L_vv has a zero row for left", statement<HalfIsAnInteger>()},
+      {"MassForgotten", "L_vv has a zero row for right", statement<MassForgotten>()},
       {"SingularMass", "L_vv is singular", statement<SingularMass>()},
       {"NegativeLogarithm", "lagrangian is not a number", statement<NegativeLogarithm>()},
       {"CostOfNegativeRoot", "running_cost is not a number", statement<CostOfNegativeRoot>()},
