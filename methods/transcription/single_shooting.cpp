@@ -59,7 +59,7 @@ SingleShooting::SingleShooting(Transcription& program)
   if (blocks.unknown(Quantity::integral).width > 0)
     throw Error("single shooting does not support integral constraints; use multiple_shooting");
   if (program.functions().has_stage_unknowns || blocks.unknown(Quantity::cost).width > 0) {
-    throw Error("single shooting supports the Bolza form only");
+    throw Error("single shooting takes programs of multiple shooting in Bolza form only");
   }
   sort_unknowns();
   sort_rows();

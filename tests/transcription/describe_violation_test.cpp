@@ -241,7 +241,7 @@ TEST_P(ViolationInWords, FollowsControlsThroughFirstOrderStates) {
   const ByWayOfTwoRates steered(true);
   EXPECT_EQ(Ended(steered, GetParam()).words().find("no control can steer"), std::string::npos);
   const ByWayOfTwoRates idle(false);
-  EXPECT_PRED2(says, Ended(idle, GetParam()).words(), "nor a first-order state that one acts on");
+  EXPECT_PRED2(says, Ended(idle, GetParam()).words(), "directly or through a first-order state");
 }
 
 /// A pendulum without a control from 0 to 1, whose velocities at the ends are free: a boundary value problem.
