@@ -234,7 +234,7 @@ TEST(IndirectSolution, IsTheSameFromItsNumbers) {
   EXPECT_EQ(again.certified_digits(), solution.certified_digits());
   CollocatedExtremal cut = solution.extremal();
   cut.rates.conservativeResize(cut.rates.rows(), cut.rates.cols() - 1);
-  tests::expect_error_naming({"do not fit"}, [&] { IndirectSolution(problem, cut, {}); });
+  tests::expect_error_naming({"wrong size"}, [&] { IndirectSolution(problem, cut, {}); });
 }
 
 }  // namespace
