@@ -20,7 +20,7 @@ struct PhaseEnd : State {
 /// q, p and y are continuous: a capture, a docking. Where the inertia changes, v jumps.
 [[nodiscard]] ExpressionVector momentum_kept(const PhaseEnd& before, const PhaseEnd& after);
 
-/// q and v are continuous, and y falls by `dropped`, l entries: a stage that is left behind takes its momentum with it.
+/// q and v are continuous, and y falls by `amount`, l entries: a stage that is left behind takes its momentum with it.
 [[nodiscard]] ExpressionVector dropped(const PhaseEnd& before, const PhaseEnd& after, const ExpressionVector& amount);
 
 /// An impact on g(q) = 0, c entries: q and y are continuous, p⁺ - p⁻ = Gᵀμ with G = ∂g/∂q, and G(v⁺ + e v⁻) = 0 with
