@@ -14,8 +14,8 @@ namespace dmocbench::report_program {
 int write_report(CommandLine& line) {
   std::filesystem::path from = "results";
   std::string to;
-  line.option("--from,--out", from, "the results folder, in which the page is written");
-  line.option("--to", to, "the page, if it is written elsewhere; default: report.html in the results folder");
+  line.option("--from,--out", from, "the results folder");
+  line.option("--to", to, "the file to write; default: report.html in the results folder");
   line.exit_code_1("");
   parse_with_libraries(line);
   const ResultsFolder results = read_results_folder(from);

@@ -38,7 +38,7 @@ class SatelliteDirectors final : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "a rigid satellite turns from rest to rest, its attitude a rotation matrix",
+        .description = "a rigid satellite turns from rest to rest, with a rotation matrix as its attitude",
         .title = "Satellite (directors)",
         .axis_units = {.state = "dimensionless"},
         .source =

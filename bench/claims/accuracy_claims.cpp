@@ -24,7 +24,7 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
   for (const Row& row : all.usable()) {
     const Selection tangent = midpoint(rows, "tangent").usable().matching(row, {"intervals"});
     if (tangent.empty()) continue;
-    ratios.push_back({"replay error of DMOC over the error of tangent-space collocation",
+    ratios.push_back({"ratio of replay errors, DMOC to tangent-space collocation",
                       quotient(row, tangent.front(), "replay_error"), "dmoc", "N = " + row.text("intervals")});
     used.append(row);
   }
@@ -33,8 +33,8 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
   const auto [least, most] = std::ranges::minmax(ratios, {}, &Measurement::value);
   const auto [lower, upper] = problem == two_link ? std::pair(1.0, infinity) : std::pair(0.0, 1.0);
   return found(verdict_on_interval(least.value, most.value, lower, upper),
-               "replay error of DMOC over the error of tangent-space collocation on {} grids, N = {} to {}: {}",
-               used.size(), used.front().text("intervals"), used.back().text("intervals"), listed("{:.3f}", ratios))
+               "ratio of replay errors, DMOC to tangent-space collocation, on {} grids, N = {} to {}: {}", used.size(),
+               used.front().text("intervals"), used.back().text("intervals"), listed("{:.3f}", ratios))
       .also(left_out(all, used, "not solved by both, in favour of"));
 }
 
@@ -97,8 +97,8 @@ Claims accuracy_claims() {
                          "the controls of tangent-space collocation, on every grid: the momentum balance that the "
                          "discrete system keeps does not bound the error of its trajectory"),
        .judge = replay_beside_tangent,
-       .condition = "the paper motivates DMOC by effort that is meaningful only if the system responds to the "
-                    "forces as computed, and compares no responses; controls are constant over an interval",
+       .condition = "the effort with which the paper motivates DMOC is meaningful only if the system responds to the "
+                    "forces as computed, but the paper compares no responses; controls are constant over an interval",
        .evidence = {"convergence.csv"},
        .headline = true},
       {.id = "rounding_floor",
@@ -112,8 +112,8 @@ Claims accuracy_claims() {
        .where = "section 4.1, SQP Method",
        .states = "interior_point, the solver of experiments that do not compare solvers, ends in the minima of Ipopt",
        .judge = interior_point_beside_ipopt,
-       .condition = "warm, from a common start; the solutions of both are refined by Newton steps, so that the claim "
-                    "is about the branch and not about digits",
+       .condition = "warm, from a common start; the solutions of both are refined by Newton steps, so the claim is "
+                    "about the branch, not about digits",
        .evidence = {"convergence.csv", "convergence_stages.csv"}}};
 }
 

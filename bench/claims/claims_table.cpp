@@ -29,12 +29,13 @@ std::string evidence_in_words(const JudgedClaim& claim) {
 const Columns<JudgedClaim>& claim_columns() {
   static const Columns<JudgedClaim> all{
       {"claim", "", "problem and short name", &JudgedClaim::id, in_key},
-      {"where", "", "in the paper", &JudgedClaim::where},
-      {"figure", "", "of the paper", &JudgedClaim::figure},
-      {"whose", "", "who states it", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
+      {"where", "", "place in the paper", &JudgedClaim::where},
+      {"figure", "", "figure of the paper", &JudgedClaim::figure},
+      {"whose", "", "who makes the statement", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
       {"states", "", "the statement", &JudgedClaim::states},
       {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
-      {"verdict", "", "by the tables", [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
+      {"verdict", "", "verdict computed from the tables",
+       [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
       {"reason", "", "why it differs, or when it holds", &JudgedClaim::reason},
       {"evidence", "", "tables and figures", evidence_in_words},
       {"sure", "", "exact, or the share of replicates with the same verdict", &JudgedClaim::sure},
@@ -46,8 +47,9 @@ const Columns<JudgedClaim>& claim_columns() {
 const Columns<JudgedClaim>& finding_columns() {
   static const Columns<JudgedClaim> all{
       {"finding", "", "problem and short name", &JudgedClaim::id, in_key},
-      {"where", "", "the place in the paper that it is about", &JudgedClaim::where},
-      {"whose", "", "ours, or about an extension", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
+      {"where", "", "related place in the paper", &JudgedClaim::where},
+      {"whose", "", "ours, or an extension of the suite",
+       [](const JudgedClaim& claim) { return name_of(claim.whose); }},
       {"question", "", "what is measured", &JudgedClaim::states},
       {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
       {"condition", "", "when it holds", &JudgedClaim::reason},
@@ -78,7 +80,7 @@ struct Title {
 Title title_of(Whose whose) {
   constexpr std::array titles{
       Title{"the paper's statements and remarks", "The paper's statements and remarks"},
-      Title{"findings of ours", "Findings of ours: sharper forms, and questions that the paper leaves open"},
+      Title{"our findings", "Our findings: sharper forms, and questions that the paper leaves open"},
       Title{"misprints", "Misprints: the printed and the intended statement"},
       Title{"extensions", "Extensions of the suite"}};
   return titles[static_cast<std::size_t>(whose)];
@@ -139,7 +141,7 @@ std::string summary_markdown(const std::vector<JudgedClaim>& claims) {
   append("Statements and remarks of the paper that are not reproduced", [](const JudgedClaim& claim) {
     return claim.whose == Whose::paper && claim.verdict != ClaimVerdict::reproduced;
   });
-  append("Findings of ours to read first", [](const JudgedClaim& claim) { return claim.headline; });
+  append("Our main findings", [](const JudgedClaim& claim) { return claim.headline; });
   return text;
 }
 
@@ -196,10 +198,11 @@ Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
     std::string records;
     std::string columns;
   };
-  const Columns<Evidence> columns{{"claim", "", "its name", &Evidence::claim, in_key},
-                                  {"table", "", "the file that was read", &Evidence::table, in_key},
-                                  {"records", "", "of that file, 2-5 9; the header is record 1", &Evidence::records},
-                                  {"columns", "", "that were read, with spaces between them", &Evidence::columns}};
+  const Columns<Evidence> columns{
+      {"claim", "", "name of the claim", &Evidence::claim, in_key},
+      {"table", "", "the file that was read", &Evidence::table, in_key},
+      {"records", "", "records that were read, such as 2-5 9; the header is record 1", &Evidence::records},
+      {"columns", "", "columns that were read, separated by spaces", &Evidence::columns}};
   std::vector<Evidence> evidence;
   for (const JudgedClaim& claim : claims) {
     for (const ReadRows& rows : claim.rows) {

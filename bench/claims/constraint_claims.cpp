@@ -105,7 +105,7 @@ Finding costs_with_constraints(const ResultTables& tables, const std::string& /*
 /// A statement of a problem on the grid of `row`, if it was solved.
 const Row& same_grid(const Selection& rows, const std::string& problem, const Row& row) {
   const Selection same = rows.where("problem", problem).where("intervals", row.text("intervals"));
-  require(same.size() == 1, "objective_forms.csv needs one solved row of {} with N = {}, and has {}", problem,
+  require(same.size() == 1, "objective_forms.csv needs one solved row of {} with N = {}, but has {}", problem,
           row.text("intervals"), same.size());
   return same.front();
 }
@@ -163,7 +163,7 @@ Claims constraint_claims() {
            .states = "with constraints g(q) = 0 the change in momentum equals the work of the forces for DMOC and "
                      "Hamiltonian collocation, not for tangent-space collocation",
            .judge = momentum_with_constraints,
-           .condition = "the force along the symmetry is the intended one off the manifold, too",
+           .condition = "the force along the symmetry is the intended one also off the manifold",
            .evidence = {"consistency_constrained.csv"}},
           {.id = "costs",
            .problems = constrained,
@@ -176,8 +176,8 @@ Claims constraint_claims() {
            .problems = constrained,
            .where = "section 1, DMOCC",
            .whose = Whose::extension,
-           .states = "an embedding q = Φ(θ) at the nodes has the optimal costs of multipliers, with fewer unknowns and "
-                     "rows, by DMOC with one Gauss stage",
+           .states = "for DMOC with one Gauss stage, an embedding q = Φ(θ) at the nodes has the same optimal costs as "
+                     "multipliers, with fewer unknowns and rows",
            .judge = embedding_with_constraints,
            .evidence = {"objective_forms.csv", "figures/constraint_forms.svg"}}};
 }

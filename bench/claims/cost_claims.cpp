@@ -107,9 +107,8 @@ Predicate saves_at_equal(const char* quantity) {
                  Measurement{"largest ratio of free variables", of_method.max("variables_ratio"), method, at}));
       smallest = std::min(smallest, least);
     }
-    return found(smallest > more_expensive,
-                 "free variables of collocation to DMOC's where the {} error is the same: {}", quantity,
-                 joined(words, ", "));
+    return found(smallest > more_expensive, "ratio of free variables, collocation to DMOC, at equal {} error: {}",
+                 quantity, joined(words, ", "));
   };
 }
 
@@ -170,7 +169,7 @@ Claims cost_claims() {
        .evidence = advantage},
       {.id = "whole_solves_at_equal_accuracy",
        .where = "section 4.2",
-       .states = "iterations and time of whole solves, collocation to DMOC, where both are equally accurate",
+       .states = "ratio of iterations and of time of whole solves, collocation to DMOC, at equal accuracy",
        .judge = whole_solves,
        .condition =
            "warm, from the common start; equal replay errors for iterations, equal errors of the cost for times",

@@ -137,14 +137,16 @@ Finding more_robust(const ResultTables& tables, const std::string& problem) {
   if (tables.has(cold)) {
     Pairs central;
     central.add(settings.back(), {"tape", "finite_differences", ""});
-    words.push_back(worded("central differences solve {} of {} from the guess, {} of them alone and {} not",
-                           central.by_differences, central.count, central.by_differences_alone, central.exact_alone));
+    words.push_back(
+        worded("from the guess central differences solve {} of {} programs; {} are solved by central differences only, "
+               "{} by exact derivatives only",
+               central.by_differences, central.count, central.by_differences_alone, central.exact_alone));
     reason = worded("{}: the error of their Jacobians is {} of the largest entry, and of ADOL-C's {}", reason,
                     range_of(settings.back(), "dense_differences", "jacobian_error"),
                     range_of(settings.back(), "adolc_whole", "jacobian_error"));
   }
   return Finding{.clauses = std::move(words), .verdict = verdict_on_all(verdicts)}.because(reason).as_sure_as(
-      fmt::format("sign tests of programs that only one of both solves, chance {}", fmt::join(chances, ", ")));
+      fmt::format("sign tests on programs that only one of the two solves, p = {}", fmt::join(chances, ", ")));
 }
 
 /// Adds the ratio of the times by two back ends, round by round the geometric mean over all programs that both solve,

@@ -88,9 +88,8 @@ Claims energy_claims() {
                "along the optimal trajectory the energy of DMOC misses the virtual work by more than the energy "
                "of tangent-space collocation"),
            .judge = gap_beside_tangent,
-           .condition =
-               "both gaps are of order h^2 and their factors belong to the trajectory: on the slow transfer DMOC's is "
-               "the smaller one, on the fast manipulator the larger one",
+           .condition = "both gaps are of order h^2, and their factors depend on the trajectory: DMOC's is smaller on "
+                        "the slow transfer and larger on the fast manipulator",
            .evidence = {"invariants_energy_work.csv", "figures/{}_energy_work.svg"}},
           {.id = "modified_energy_and_work",
            .where = in_paper,
@@ -98,8 +97,8 @@ Claims energy_claims() {
                "along optimal trajectories H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule change by the "
                "modified work up to h^2, h^4 and h^6",
            .judge = balances_modified_work,
-           .condition = "the work has to be modified as well, by terms that vanish with the force: against the virtual "
-                        "work alone every truncation keeps a gap of order 2",
+           .condition = "the work must be modified too, by terms that vanish with the force: compared with the virtual "
+                        "work alone, every truncation has a gap of order 2",
            .evidence = {"invariants_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
 }
 

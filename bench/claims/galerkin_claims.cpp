@@ -90,8 +90,8 @@ Finding galerkin_is_dmoc(const ResultTables& tables, const std::string& problem)
   }
   require(pairs > 0, "convergence_galerkin.csv has no solve of {} by dmoc and by galerkin with r = s = m", problem);
   return found(std::max(of_cost, of_state) < equal_solutions,
-               "of {} pairs of solves, largest relative difference of the cost {:.1e}, of the errors of q {:.1e}",
-               pairs, Measurement{"largest relative difference of the cost", of_cost},
+               "{} pairs of solves: largest relative difference of the cost {:.1e}, of the errors of q {:.1e}", pairs,
+               Measurement{"largest relative difference of the cost", of_cost},
                Measurement{"largest difference of the errors of q", of_state});
 }
 
@@ -131,10 +131,10 @@ Claims galerkin_claims() {
           order("control_space_continuous", "convergence_galerkin_shared", has_any,
                 "continuous controls through m Lobatto nodes, m >= 2, have order 2 min(s, m) as well"),
           order("control_space_by_lobatto_quadrature", "convergence_galerkin_lobatto", has_any,
-                "by s + 1 Lobatto points the order is 2 min(s, m) as well"),
+                "with s + 1 Lobatto points the order is 2 min(s, m) as well"),
           {.id = "galerkin_is_dmoc",
            .where = "section 3.4, eq:DMOC_RK_L",
-           .states = "with r = s = m by Gauss the Galerkin integrator has the solutions of DMOC",
+           .states = "with Gauss points and r = s = m the Galerkin integrator has the same solutions as DMOC",
            .judge = galerkin_is_dmoc,
            .evidence = {"convergence_galerkin.csv"}},
           {.id = "galerkin_momentum",

@@ -86,7 +86,7 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
     coarser = &tangent.front();
     const double ratio = error(tangent.front()) / error(row);
     are_equal = are_equal && ratio < equally_well && ratio > 1.0 / equally_well;
-    ratios.push_back({"error of tangent over error of dmoc", ratio, "tangent", "N = " + row.text("intervals")});
+    ratios.push_back({"ratio of errors, tangent to dmoc", ratio, "tangent", "N = " + row.text("intervals")});
   }
   require(used.size() > 1, "objective.csv has {} grids of {} solved by all three methods; two are needed", used.size(),
           problem);
@@ -94,7 +94,7 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
   const ClaimVerdict verdict = ratios.empty() ? ClaimVerdict::floor : verdict_on(is_identical && are_equal);
   return found(verdict, "J of dmoc and hamiltonian differ by {:.0e} relative",
                Measurement{"relative difference of J", difference, "hamiltonian"})
-      .also(worded("error of tangent over error of dmoc, N = {} to {}: {}", used.front().text("intervals"),
+      .also(worded("ratio of errors, tangent to dmoc, N = {} to {}: {}", used.front().text("intervals"),
                    used.back().text("intervals"), listed("{:.2f}", ratios)))
       .also(worded("{} grids at the round-off of J left out", at_floor))
       .also(left_out(dmoc, used, "not solved by all, in favour of"))
@@ -119,7 +119,7 @@ Finding variable_ratio(const ResultTables& tables, const std::string& problem) {
   const auto in_words = [&](const Row& row) {
     const std::string& method = row.text("method");
     return worded("{:.4f} of {}",
-                  Measurement{"free variables of DMOC over those of the method", ratio_to_dmoc(row), method}, method);
+                  Measurement{"ratio of free variables, DMOC to the method", ratio_to_dmoc(row), method}, method);
   };
   return found(std::ranges::all_of(collocation, is_as_stated), "free variables at N = {}: {}", dmoc.text("intervals"),
                joined(collocation, ", ", in_words));

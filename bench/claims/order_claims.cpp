@@ -48,10 +48,12 @@ Selection fitted_of(const Selection& orders) {
 
 /// The rows missing from the orders: orders without a fit, and solves that no fit could use.
 Words not_in(const Selection& orders, const ResultTables& tables, const std::string& problem) {
-  return joined({left_out(orders, fitted_of(orders),
-                          "without a fit (few grids above round-off, or no four that agree), in favour of the claim:"),
-                 unsolved_behind(tables, "convergence_indirect", {{"problem", problem}})},
-                "; ");
+  return joined(
+      {left_out(
+           orders, fitted_of(orders),
+           "because they have no fit (few grids above round-off, or no four that agree), which favours the claim:"),
+       unsolved_behind(tables, "convergence_indirect", {{"problem", problem}})},
+      "; ");
 }
 
 /// Throws `Error` unless there is an order of every quantity, by both methods and every tableau that is there at all.
@@ -141,10 +143,10 @@ Finding order_of_adjoint_scheme(const ResultTables& tables, const std::string& p
   const double residual = solves.max("adjoint_residual");
   const double plain = lobatto.min("adjoint_residual_by_plain_coefficients");
   return found(verdict_on_orders(orders, residual < rounding_of_costates && plain > far_above_rounding),
-               "multipliers of {} solves, carried to costates, leave at most {:.1e} of the costates in it (Lobatto, "
-               "halves not exchanged: at least {:.1e})",
+               "costates from the multipliers of {} solves have a residual of at most {:.1e}, relative to the costates "
+               "(Lobatto with halves not exchanged: at least {:.1e})",
                solves.size(), Measurement{"largest residual of the adjoint scheme", residual},
-               Measurement{"least residual by coefficients that are not exchanged", plain})
+               Measurement{"smallest residual with coefficients that are not exchanged", plain})
       .also(left_out(all, solves))
       .also(worded("slopes of DMOC's costate: {}", in_words(orders)))
       .also(not_in(orders, tables, problem));
@@ -263,29 +265,29 @@ Claims order_claims() {
        .whose = Whose::paper,
        .states = "order kappa for state, costate and u(x, psi) at the nodes",
        .judge = order_of_convergence,
-       .condition = "the optimum is smooth, and its final state is fixed, which the theorem leaves out",
+       .condition = "the optimum is smooth; its final state is fixed, which the theorem excludes",
        .evidence = {"convergence_indirect_slopes.csv", "convergence_indirect.csv", "figures/{}_orders.svg"}},
       {.id = "order_eight_of_four_stages",
        .problems = only_orbit,
        .where = "section 3.6, main_theorem",
        .states = "four Gauss stages have order 8 in state, costate and u(x, psi)",
        .judge = order_eight,
-       .condition = "round-off leaves few grids: the fit needs four above it",
+       .condition = "round-off leaves few grids; a fit needs four above it",
        .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}},
       {.id = "order_of_adjoint_scheme",
        .where = "section 3.5, th:orderapp, eq:stateco5-eq:stateco9",
        .whose = Whose::paper,
        .states = "the adjoint scheme is the scheme of the states with both halves exchanged, and has the same order",
        .judge = order_of_adjoint_scheme,
-       .condition = "Gauss is its own exchange, so that only Lobatto can distinguish the two",
+       .condition = "Gauss is its own conjugate, so only Lobatto can distinguish the two",
        .evidence = {"equivalence.csv", "convergence_indirect_slopes.csv", "figures/{}_adjoint.svg"}},
       {.id = "stability_constant",
        .where = "section 3.6, abstract_result",
        .states = "the factor by which consistency errors of the state equations enter the error of the optimum, as the "
                  "grid is refined",
        .judge = stability_constant,
-       .condition = "it bounds the constant of (abstract_result) from below, in this direction of errors alone; the "
-                    "midpoint rule, and fixed ends, since the indirect method, the reference, has no others",
+       .condition = "a lower bound on the constant of (abstract_result), for errors in this direction only; midpoint "
+                    "rule and fixed ends, because the reference, the indirect method, supports no others",
        .evidence = {"convergence_indirect_jumps.csv"},
        .has_verdict = false},
       {.id = "order_with_first_order_states",

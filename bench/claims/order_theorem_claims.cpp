@@ -10,7 +10,8 @@ Finding exact_transforms_agree(const ResultTables& tables, const std::string& pr
   constexpr double rounding_of_differences = 1e-9;
   const Selection rows = tables.rows("consistency_order_transforms", problem);
   const auto defect = [](const Row& row) {
-    require(row.needed("largest_momentum") > 0.0, "{}, column largest_momentum: it has to be above zero", row.place());
+    require(row.needed("largest_momentum") > 0.0, "{}, column largest_momentum: the value must be positive",
+            row.place());
     return std::max(row.needed("left_defect"), row.needed("right_defect")) / row.needed("largest_momentum");
   };
   return found(rows.max(defect) < rounding_of_differences,
@@ -68,7 +69,7 @@ Claims order_theorem_claims() {
        .where = "section 2.3, the Lemma",
        .whose = Whose::paper,
        .states = "the forced discrete Legendre transforms of L_d^E equal the transforms of L at the ends of the exact "
-                 "motion",
+                 "trajectory",
        .judge = exact_transforms_agree,
        .evidence = {"consistency_order_transforms.csv"}},
       {.id = "order_theorem",
@@ -81,14 +82,13 @@ Claims order_theorem_claims() {
                                          {"(ii) transforms", transforms, 1},
                                          {"(iii) L_d", {"lagrangian"}, 1},
                                          {"(iii) f_d", forces, 1}}),
-       .cause =
-           "(i) holds and (ii) and (iii) do not, because the definitions (eq:DMOC_orderf) and (eq:DMOC_orderLeg) ask "
-           "one power too much of f_d and of the transforms: at fixed end points the derivative of h^(r + 1) "
-           "e((q_0 + q_1)/2, (q_1 - q_0)/h) by q_1 loses one power, so that their exact order is h^r while L_d and "
-           "the map keep h^(r + 1) (methods/diagnostics/README.md, \"Order of consistency\"); Patrick and Cuell, whom "
-           "the paper cites for another proof, find it for the unforced theorem: divisions by the time step cost one "
-           "order, which a symmetry between past and future repairs for the map (Error analysis of variational "
-           "integrators of unconstrained Lagrangian systems, Numer. Math. 113, 2009)",
+       .cause = "(i) holds and (ii) and (iii) do not, because the definitions (eq:DMOC_orderf) and (eq:DMOC_orderLeg) "
+                "require one power too many of f_d and of the transforms: at fixed end points the derivative of h^(r + "
+                "1) e((q_0 + q_1)/2, (q_1 - q_0)/h) by q_1 loses one power, so that their exact order is h^r while L_d "
+                "and the map keep h^(r + 1) (methods/diagnostics/README.md, \"Order of consistency\"); Patrick and "
+                "Cuell, whom the paper cites for another proof, find it for the unforced theorem: divisions by the "
+                "time step cost one order, which a symmetry between past and future repairs for the map (Error "
+                "analysis of variational integrators of unconstrained Lagrangian systems, Numer. Math. 113, 2009)",
        .evidence = evidence},
       {.id = "order_theorem_with_one_power_less",
        .where = "section 2.3, th:ordercalculation",

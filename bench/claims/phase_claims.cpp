@@ -35,13 +35,14 @@ Finding momentum_across_impacts(const ResultTables& tables, const std::string& /
   const auto largest = [&](const char* method) {
     const Selection of_method = rows.where("method", method);
     require(!of_method.empty(), "consistency_phases.csv has no solved row of {}", method);
-    return Measurement{"momentum less work over the whole motion", of_method.max("momentum_defect_total"), method};
+    return Measurement{"momentum minus work over the whole trajectory", of_method.max("momentum_defect_total"), method};
   };
   const bool balances = largest("dmoc").value < rounding && largest("hamiltonian").value < rounding;
   const ClaimVerdict verdict = !balances                             ? ClaimVerdict::differs
                                : largest("tangent").value > rounding ? ClaimVerdict::reproduced
                                                                      : ClaimVerdict::undecided;
-  return found(verdict, "momentum less work over the whole motion: dmoc {:.0e}, hamiltonian {:.0e}, tangent {:.0e}",
+  return found(verdict,
+               "momentum minus work over the whole trajectory: dmoc {:.0e}, hamiltonian {:.0e}, tangent {:.0e}",
                largest("dmoc"), largest("hamiltonian"), largest("tangent"));
 }
 

@@ -64,7 +64,7 @@ Finding confirmed_more_often(const ResultTables& tables, const std::string& prob
                              const char* second) {
   const Row row = cold_starts_of(tables, problem, first);
   const Row other = cold_starts_of(tables, problem, second);
-  require(row.text("intervals") == other.text("intervals"), "{} and {} are about other grids", row.place(),
+  require(row.text("intervals") == other.text("intervals"), "{} and {} have different grids", row.place(),
           other.place());
   const ShareCount own = count_of_cold_starts(row, "confirmed");
   const ShareCount others = count_of_cold_starts(other, "confirmed");
@@ -124,13 +124,14 @@ Predicate costs_more(const char* method) {
       const auto quotient_of_times =
           ratio(cost_at_error(other[round], error, same_error), cost_at_error(dmoc[round], error, same_error));
       require(quotient_of_times.has_value(),
-              "savings_by_solver_shooting.csv: {} by {} and DMOC reach no error of the cost both", problem, method);
+              "savings_by_solver_shooting.csv: {} by {} and DMOC reach no common error of the cost", problem, method);
       ratios.push_back(*quotient_of_times);
     }
     TimedRatios timed(1.0);
     timed.add(method, ratios);
     return found_by_times(
-        timed, fmt::format("time of a solve by Ipopt to DMOC's at the relative error {:.1e} of the cost: ", error));
+        timed,
+        fmt::format("ratio of the time of a solve by Ipopt to DMOC's at a relative error {:.1e} of the cost: ", error));
   };
 }
 
@@ -155,24 +156,24 @@ Claims shooting_claims() {
   };
   return {{.id = "order_of_shooting",
            .where = where,
-           .states = "shooting has the smaller one of the orders of its integrator (rk4 4, midpoint rule 2) and its "
-                     "control (2s)",
+           .states = "the order of shooting is the smaller of the orders of its integrator (4 for rk4, 2 for the "
+                     "midpoint rule) and its control (2s)",
            .judge = order_of_shooting,
-           .condition = "the midpoint rule with s = 1: of two controls it would weigh one alone",
+           .condition = "the midpoint rule is used with s = 1, because it evaluates only the control at the midpoint",
            .evidence = {"convergence_shooting_slopes.csv", "convergence_shooting_two_stages_slopes.csv",
                         "figures/{}_shooting.svg"}},
           {.id = "multiple_shooting_more_robust_than_single",
            .problems = with_swing_up,
            .where = where,
-           .states = "from cold starts, the guess and near it, multiple shooting is solved and confirmed more often "
-                     "than single shooting",
+           .states = "from cold starts (the guess and perturbed guesses), multiple shooting is solved and confirmed "
+                     "more often than single shooting",
            .judge = more_often(multiple, single),
            .evidence = cold},
           {.id = "dmoc_more_robust_than_multiple_shooting",
            .problems = with_swing_up,
            .where = where,
-           .states = "from cold starts, the guess and near it, DMOC is solved and confirmed more often than multiple "
-                     "shooting",
+           .states = "from cold starts (the guess and perturbed guesses), DMOC is solved and confirmed more often than "
+                     "multiple shooting",
            .judge = more_often("dmoc", multiple),
            .evidence = cold},
           dearer("multiple_shooting_slower_at_equal_error", multiple,

@@ -180,7 +180,7 @@ Claims smoothness_claims() {
       {.id = "kinks_leave_order_2",
        .problems = examples,
        .where = "section 3.6, eq:conv_estimate",
-       .states = "where the optimal control has kinks, a method of order 4 is left with about order 2",
+       .states = "where the optimal control has kinks, a method of order 4 has only about order 2",
        .judge = kinks_leave_order_2,
        .condition = "tau(d^3 u*/dt^3; h) of eq:conv_estimate does not exist there; of u* and its first derivative it "
                     "does, which gives h^2",
@@ -195,7 +195,7 @@ Claims smoothness_claims() {
       {.id = "brachistochrone_not_coercive",
        .problems = examples,
        .where = "section 3.5, assumption of coercivity",
-       .states = "of a problem that is linear in its control the constant of coercivity tends to 0",
+       .states = "for a problem that is linear in its control, the constant of coercivity tends to 0",
        .judge = not_coercive,
        .evidence = {"coercivity.csv"}}};
 }

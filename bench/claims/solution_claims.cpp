@@ -110,9 +110,9 @@ Finding momentum_consistency(const ResultTables& tables, const std::string& prob
                         .also(balance.accumulated())
                         .also(left_out(balance.all, balance.all.usable()));
   if (others.empty()) return finding;
-  return std::move(finding).because(
-      worded("the balance is an equation of the program, kept as exactly as it is solved: largest defects {}",
-             joined(others, ", ")));
+  return std::move(finding).because(worded(
+      "the balance is an equation of the program and holds as exactly as the program is solved: largest defects {}",
+      joined(others, ", ")));
 }
 
 bool is_answer_of_dmoc(const Row& row) {
@@ -212,7 +212,7 @@ Finding costates_keep_their_momentum(const ResultTables& tables, const std::stri
 Finding tangent_differs(const ResultTables& tables, const std::string& problem) {
   const Selection all = midpoint(tables.rows("equivalence", problem), "tangent");
   const Selection rows = all.usable();
-  require(rows.size() > 1, "equivalence.csv has less than two solved grids of {} by tangent", problem);
+  require(rows.size() > 1, "equivalence.csv has fewer than two solved grids of {} by tangent", problem);
   const double coarse = rows.front().needed("configuration_difference");
   const double fine = rows.back().needed("configuration_difference");
   const Selection slopes = tables.rows("equivalence_slopes", problem).where("tableau", "gauss");
@@ -295,7 +295,7 @@ Claims solution_claims() {
       {.id = "equal_solutions",
        .where = "section 3.4, th:equi, equ_L_RK, ex:RK",
        .whose = Whose::paper,
-       .states = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
+       .states = "DMOC and Hamiltonian collocation with the same tableau have equal solutions",
        .judge = equal_solutions,
        .condition = "fixed ends, no inequality is active, solutions are refined by Newton steps",
        .evidence = equivalence},
@@ -307,7 +307,7 @@ Claims solution_claims() {
                  "horizon is free",
        .judge = equal_with_inequalities,
        .condition = "odd N: on even ones the symmetric switches of robot_arm fall on nodes, no control is left between "
-                    "its bounds there, and so multipliers are not unique",
+                    "its bounds there, so multipliers are not unique",
        .evidence = {"equivalence_inequalities.csv"}},
       {.id = "costates_keep_their_momentum",
        .problems = examples,
@@ -315,8 +315,8 @@ Claims solution_claims() {
        .states = "where L, f and the cost are invariant under a group, the momentum of the costates is constant along "
                  "the discrete optima of all three methods (Noether's theorem of the optimal control problem)",
        .judge = costates_keep_their_momentum,
-       .condition = "the group acts linearly on the coordinates, so that every method here is equivariant: this keeps "
-                    "no method apart",
+       .condition = "the group acts linearly on the coordinates, so every method here is equivariant, and this does "
+                    "not distinguish the methods",
        .evidence = {"equivalence_symmetric.csv"}},
       {.id = "tangent_differs",
        .where = section,

@@ -25,7 +25,7 @@ const Columns<Curvature> columns =
     Columns<Curvature>{
         {"end", "", "final state: fixed as stated, or free with its distance in the cost, as in the paper",
          &Curvature::end, in_key},
-        {"status", "", "of the solve", &Curvature::status},
+        {"status", "", "status of the solve", &Curvature::status},
         {"intervals", "", "number of intervals N", &Curvature::intervals, in_key},
         {"smallest_curvature", "cost per control^2 and time",
          "largest alpha with d^2 L >= alpha h sum b_i |dU_i|^2; 0 below 1e-9, empty where the form is indefinite",

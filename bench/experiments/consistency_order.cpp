@@ -72,7 +72,7 @@ Columns<Record> first_columns() {
           {"tableau", "", "family of Butcher tableaus", &Record::tableau, in_key},
           {"stages", "", "number of stages", &Record::stages, in_key},
           {"order", "", "the tableau's order", &Record::order, in_key},
-          {"quantity", "", "the quantity that is compared with the exact one", &Record::quantity, in_key}};
+          {"quantity", "", "quantity that is compared with the exact one", &Record::quantity, in_key}};
 }
 
 /// The error measured on one step; empty if an equation has no solution for it.
@@ -156,7 +156,7 @@ const Columns<ExactTransform> transform_columns{
     {"h", "", "step", &ExactTransform::h, in_key},
     {"left_defect", "", "max of |-D_1 L_d^E - f_d^{E-} - L_v(0)|", &ExactTransform::left},
     {"right_defect", "", "max of |D_2 L_d^E + f_d^{E+} - L_v(h)|", &ExactTransform::right},
-    {"largest_momentum", "", "largest entry of L_v, to compare with", &ExactTransform::momentum}};
+    {"largest_momentum", "", "largest entry of L_v, for comparison", &ExactTransform::momentum}};
 
 /// D_1 L_d^E and D_2 L_d^E along e_i by differences of order 4, from boundary value problems with moved ends.
 std::pair<long double, long double> derivatives_of_exact_lagrangian(const ExactDiscreteLagrangian& exact,
@@ -204,7 +204,7 @@ int measure_all(CommandLine& line) {
   ProblemOptions asked{.problems = {"all"}};
   std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
   asked.add_to(line);
-  line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling");
+  line.option("--intervals", intervals, "numbers N of intervals with h = T/N: a list, or a doubling range first:last");
   TableRun run("consistency_order", line);
   const std::vector<long long> steps = parse_intervals("--intervals", intervals);
   remark(remark_on_ranges("--intervals", intervals));
@@ -229,10 +229,10 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "consistency_order",
-      "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
-      "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
-      "(consistency_order_slopes.csv); and the exact discrete Legendre transforms against L's, on the coarsest "
-      "and the finest step (consistency_order_transforms.csv).",
+      "Measures orders of consistency. For steps h = T/N and every tableau, consistency_order.csv has the errors of "
+      "DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map relative to the exact ones, and "
+      "consistency_order_slopes.csv their orders. consistency_order_transforms.csv compares the exact discrete "
+      "Legendre transforms with the transforms of L for the largest and the smallest step.",
       argc, argv, measure_all);
 }
 

@@ -103,7 +103,7 @@ class Convergence final : public ExperimentOf<Measured> {
          "largest error of the control recomputed from state and costate at the nodes",
          &Measured::control_from_costate_error},
         {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
-        {"active", "", "what the active bounds and path constraints limit: control, state, control and state",
+        {"active", "", "quantities limited by active bounds or path constraints: control, state, or control and state",
          &Measured::active},
         {"stage_configuration_error", "", "largest error of Q_i", from(error, stages, &StageError::configuration)},
         {"stage_momentum_error", "", "largest error of P_i", from(error, stages, &StageError::momentum)},
@@ -119,7 +119,7 @@ class Convergence final : public ExperimentOf<Measured> {
         "each curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
         "kept in the output folder");
     line.flag("--polish,!--no-polish", card_.polishes,
-              "refine solutions by Newton steps, so that errors are due to the method and not to the solver");
+              "refine solutions by Newton steps, so that errors are due to the method, not to the solver");
     line.option("--fit", fit_,
                 "range a:b of N over which orders are fitted; default: the finest four or more grids above round-off "
                 "whose neighbouring orders differ by at most 0.2");

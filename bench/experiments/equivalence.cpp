@@ -83,9 +83,9 @@ class Equivalence final : public ExperimentOf<Measured> {
             {.name = "equivalence",
              .description =
                  "Solves with every method separately and compares the solutions with DMOC's on the same grid: largest "
-                 "differences relative to each quantity's largest value, residuals of each solution in the other "
-                 "method's constraints and of the costates in the adjoint Runge-Kutta scheme, and fitted orders of the "
-                 "differences of tangent-space collocation (NAME_slopes.csv).",
+                 "differences, relative to the largest value of each quantity; residuals of each solution in the "
+                 "constraints of the other method; and residuals of the costates in the adjoint Runge-Kutta scheme. "
+                 "NAME_slopes.csv has the orders of the differences of tangent-space collocation.",
              .options = {.intervals = "16:1024"},
              .further_files = {"_slopes.csv"},
              .polishes = true}) {}
@@ -93,30 +93,32 @@ class Equivalence final : public ExperimentOf<Measured> {
     constexpr auto in_dmoc = &Measured::in_dmoc;
     constexpr auto of_dmoc = &Measured::of_dmoc;
     return {
-        {"configuration_difference", "", "largest difference of q from DMOC's", &Measured::configuration},
-        {"momentum_difference", "", "of p", &Measured::momentum},
-        {"control_difference", "", "of the stage controls", &Measured::control},
-        {"costate_difference", "", "of psi", &Measured::costate},
-        {"objective_difference", "", "of the cost", &Measured::objective},
-        {"violation_in_rows_of_dmoc", "", "residual of the solution in DMOC's constraints",
+        {"configuration_difference", "", "largest relative difference of q from DMOC", &Measured::configuration},
+        {"momentum_difference", "", "largest relative difference of p from DMOC", &Measured::momentum},
+        {"control_difference", "", "largest relative difference of the stage controls from DMOC", &Measured::control},
+        {"costate_difference", "", "largest relative difference of the costates from DMOC", &Measured::costate},
+        {"objective_difference", "", "relative difference of the cost from DMOC", &Measured::objective},
+        {"violation_in_rows_of_dmoc", "", "residual of this solution in DMOC's constraints",
          from(in_dmoc, &ForeignViolation::violation)},
         {"rounding_in_rows_of_dmoc", "", "bound on the round-off of this residual",
          from(in_dmoc, &ForeignViolation::rounding)},
         {"violation_of_dmoc_here", "", "residual of DMOC's solution in this method's constraints",
          from(of_dmoc, &ForeignViolation::violation)},
         {"rounding_here", "", "bound on the round-off of this residual", from(of_dmoc, &ForeignViolation::rounding)},
-        {"stage_costate_difference", "", "of Psi_i", &Measured::stage_costate},
+        {"stage_costate_difference", "", "largest relative difference of the stage costates from DMOC",
+         &Measured::stage_costate},
         {"adjoint_residual", "", "residual of the costates in the adjoint scheme", &Measured::adjoint_residual},
-        {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
+        {"adjoint_residual_by_plain_coefficients", "", "the same residual with A and its conjugate not exchanged",
          &Measured::plain_residual},
         {"costate_momentum_spread", "", "relative change of the momentum of the costates along the trajectory",
          &Measured::costate_momentum_spread},
-        {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
-        {"horizon_difference", "", "of T", &Measured::horizon},
+        {"polish_steps", "", "number of Newton steps after the solve", &Measured::polish_steps},
+        {"horizon_difference", "", "relative difference of the horizon from DMOC", &Measured::horizon},
         {"forced_form_residual", "",
          "residual in the discrete Euler-Lagrange equations of the control Lagrangian C + xi F + xi' L_v, F = L_q + f",
          &Measured::forced_form_residual},
-        {"acceleration_form_residual", "", "the same of C + xi q'' + xi' q', q'' as a function of (q, q', u)",
+        {"acceleration_form_residual", "",
+         "the same residual for C + xi q'' + xi' q', with q'' a function of (q, q', u)",
          &Measured::acceleration_form_residual},
     };
   }
@@ -152,8 +154,8 @@ class Equivalence final : public ExperimentOf<Measured> {
       }
     } else if (trajectory.has_costates()) {
       solved.note(
-          "The adjoint scheme is not evaluated: with path constraints, integrals and first-order states the stages "
-          "have further multipliers.");
+          "The adjoint scheme is not evaluated: with path constraints, integrals or first-order states the stages have "
+          "further multipliers.");
     }
     if (here.method == "dmoc") {
       answers_.emplace_back(here, trajectory);
@@ -164,7 +166,7 @@ class Equivalence final : public ExperimentOf<Measured> {
       return answer.first.same_curve(partner) && answer.first.grid.relative_times() == here.grid.relative_times();
     });
     if (found == answers_.end()) {
-      solved.note("Not compared: DMOC was not solved on this grid, or on another branch.");
+      solved.note("Not compared: DMOC was not solved on this grid, or ended on another branch.");
       return;
     }
     compare(here, trajectory, found->second, measured);

@@ -231,13 +231,13 @@ Misprint lagrangian_form(const std::shared_ptr<const Problem>& problem) {
 const Columns<Misprint> columns{
     {"problem", "", "name of the problem", &Misprint::problem, in_key},
     {"misprint", "", "short name of the statement", &Misprint::name, in_key},
-    {"where", "", "in the paper", &Misprint::where},
+    {"where", "", "place in the paper", &Misprint::where},
     {"printed", "", "the printed statement", &Misprint::printed},
     {"meant", "", "the intended statement", &Misprint::meant},
-    {"quantity", "", "quantity that distinguishes both", &Misprint::quantity},
-    {"value_as_printed", "", "its value as printed", &Misprint::as_printed},
-    {"value_as_meant", "", "its value as meant", &Misprint::as_meant},
-    {"required_value", "", "its value as it has to be", &Misprint::required},
+    {"quantity", "", "quantity that distinguishes the two", &Misprint::quantity},
+    {"value_as_printed", "", "its value for the printed statement", &Misprint::as_printed},
+    {"value_as_meant", "", "its value for the intended statement", &Misprint::as_meant},
+    {"required_value", "", "the value that is required", &Misprint::required},
 };
 
 int evaluate_misprints(CommandLine& line) {

@@ -105,8 +105,8 @@ void add_options(CommandLine& line, SequenceOptions& options) {
   options.problems.add_to(line);
   line.list("--method", options.methods, fmt::format("methods: {}", fmt::join(paper_families(), ", ")));
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
-  line.number("--steps", options.steps, 1, 100000, "problems in a sequence");
-  line.number("--repeats", options.repeats, 1, 1000, "solves of every step; the shortest time counts");
+  line.number("--steps", options.steps, 1, 100000, "number of problems in a sequence");
+  line.number("--repeats", options.repeats, 1, 1000, "number of solves per step; the shortest time is used");
   line.number("--seed", options.seed, 0, 0xffffffffU, "seed of the disturbances");
   line.option("--over", options.over, "NAME=LOWER:UPPER: the parameter or end state that a homotopy changes");
 }

@@ -168,7 +168,7 @@ ProblemCard PythonProblem::card() const {
         for (const py::handle quantity : python_.object().attr("_picture")(point(x))) {
           const auto [name, quantity_unit, value] = quantity.cast<std::tuple<std::string, std::string, py::object>>();
           const auto traced = as_expression(value);
-          if (!traced) throw Error(fmt::format("the quantity {} is {}, no formula", name, type_of(value)));
+          if (!traced) throw Error(fmt::format("the quantity {} is {}, not a formula", name, type_of(value)));
           picture.push_back({name, quantity_unit, *traced});
         }
         return picture;

@@ -250,7 +250,7 @@ Json structure(const ResultsFolder& results) {
           {"answer", by_verdict(results, "momentum_consistency",
                                 "DMOC and Hamiltonian collocation balance momentum and force to round-off, "
                                 "tangent-space collocation does not.",
-                                "Not both DMOC and Hamiltonian collocation balance momentum and force to round-off.",
+                                "DMOC and Hamiltonian collocation do not both balance momentum and force to round-off.",
                                 "It is undecided whether only DMOC and Hamiltonian collocation balance momentum and "
                                 "force to round-off.")},
           {"but", replay_in_words(replays)},

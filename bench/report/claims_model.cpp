@@ -192,7 +192,7 @@ std::string title_of_section(const std::string& number) {
 /// The place of a claim on the page: the paper's by sections, then findings, misprints, extensions.
 std::pair<std::size_t, std::string> group_of(const Json& claim) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 3> others{
-      {{"ours", "Findings of ours"}, {"misprint", "Misprints"}, {"extension", "Extensions of the suite"}}};
+      {{"ours", "Our findings"}, {"misprint", "Misprints"}, {"extension", "Extensions of the suite"}}};
   const std::string whose = text(claim, "whose");
   if (whose == "paper") return {0, section_of(claim)};
   const auto* const found = std::ranges::find(others, whose, [](const auto& other) { return other.first; });

@@ -187,8 +187,8 @@ ResultsFolder read_results_folder(const std::filesystem::path& folder) {
   read_motions(folder, results);
   read_figures(folder, results);
   if (results.tables.empty() && results.figures.empty()) {
-    throw Error(fmt::format("there is no table and no figure in {}; run an experiment with --out {} first",
-                            folder.string(), folder.string()));
+    throw Error(fmt::format("{} contains no table or figure; run an experiment with --out {} first", folder.string(),
+                            folder.string()));
   }
   return results;
 }

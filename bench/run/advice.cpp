@@ -182,7 +182,7 @@ std::string in_words(const Advice& advice) {
     case Remedy::several_solvers:
       return "Try --solver auto: interior_point, then ipopt, then a feasible trajectory as the start.";
     case Remedy::common_start:
-      return "Try --start common, a trajectory that other methods find first.";
+      return "Try --start common, which first searches for a trajectory with other methods.";
     case Remedy::another_guess:
       return fmt::format("Try another guess ({}), or --start FILE with a trajectory near the one you want.",
                          member_name("Problem::guess"));

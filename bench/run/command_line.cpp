@@ -189,7 +189,7 @@ void CommandLine::refuse_empty_entries() const {
     const std::string argument = argv_[i];
     const std::size_t equals = std::min(argument.find('='), argument.size());
     if (argument.starts_with("--") && equals + 1 == argument.size()) {  // CLI11 takes the next argument for its value
-      throw CLI::ValidationError(argument.substr(0, equals), "no value is given after =");
+      throw CLI::ValidationError(argument.substr(0, equals), "there is no value after =");
     }
     if (std::ranges::find(lists_, argument.substr(0, equals)) == lists_.end()) continue;
     if (equals == argument.size() && i + 1 == argc_) continue;  // CLI11 misses the value

@@ -261,14 +261,14 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
           const std::string& start = card.options.start;
           return start == "common" || (start == "guess" && card.branches == BranchReport::of_any_start);
         },
-        "only --start common is searched for");
+        "only --start common needs a search");
     RunSummary summary;
     summary.add_to(line);
     line.group("Work");
     if (card.problems_are_independent) add_jobs_option(line, experiment.options());
     if (card.compares_tolerances) add_tolerances_option(line, experiment.options());
     if (card.takes_batches) add_batch_option(line, experiment.options());
-    line.group("Of this experiment");
+    line.group("Options of this experiment");
     experiment.add_options(line);
     if (!wants_motions) add_part_options(line, experiment.options());
     const std::vector<std::string> command_line = parse_with_libraries(line);

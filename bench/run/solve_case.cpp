@@ -139,8 +139,8 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   }
   if (found.relative_jump <= largest_jump_of_a_motion) {
     solved.solution.message = fmt::format(
-        "{} Its intervals, integrated alone, miss the next nodes to the same side: by {:.2g} of the range in total, "
-        "the worst by {:.2g}.{}",
+        "{} Its intervals, integrated alone, miss the next nodes on the same side: by {:.2g} of the range in total, at "
+        "most {:.2g} in one interval.{}",
         sentence_of(Status::too_coarse), found.accumulated_jump, found.relative_jump,
         estimate_in_words(solved, motion));
     return;

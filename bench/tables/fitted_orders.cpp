@@ -164,14 +164,16 @@ Columns<FittedCurve> order_columns() {
              {"coarse_end", "",
               "why no coarser grid is used: grids (all are used), orders (they differ by more than 0.2), range (--fit)",
               from(&Curve::fitted, &Fit::coarse_end)},
-             {"fine_end", "", "why no finer grid is used: the same, or floor", from(&Curve::fitted, &Fit::fine_end)},
+             {"fine_end", "", "why no finer grid is used: grids, orders, range, or floor",
+              from(&Curve::fitted, &Fit::fine_end)},
              {"points", "", "number of grids used", from(&Curve::fit, &Fit::grids, &Selection::size)},
              {"floor", "", "error at the level of round-off; empty if not measured", from(&Curve::fit, &Fit::floor)},
              {"verdict", "",
               "slope; floor (round-off leaves too few grids), few grids, or unsteady (no four neighbouring grids have "
               "the same order)",
               from(&Curve::fit, &Fit::verdict)},
-             {"active", "", "what the active bounds and path constraints limit (controls, states); they lower orders",
+             {"active", "",
+              "quantities limited by active bounds and path constraints (controls, states), which lower the orders",
               &Curve::active}};
 }
 
@@ -262,7 +264,7 @@ Columns<JumpsOfCurve> jump_columns() {
               from(orders, &TwoOrders::error, standard_error_of)},
              {"orders_apart", "", "jump_slope minus error_slope",
               from(orders, [](const TwoOrders& both) { return both.jump.order - both.error.order; })},
-             {"error_of_jumps_coarsest", "", "state error by N times the jump on the coarsest grid",
+             {"error_of_jumps_coarsest", "", "state error divided by N times the jump, on the coarsest grid",
               from(orders, &TwoOrders::grids, &Selection::front, error_of_jumps)},
              {"error_of_jumps_finest", "", "the same on the finest grid",
               from(orders, &TwoOrders::grids, &Selection::back, error_of_jumps)},

@@ -95,8 +95,8 @@ class AdaptiveRun {
                              options_.most_grids, between_.words(answer_.trajectory, 1.0)));
     }
     return end(AdaptiveOutcome::too_many,
-               fmt::format("After {} grids the estimated error is still {:.1e}, not {:g}.", options_.most_grids,
-                           answer_.estimate.relative, options_.accuracy));
+               fmt::format("After {} grids the estimated error is still {:.1e}, above the requested {:g}.",
+                           options_.most_grids, answer_.estimate.relative, options_.accuracy));
   }
 
   AdaptiveAnswer end(AdaptiveOutcome outcome, std::string message) {
@@ -208,7 +208,7 @@ class AdaptiveRun {
       answer_.outcome = AdaptiveOutcome::reached;
       answer_.message = fmt::format("The estimated error is {:.1e} on {} intervals with {} stage{}{}.",
                                     estimate.relative, answer_.grids.back().intervals, stages_, stages_ == 1 ? "" : "s",
-                                    reason_to_compare_.empty() ? "" : ", by comparison with the grid before");
+                                    reason_to_compare_.empty() ? "" : ", by comparison with the previous grid");
       return true;
     }
     return stopped_by_rounding(estimate.floor);
@@ -262,8 +262,8 @@ class AdaptiveRun {
     if (2 * intervals > options_.most_intervals || slow_grids_ >= most_slow_grids) {
       answer_.outcome = AdaptiveOutcome::too_many;
       answer_.message = fmt::format(
-          "An accuracy of {:g} needs too many intervals; on {} the estimated error is {:.1e}. More stages need fewer "
-          "intervals.",
+          "An accuracy of {:g} needs too many intervals; on {} the estimated error is {:.1e}. Use more stages, which "
+          "need fewer intervals.",
           options_.accuracy, intervals, now);
       return false;
     }

@@ -80,7 +80,7 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   if (!traced.has_symmetry()) {
-    throw Error(problem.name() + " states no symmetry, so it has no conserved momentum");
+    throw Error(problem.name() + " defines no symmetry, so it has no conserved momentum");
   }
   if (const PhasedProblem* const phased = problem.phased()) return consistency_of_phases(*phased, trajectory);
   PointFunction force_along(
@@ -115,7 +115,7 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
 
 CostateMomentum costate_momentum(const Problem& problem, const Trajectory& trajectory) {
   const TracedProblem traced(problem);
-  if (!traced.has_symmetry()) throw Error(problem.name() + " states no symmetry, so its costates have no momentum");
+  if (!traced.has_symmetry()) throw Error(problem.name() + " defines no symmetry, so its costates have no momentum");
   if (!trajectory.has_costates()) throw Error("the momentum of costates needs a trajectory with costates");
   const Eigen::Index n = traced.configuration_size();
   PointFunction action(n, traced.control_size(), [&](const ControlledState& x) {

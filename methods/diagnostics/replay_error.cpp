@@ -87,7 +87,7 @@ class Replay {
     const double left = trajectory_.node_times[k];
     const double right = trajectory_.node_times[k + 1];
     if (!integrate(equations, state, left, right, right - left, tolerance_)) {
-      throw Error(fmt::format("the replay's step size vanished in interval {}", k));
+      throw Error(fmt::format("the step size of the replay vanished in interval {}", k));
     }
     if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n_ + l_ + 1).allFinite()) {
       throw Error(fmt::format("the replay left the domain of the equations of motion in interval {}", k));

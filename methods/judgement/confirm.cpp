@@ -110,8 +110,8 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
   if (hidden) {
     solution.status = Status::not_confirmed;
     solution.message = fmt::format(
-        "The violation of constraint {} is below the tolerance, but {:.1g} of the constraint's own size, {:.1g}. State "
-        "it in units in which its size is about 1.",
+        "The violation of constraint {} is below the tolerance, but it is {:.1g} times the size of the constraint, "
+        "{:.1g}. State it in units in which its size is about 1.",
         hidden->row, hidden->share, hidden->size);
     return;
   }
@@ -124,7 +124,7 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
   needs_factors_of_rows_ = true;
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
-      "The residual of stationarity, {:.1g}, is within the round-off of large constraints, but it is {:.1g} of the "
+      "The residual of stationarity, {:.1g}, is within the round-off of large constraints, but it is {:.1g} times the "
       "gradient of the cost. State the constraints in units in which their sizes are about 1.",
       residual, gradient > 0.0 ? residual / gradient : unbounded);
 }
@@ -158,8 +158,7 @@ void Confirmation::require_settled(double tolerance, Solution& solution) {
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
       "The residuals are below the tolerance, but a Newton step would move the solution by {:.1g} of its size. Scaling "
-      "the cost to about 1 or a smaller tolerance may help, except where the cost hardly depends on the unknowns that "
-      "move.",
+      "the cost to about 1 or a smaller tolerance may help, unless the cost hardly depends on the unknowns that move.",
       length);
 }
 

@@ -174,8 +174,9 @@ void tell_of_equal_neighbours(NonlinearProgram& program, double tolerance, Solut
   }
   solution.status = Status::solved;
   solution.message = fmt::format(
-      "{} The tolerance does not determine the trajectory: others, {:.0e} of its size away on both sides, satisfy all "
-      "conditions at the same cost. A small term in the cost, such as the square of a control, would select one.",
+      "{} The tolerance does not determine the trajectory: trajectories at a distance of {:.0e} of its size, on both "
+      "sides, satisfy all conditions at the same cost. A small term in the cost, such as the square of a control, "
+      "would select one.",
       sentence_of(solution.status), share * correction->length);
 }
 

@@ -176,7 +176,7 @@ BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::V
   require_whole(bounds.q, "q");
   require_whole(bounds.v, "its rates");
   if (bounds.v.all_fixed() && !bounds.q.all_fixed()) {
-    throw Error(fmt::format("{}: {} gives the rates of q alone, which an embedding does not support; use multipliers",
+    throw Error(fmt::format("{}: {} gives only the rates of q, which an embedding does not support; use multipliers",
                             redundant_->name(), member_name(end)));
   }
   BoundaryState result{.q = theta, .v = rate_of(state.v, theta), .y = state.y};

@@ -10,8 +10,9 @@ namespace {
 
 ExpressionVector difference(const ExpressionVector& after, const ExpressionVector& before, const char* of) {
   if (after.size() == before.size()) return after - before;
-  throw Error(fmt::format("the phase before has {} {}, the one after {}; state their conditions entry by entry",
-                          before.size(), of, after.size()));
+  throw Error(
+      fmt::format("the phase before the switch has {} {}, the phase after it {}; state their conditions entry by entry",
+                  before.size(), of, after.size()));
 }
 
 ExpressionVector change_of_q(const PhaseEnd& before, const PhaseEnd& after) {
@@ -34,7 +35,7 @@ ExpressionVector momentum_kept(const PhaseEnd& before, const PhaseEnd& after) {
 
 ExpressionVector dropped(const PhaseEnd& before, const PhaseEnd& after, const ExpressionVector& amount) {
   PhaseEnd left = before;
-  left.y = difference(before.y, amount, "entries that are dropped, and first-order states");
+  left.y = difference(before.y, amount, "first-order states or entries of the dropped amount");
   return continuous(left, after);
 }
 

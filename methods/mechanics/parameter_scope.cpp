@@ -130,7 +130,7 @@ void ParameterTrace::read_as_number(std::size_t parameter) {
 void ParameterTrace::require_unknowns_read() const {
   for (const std::size_t unknown : problem_.unknowns()) {
     if (varies_[unknown]) continue;
-    throw Error(fmt::format("{}: no formula reads the unknown {}; leave it out", problem_.name(),
+    throw Error(fmt::format("{}: no formula depends on the unknown {}; remove it", problem_.name(),
                             problem_.parameters()[unknown].name));
   }
 }
@@ -216,7 +216,7 @@ std::vector<std::size_t> Problem::unknowns() const {
 void Problem::set_parameter(std::string_view name, double value) {
   const std::size_t number = parameter_number(*this, name);
   if (&parameters() != &parameters_)
-    throw Error(this->name() + " has the parameters of another problem; set them there");
+    throw Error(this->name() + " uses the parameters of another problem; set them on that problem");
   Parameter& parameter = parameters_[number];
   parameter.check(value);
   parameter.value = value;

@@ -68,8 +68,8 @@ void add_shared(std::vector<Parameter>& parameters, const Parameter& added, cons
   } else if (same->value != added.value || same->lower != added.lower || same->upper != added.upper ||
              same->whole != added.whole || same->is_unknown != added.is_unknown) {
     throw Error(
-        fmt::format("phase {}: its parameter {} differs from an earlier phase's in value, range or kind; phases share "
-                    "parameters of one name, so give it the same ones, or another name",
+        fmt::format("phase {}: the value, range or kind of its parameter {} differs from an earlier phase; phases "
+                    "share parameters of the same name, so make them equal or rename one",
                     phase, added.name));
   }
 }
@@ -94,7 +94,7 @@ void add_end_velocities(std::vector<Parameter>& parameters, const PhasedProblem:
 ProblemBounds bounds_of_phase(const PhasedProblem::Phase& phase) {
   const HorizonBounds horizon = phase.problem->bounds().horizon;
   if (!(horizon.lower > 0.0)) {
-    throw Error(fmt::format("phase {}: its duration has the lower bound {:g}; give it a positive one", phase.name,
+    throw Error(fmt::format("phase {}: the lower bound of its duration is {:g}; it must be positive", phase.name,
                             horizon.lower));
   }
   return problem_bounds(*phase.problem);
@@ -146,16 +146,16 @@ PhasedProblem::PhasedProblem(std::vector<Phase> phases, std::vector<Parameter> p
 
 void PhasedProblem::add_phase(Phase phase) {
   if (std::ranges::count(phases_, phase.name, &Phase::name) > 0) {
-    throw Error(fmt::format("two phases are called {}; give each a name of its own", phase.name));
+    throw Error(fmt::format("two phases are named {}; rename one", phase.name));
   }
   if (phase.follows.value_or(0) >= std::max(phases_.size(), std::size_t{1})) {
-    throw Error(fmt::format("phase {} follows phase {}, which is not one of the {} before it", phase.name,
+    throw Error(fmt::format("phase {} follows phase {}, but must follow one of the {} phases before it", phase.name,
                             *phase.follows, phases_.size()));
   }
   const std::vector<std::string> coordinates = phase.problem->configuration_names();
   if (std::ranges::count(coordinates, "phase") > 0) {
-    throw Error(
-        fmt::format("phase {} has a coordinate called phase, as the column of the phases is; rename it", phase.name));
+    throw Error(fmt::format(
+        "phase {} has a coordinate named phase, which is the name of the column of the phases; rename it", phase.name));
   }
   const Part before = parts_.empty() ? Part{} : parts_.back();
   const Problem& problem = *phase.problem;
@@ -419,10 +419,10 @@ ProblemBounds PhasedProblem::phase_bounds(std::size_t i) const { return in_phase
 void PhasedProblem::require_stated_range(std::size_t i, const HorizonBounds& now) const {
   const Parameter& stated = parameters()[parameter_number(*this, name_of_duration(i))];
   if (stated.lower == now.lower && stated.upper == now.upper) return;
-  throw Error(fmt::format(
-      "phase {}: the range of its duration was {:g} to {:g} and is {:g} to {:g} with these parameters; state "
-      "it without parameters",
-      phases_[i].name, stated.lower, stated.upper, now.lower, now.upper));
+  throw Error(
+      fmt::format("phase {}: the range of its duration was {:g} to {:g} and is {:g} to {:g} with these parameters; it "
+                  "must not depend on parameters",
+                  phases_[i].name, stated.lower, stated.upper, now.lower, now.upper));
 }
 
 ProblemBounds PhasedProblem::bounds() const {
@@ -469,10 +469,9 @@ void PhasedProblem::add_interior(ProblemBounds& all, std::size_t i, const Interi
   put(place->y, part.y.first, at.y);
   for (Eigen::Index j = 0; part.is_free && j < part.q.size; ++j) {
     if (is_kept_by_scaling(at.v, j)) continue;
-    throw Error(
-        fmt::format("phase {} has a free duration and bounds on a velocity between its ends, which can only be "
-                    "0; split the phase there",
-                    phases_[i].name));
+    throw Error(fmt::format(
+        "phase {} has a free duration, so bounds on a velocity between its ends must be 0; split the phase there",
+        phases_[i].name));
   }
   put(place->v, part.q.first, part.is_free ? at.v : scaled(at.v, guessed_share(i)));
 }
@@ -485,7 +484,7 @@ ProblemCard PhasedProblem::card() const {
     return result;
   }();
   all.description = fmt::format("the phases {}", fmt::join(names, ", "));
-  all.guess = "of every phase its own, side by side";
+  all.guess = "the guesses of all phases, side by side";
   for (std::size_t i = 0; i < phases_.size(); ++i) {
     const ProblemCard own = in_phase(i, [](const Problem& phase) { return phase.card(); });
     if (i == 0) all.time_unit = own.time_unit;

@@ -129,7 +129,7 @@ std::vector<InteriorBounds> checked_interior(std::vector<InteriorBounds> interio
   std::ranges::sort(interior, {}, &InteriorBounds::relative_time);
   const auto same = std::ranges::adjacent_find(interior, {}, &InteriorBounds::relative_time);
   if (same == interior.end()) return interior;
-  throw Error(fmt::format("{} has two entries at the relative time {:g}; state their bounds in one", name,
+  throw Error(fmt::format("{} has two entries at the relative time {:g}; combine their bounds into one entry", name,
                           same->relative_time));
 }
 

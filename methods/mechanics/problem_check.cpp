@@ -31,8 +31,8 @@ void check_parameters(const Problem& problem) {
     };
     if (parameter.name.empty() || std::ranges::any_of(parameter.name, is_odd)) {
       throw Error(
-          fmt::format("{}: a parameter has no name for --set NAME=VALUE: it is empty, or has a blank, a control "
-                      "character, an equals sign, a comma or a quotation mark",
+          fmt::format("{}: the name of a parameter cannot be used in --set NAME=VALUE: it is empty, or has a blank, a "
+                      "control character, an equals sign, a comma or a quotation mark",
                       problem.name()));
     }
     const std::string owner = "parameter " + parameter.name;

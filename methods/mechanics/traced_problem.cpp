@@ -45,7 +45,7 @@ void require_controls(const Schedule& formulas, std::size_t first, const Problem
     if (step.input_index - first < is_read.size()) is_read[step.input_index - first] = true;
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!is_read[i]) throw Error(problem.name() + ": no formula reads the control " + names[i] + "; leave it out");
+    if (!is_read[i]) throw Error(problem.name() + ": no formula depends on the control " + names[i] + "; remove it");
   }
 }
 

@@ -99,8 +99,8 @@ void state_without_scaling(NonlinearProgram& program, const Scaling& scaling, co
                            Solution& solution) {
   if (scaling.of_cost != 1.0) {
     solution.message += fmt::format(
-        " The cost was too small for the tolerance and was multiplied by {:.0e} for the solver, as by `cost_scale` of "
-        "a problem.",
+        " The cost was too small for the tolerance and was multiplied by {:.0e} for the solver, as `cost_scale` of a "
+        "problem would do.",
         scaling.of_cost);
   }
   if (scaling.of_rows.size() > 0) {

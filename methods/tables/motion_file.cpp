@@ -25,7 +25,7 @@ namespace {
 
 std::string fault_of_field(const Table& table, const Row& row, const std::string& column) {
   if (std::ranges::count(table.columns(), column) == 0)
-    return fmt::format("there is no column {} among {}", column, fmt::join(table.columns(), ", "));
+    return fmt::format("there is no column {}; the columns are {}", column, fmt::join(table.columns(), ", "));
   return fmt::format("\"{}\" in column {} is not a number", row.text(column), column);
 }
 
@@ -64,7 +64,7 @@ Eigen::VectorXd times_in(const Table& table, const std::filesystem::path& file) 
   Eigen::VectorXd times = columns(table, {"t"}, "", file);
   for (Eigen::Index k = 0; k < times.size(); ++k) {
     if (std::isfinite(times[k]) && (k == 0 || times[k] > times[k - 1])) continue;
-    throw Error(fmt::format("{}: t must be finite and increase, which fails in row {}", file.string(), k + 1));
+    throw Error(fmt::format("{}: t must be finite and increasing, but is not in row {}", file.string(), k + 1));
   }
   return times;
 }
@@ -127,7 +127,7 @@ void require_one_motion(const Trajectory& motion, const std::filesystem::path& n
     return;
   }
   throw Error(
-      fmt::format("{} has stages from t = {:g} to {:g}, and the nodes in {} reach from 0 to {:g}: they belong to "
+      fmt::format("{} has stages from t = {:g} to {:g}, but the nodes in {} extend from 0 to {:g}: they belong to "
                   "different trajectories, or one of the files is truncated",
                   stages.string(), first_stage, last_stage, nodes.filename().string(), motion.node_times[last]));
 }
@@ -223,7 +223,7 @@ Table by_phase(const PhasedProblem& problem, const Trajectory& trajectory, const
                double time_unit = 1.0) {
   std::vector<std::string> header;
   std::vector<Row> rows;
-  std::map<std::string, ColumnFacts> facts{{"phase", {"", "of the motion", {FieldKind::text, false}}}};
+  std::map<std::string, ColumnFacts> facts{{"phase", {"", "phase of the trajectory", {FieldKind::text, false}}}};
   const std::vector<PhaseTrajectory> parts = phase_trajectories(problem, trajectory);
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -329,8 +329,9 @@ Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const 
     }
     if (own.q.rows() != all.node_times.size() || own.stage_u.rows() != all.stage_times.size()) {
       throw Error(fmt::format(
-          "{}: the phase {} has {} nodes and {} controls, the first phase {} and {}; all need as many", file.string(),
-          name, own.q.rows(), own.stage_u.rows(), all.node_times.size(), all.stage_times.size()));
+          "{}: the phase {} has {} nodes and {} controls, but the first phase has {} and {}; all phases need the same "
+          "numbers",
+          file.string(), name, own.q.rows(), own.stage_u.rows(), all.node_times.size(), all.stage_times.size()));
     }
     append_columns(all.q, own.q);
     append_columns(all.v, own.v, share);
@@ -470,9 +471,9 @@ Table quantity_table(const Problem& problem) {
   Table table({"kind", "quantity", "unit", "lower", "upper", "time"});
   constexpr FieldType text{FieldKind::text, true};
   constexpr FieldType number{FieldKind::number, true};
-  table.describe({{"kind", {"", "t, q, u or h, a path constraint", text}},
+  table.describe({{"kind", {"", "t, q, u, or h for a path constraint", text}},
                   {"quantity", {"", "the column with this name in the tables of the trajectory", text}},
-                  {"unit", {"", "as the problem states it; empty where it states none", text}},
+                  {"unit", {"", "unit that the problem states; empty if it states none", text}},
                   {"lower", {"", "its lower bound; empty for none", number}},
                   {"upper", {"", "its upper bound; empty for none", number}},
                   {"time",
@@ -523,7 +524,7 @@ std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {
   constexpr std::string_view ending = "_nodes.csv";
   const std::string name = nodes_file.string();
   if (name.size() <= ending.size() || !name.ends_with(ending)) {
-    throw Error(fmt::format("the name of a node table ends with {}, unlike {}", ending, name));
+    throw Error(fmt::format("the name of a node table must end with {}, unlike {}", ending, name));
   }
   return name.substr(0, name.size() - ending.size()) + "_stages.csv";
 }

@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view euler_lagrange_of = "lagrangian and force: the Euler-Lagrange equation of {}";
 constexpr std::string_view momentum_of = "lagrangian: the momentum p = L_v of {}";
 constexpr std::string_view holonomic_condition = "constraints[{}]: g(q) = 0 or its rate";
-constexpr std::string_view other_bounds = "the bounds of a velocity, momentum or cost";
+constexpr std::string_view other_bounds = "the bounds on a velocity, momentum or cost";
 constexpr std::string_view equation_number = "equation_{1}";
 
 bool gives_any(const Bounds& bounds) { return (bounds.lower.array() == bounds.upper.array()).any(); }
@@ -154,8 +154,8 @@ void add_unknowns_of_ends(const Sizes& of, const TracedProblem& traced, const En
     declare.at_node(velocity, node, of.n, {by_q, "bounds().interior: the velocity of {}", "v_{0}[{3}]"});
   }
   declare.of_all(parameter, traced.unknown_count(),
-                 {ComponentNames::parameter, "the bounds of the unknown {}", "parameter_{1}"});
-  declare.of_all(horizon, ends.free_horizon ? 1 : 0, {number, "the bounds of the horizon", "T"});
+                 {ComponentNames::parameter, "the bounds on the unknown {}", "parameter_{1}"});
+  declare.of_all(horizon, ends.free_horizon ? 1 : 0, {number, "the bounds on the horizon", "T"});
 }
 
 /// The equations of an element.
@@ -177,7 +177,7 @@ void add_element_equations(const Sizes& of, const EndRules& ends, const Interval
     for (Eigen::Index i = 0; i + 1 < functions.rates.stages(); ++i) add(euler_lagrange, euler_lagrange_of, i);
   } else if (!ends.carries_q_alone() && count == 2 * of.stages * of.n) {
     for (Eigen::Index i = 0; i < of.stages; ++i) {
-      has_momenta ? add(momentum, momentum_of, i) : add(velocity, "the velocity as stage rate of {}", i);
+      has_momenta ? add(momentum, momentum_of, i) : add(velocity, "the velocity equal to the stage rate of {}", i);
       add(euler_lagrange, euler_lagrange_of, i);
     }
   } else {

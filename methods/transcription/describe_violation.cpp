@@ -222,7 +222,8 @@ std::string missed_velocity(const Problem& problem, const Transcription& transcr
     if (transcription.blocks().block_of_row(row).kind == Equation::bounded_velocity) worst = {row, amount};
   }
   if (worst.amount < share * most) return "";
-  return fmt::format(" Violated as well is {}.", ConstraintWords(problem, transcription, x).row(worst.entry));
+  return fmt::format(" Another violated constraint is {}.",
+                     ConstraintWords(problem, transcription, x).row(worst.entry));
 }
 
 /// The largest derivatives of each boundary condition, and by which unknown it is.
@@ -394,7 +395,7 @@ std::string describe_flat_constraint(const Problem& problem, Transcription& tran
   const ConstraintWords words(problem, transcription, guess);
   return fmt::format(
       "The guess violates {}, whose derivative with respect to {} vanishes there, so it does not determine on which "
-      "side to pass: guess a trajectory on one side of it.",
+      "side to pass; guess a trajectory on one side of it.",
       words.row(worst.row), words.component(worst.unknown));
 }
 

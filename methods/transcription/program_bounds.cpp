@@ -101,9 +101,9 @@ void require_same_structure(const Problem& problem, const ProgramBounds& before,
     return true;
   };
   if (same(before.variables, now.variables) && same(before.constraints, now.constraints)) return;
-  throw Error(
-      problem.name() +
-      ": with these values a bound appears, vanishes, or joins or leaves its opposite; make a new transcription");
+  throw Error(problem.name() +
+              ": with these values a bound becomes finite or infinite, or starts or ceases to equal the opposite "
+              "bound; create a new transcription");
 }
 
 ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,

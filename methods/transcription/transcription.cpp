@@ -39,7 +39,7 @@ void require_equalities_fit(const Problem& problem, const TracedProblem& traced,
     if (controls.stages() < tableau.stages()) {
       throw Error(
           fmt::format("{}: {} makes path_constraints[{}] an equality at {} points of an interval, more than its {} "
-                      "control nodes; use as many --control-nodes",
+                      "control nodes; use at least as many --control-nodes",
                       problem.name(), member_name("bounds().path"), i, tableau.stages(), controls.stages()));
     }
     const bool is_same = controls.shares_controls || !traced.constraints_read_controls()[static_cast<std::size_t>(i)];
@@ -50,7 +50,7 @@ void require_equalities_fit(const Problem& problem, const TracedProblem& traced,
                     problem.name(), member_name("bounds().path"), i));
   }
   if (equalities <= traced.control_size()) return;
-  throw Error(fmt::format("{}: {} makes {} path constraints equalities; there can be as many as controls, {}",
+  throw Error(fmt::format("{}: {} makes {} path constraints equalities; there can be at most as many as controls, {}",
                           problem.name(), member_name("bounds().path"), equalities, traced.control_size()));
 }
 
@@ -73,10 +73,10 @@ void require_conditions_once(const Problem& problem, const TracedProblem& traced
     for (Eigen::Index i = 0; i < constraints.size(); ++i) {
       const auto is_same = [&h = constraints[i]](const Expression& r) { return r.is_same(h) || r.is_same(-h); };
       if (std::ranges::none_of(conditions, is_same)) continue;
-      throw Error(fmt::format(
-          "{}: path_constraints[{}] is a condition of the end too, which the stage there would impose a second time; "
-          "take --tableau gauss",
-          problem.name(), i));
+      throw Error(
+          fmt::format("{}: path_constraints[{}] is also a condition at the end, where a stage would impose it a second "
+                      "time; use --tableau gauss",
+                      problem.name(), i));
     }
   }
 }
@@ -97,7 +97,7 @@ void require_changeable(const Problem& problem, const TracedProblem& traced, con
 
 void require_same_velocities(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
   if (before.bounded_velocities() == now.bounded_velocities()) return;
-  throw Error(problem.name() + ": other velocities than before have bounds; make a new transcription");
+  throw Error(problem.name() + ": bounds apply to other velocities than before; create a new transcription");
 }
 
 void require_same_times(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
@@ -106,7 +106,7 @@ void require_same_times(const Problem& problem, const ProblemBounds& before, con
   };
   if (std::ranges::equal(before.interior, now.interior, is_same)) return;
   throw Error(problem.name() + ": " + member_name("bounds().interior") +
-              " has other times than before, or bounds on other velocities; make a new transcription");
+              " has other times than before, or bounds on other velocities; create a new transcription");
 }
 
 }  // namespace
@@ -361,8 +361,8 @@ void Transcription::set_horizon(double horizon) {
 /// Where the velocity of an end, or T, is not an unknown, the formulas of the ends contain its value.
 void Transcription::require_readable_ends(const Values& values) const {
   const auto refuse = [&](const char* what) {
-    throw Error(
-        fmt::format("{}: a condition or a cost of the ends contains {}, which cannot change", problem_->name(), what));
+    throw Error(fmt::format("{}: the boundary conditions or the final cost contain {}, which cannot be changed",
+                            problem_->name(), what));
   };
   if (!end_functions_) return;
   const bool gives_velocities = end_rules_.node_state != NodeState::velocity;

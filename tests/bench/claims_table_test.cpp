@@ -125,14 +125,14 @@ TEST(Words, CarryTheNumbersThatTheyState) {
 
 TEST(ClaimsTable, CountsThePapersStatementsApartFromOursAndFromMisprints) {
   EXPECT_EQ(closing_lines(some), (std::vector<std::string>{"the paper's statements and remarks: 1 reproduced, 2 differ",
-                                                           "findings of ours: 1 differs", "misprints: 1 differs"}));
+                                                           "our findings: 1 differs", "misprints: 1 differs"}));
 }
 
 TEST(ClaimsTable, HasATableForEachSourceAndNoBarThatWouldBeginAColumn) {
   const std::string text = claims_markdown(some);
   const auto place = [&](const char* part) { return text.find(part); };
   EXPECT_LT(place("## The paper's statements and remarks\n"), text.rfind("a/one"));
-  EXPECT_LT(text.rfind("e/five"), place("## Findings of ours"));
+  EXPECT_LT(text.rfind("e/five"), place("## Our findings"));
   EXPECT_LT(text.rfind("b/two"), place("## Misprints"));
   EXPECT_LT(place("## Misprints"), text.rfind("d/four"));
   EXPECT_EQ(place("## Extensions"), std::string::npos);

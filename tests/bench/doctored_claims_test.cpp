@@ -261,7 +261,7 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
   write_file(metadata, "[");
   expect("local_minima_minima.json does not state");
   std::filesystem::remove(metadata);
-  expect("there is no .json next to it");
+  expect("the .json file next to it");
   std::filesystem::rename(metadata, folder() / "local_minima.json");
   EXPECT_EQ(judge()["examples/local_minima"].verdict, ClaimVerdict::reproduced) << "its run has a shorter name";
   write_file(folder() / "own_notes.csv", "a,b\n1\n");

@@ -66,7 +66,7 @@ class Mistakes(unittest.TestCase):
 
     def test_no_return(self):
         self.refused("lagrangian: returns None; is a \"return\" missing", variant(lagrangian=lambda self, x: None))
-        self.refused("force: entry 0 of what it returns is None", variant(force=lambda self, x: [None]))
+        self.refused("force: entry 0 of the returned value is None", variant(force=lambda self, x: [None]))
 
     def test_wrong_types(self):
         self.refused("running_cost: returns str", variant(running_cost=lambda self, x: "u"))
@@ -132,7 +132,7 @@ class Mistakes(unittest.TestCase):
         self.refused("tableau=\"gauss\", stages=1", "cart_pole_cartesian", method="dmoc", stages=2)
 
     def test_unknowns_that_nothing_reads(self):
-        self.refused("nothing reads|no formula reads", variant(stiffness=db.unknown(1.0, lower=0.0, upper=2.0)))
+        self.refused("nothing reads|no formula depends on", variant(stiffness=db.unknown(1.0, lower=0.0, upper=2.0)))
         with self.assertRaisesRegex(db.Error, "stiffness must be a number in \\[0, 2\\]"):
             db.solve(variant(stiffness=db.unknown(3.0, lower=0.0, upper=2.0)))
 
@@ -184,7 +184,7 @@ class Mistakes(unittest.TestCase):
             solution.column("phi")
 
     def test_controls_that_nothing_reads(self):
-        self.refused("no formula reads the control tau",
+        self.refused("no formula depends on the control tau",
                      variant(force=lambda self, x: [0.0], running_cost=lambda self, x: x.q[0] ** 2))
 
     def test_exceptions_of_the_user_keep_their_traceback(self):

@@ -259,7 +259,7 @@ TEST(PhasedProblem, TakesItsGuardAsPathConstraintUnlessAStageIsAtTheSwitch) {
     return stacked({continuous(before, after), ExpressionVector{{0.45 - before.q[0]}}});
   };
   EXPECT_NEAR(solved(phased, {"dmoc", 2}, 8).q(8, 0), 0.45, 1e-12);
-  tests::expect_error_naming({"path_constraints[0]", "condition of the end", "gauss"}, [&] {
+  tests::expect_error_naming({"path_constraints[0]", "condition at the end", "gauss"}, [&] {
     static_cast<void>(tests::transcribe(phased, {"dmoc", 3, "lobatto"}, Grid::uniform(8)));
   });
 }
@@ -283,7 +283,7 @@ TEST(PhasedProblem, RefusesStatementsThatCannotBeMeant) {
     tests::expect_error_naming(parts, [&] { static_cast<void>(TracedProblem(PhasedProblem(phases))); });
   };
   expect_refused({"at least one phase"}, {});
-  expect_refused({"two phases are called a"}, {{"a", a}, {"a", b}});
+  expect_refused({"two phases are named a"}, {{"a", a}, {"a", b}});
   expect_refused({"phase b", "lower bound 0", "positive"},
                  {{"a", a}, {"b", sprung(half_way, target, 0.5, {0.0, 2.0})}});
   expect_refused({"phase b", "follows phase 1"}, {{"a", a}, {"b", b, 1}});

@@ -190,7 +190,7 @@ TEST_F(WiderStatementsRefused, UnknownThatNoFormulaReads) {
     [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
     [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   };
-  EXPECT_EQ(sentence(Idle()), "idle: no formula reads the unknown a; leave it out");
+  EXPECT_EQ(sentence(Idle()), "idle: no formula depends on the unknown a; remove it");
 }
 
 TEST_F(WiderStatementsRefused, UnknownThatAFormulaReadsAsANumber) {
@@ -232,7 +232,7 @@ TEST_F(WiderStatementsRefused, MoreEqualitiesThanControls) {
         };
         s.path = Bounds::all(2, 0.0, 0.0);
       }),
-      "double_integrator: bounds().path makes 2 path constraints equalities; there can be as many as controls, 1");
+      "double_integrator: bounds().path makes 2 path constraints equalities; there can be at most as many as controls, 1");
 }
 
 TEST_F(WiderStatementsRefused, EqualitiesThatLeaveNothingFree) {

@@ -109,7 +109,7 @@ const Columns<FittedQuantity> fitted_columns =
     scheme_columns<FittedQuantity>() +
     Columns<FittedQuantity>{
         {"quantity", "", "quantity that shrinks with the step", from(quantity_of, &EnergyQuantity::name), in_key},
-        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself",
+        {"truncation", "", "truncation order of the modified energy; 2 is the energy itself",
          from(quantity_of, &EnergyQuantity::truncation), in_key}} +
     fitted_order_columns(&FittedQuantity::fit);
 
@@ -139,7 +139,7 @@ const Columns<Drift> drift_columns =
     scheme_columns<Drift>() +
     Columns<Drift>{{"steps", "", "number of steps", &Drift::steps, in_key},
                    {"h", "", "step", &Drift::h},
-                   {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself",
+                   {"truncation", "", "truncation order of the modified energy; 2 is the energy itself",
                     &Drift::truncation, in_key},
                    {"drift", "", "max - min of the truncated modified energy over the trajectory", &Drift::drift}};
 
@@ -174,10 +174,9 @@ const Columns<Gap> gap_columns =
     Columns<Gap>{
         {"intervals", "", "number of intervals N", &Gap::intervals, in_key},
         {"h", "", "step", &Gap::h},
-        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself", &Gap::truncation,
-         in_key},
-        {"gap_to_work", "", "largest difference of its change and the virtual work over the nodes", &Gap::to_work},
-        {"gap_to_modified_work", "", "the same to the modified work, cut off at the same order",
+        {"truncation", "", "truncation order of the modified energy; 2 is the energy itself", &Gap::truncation, in_key},
+        {"gap_to_work", "", "largest difference between its change and the virtual work over the nodes", &Gap::to_work},
+        {"gap_to_modified_work", "", "the same difference for the modified work, truncated at the same order",
          &Gap::to_modified_work}};
 
 struct PlainGap {

@@ -88,10 +88,10 @@ SweptQuantity parse_over(const std::string& text, bool is_sampled) {
                             quantity.upper));
   }
   const bool has_count = second != std::string_view::npos;
-  if (has_count && is_sampled)
-    throw Error(fmt::format("{}: values are drawn with --samples, leave the count out", option));
+  if (has_count && is_sampled) throw Error(fmt::format("{}: --samples draws the values; omit the count", option));
   if (!has_count && is_sampled) return quantity;
-  if (!has_count) throw Error(fmt::format("{}: the count is missing; LOWER:UPPER:COUNT, or --samples", option));
+  if (!has_count)
+    throw Error(fmt::format("{}: the count is missing; write LOWER:UPPER:COUNT, or use --samples", option));
   const auto count = parsed<int>(range.substr(second + 1));
   if (!count || *count < 2 || *count > most_instances) {
     throw Error(fmt::format("{}: the count must be a whole number between 2 and {}, got \"{}\"", option, most_instances,

@@ -160,8 +160,8 @@ class parameter:
 
 
 class unknown(parameter):
-    """A parameter that a solve chooses in its range, from `guess` on: `Solution.unknowns` has what it found. Formulas
-    must read it; start, end, horizon and bounds see the guess."""
+    """A parameter that a solve chooses within its range, starting at `guess`; `Solution.unknowns` has its value. Formulas
+    must depend on it; start, end, horizon and bounds use the guess."""
 
     def __init__(self, guess: float, unit: str = "", meaning: str = "", lower: float = -_infinity,
                  upper: float = _infinity):
@@ -245,7 +245,7 @@ def _fixed(value, what):
 
 
 class motion:
-    """A guess from arrays: between the times t it is linear. q: len(t) x n; v: by default the slopes of q; u: by
+    """A guess from arrays, linear between the times t. q: len(t) x n; v: by default the slopes of q; u: by
     default 0; y: by default the straight line between the ends. Times are the problem's; for another horizon the motion
     is stretched."""
 
@@ -296,10 +296,10 @@ class Problem:
     final_cost(self, last): a cost of the end, where last.t is the horizon; boundary_conditions(self, first, last) = 0;
     constraints(self, q) = 0 of a mechanism in redundant coordinates;
     path_constraints(self, x) >= 0, or between bounds = {"path": (lower, upper)}; equal bounds make an equality;
-    waypoints: a dict of shares of the horizon to state(...), what holds at these times; parts and entries that are left out
+    waypoints: a dict of shares of the horizon to state(...), conditions at these times; parts and entries that are left out
     are open;
     integrands(self, x): their integrals over the horizon are between bounds = {"integrals": (lower, upper)};
-    y = first_order_states("mass", ...) with first_order_rates(self, x), read as x.y.mass: what has a rate, but no
+    y = first_order_states("mass", ...) with first_order_rates(self, x), read as x.y.mass: quantities with a rate, but no
     inertia; L is varied with y held fixed;
     any number of `unknown`s: parameters that a solve chooses;
     bounds: a dict of "q", "v", "u", "y", "path" or "integrals" to (lower, upper), for the latter two and for bounds that
@@ -335,7 +335,7 @@ class Problem:
         return f"{type(self).__name__}({values})"
 
     def handle(self) -> _core.ProblemHandle:
-        """The problem as C++ sees it, checked. Throws Error with a sentence if something is missing or does not fit."""
+        """The checked problem for C++. Throws Error with a sentence if something is missing or does not fit."""
         return _core.ProblemHandle(self)
 
     def parameters(self) -> dict[str, float]:

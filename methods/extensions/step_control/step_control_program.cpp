@@ -28,8 +28,7 @@ void require_plain(const Problem& problem, const TracedProblem& traced) {
                         traced.unknown_count() == 0 && traced.first_order_size() == 0 && traced.holonomic_count() == 0;
   if (is_plain) return;
   throw Error(
-      "steps inside the variational principle are supported for problems with fixed ends, a fixed horizon and no "
-      "constraints; " +
+      "variational step sizes are supported only for problems with fixed ends, a fixed horizon and no constraints; " +
       problem.name() + " is none");
 }
 

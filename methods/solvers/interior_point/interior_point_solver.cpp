@@ -222,7 +222,7 @@ class InteriorPointRun final : public PreparedRun {
   /// constraints hold and, where these end, descent on the violation, which like section 3.3 needs no such place.
   [[nodiscard]] std::optional<Status> restoration_phase() {
     if (values_.theta <= options_.tolerance) {
-      message_ = "No step along the Newton direction is an improvement, although all constraints hold.";
+      message_ = "No step along the Newton direction improves the iterate, although all constraints hold.";
       return Status::step_failed;
     }
     line_search_.begin_restoration(values_);
@@ -249,7 +249,7 @@ class InteriorPointRun final : public PreparedRun {
       if (line_search_.may_return_to(values_, enough)) return std::nullopt;
       if (const auto reason = reason_to_stop()) return reason;
     }
-    message_ = "Neither the Newton step nor descent on the violation is an improvement.";
+    message_ = "Neither the Newton step nor descent on the violation improves the iterate.";
     return Status::step_failed;
   }
 
