@@ -150,11 +150,12 @@ void print_problem(const Problem& problem) {
                                     bounds_in_words(problem.bounds().u, problem.control_names())));
   print_field(
       "rows",
-      fmt::format(
-          "{}, {}{}{}", counted(static_cast<std::size_t>(traced.path_constraint_count()), "path constraint"),
-          counted(static_cast<std::size_t>(traced.boundary_condition_count()), "boundary condition"),
-          traced.holonomic_count() > 0 ? fmt::format(", {} constraints g(q) = 0", traced.holonomic_count()) : "",
-          traced.integral_count() > 0 ? fmt::format(", {} integral constraints", traced.integral_count()) : ""));
+      fmt::format("{}, {}{}{}", counted(traced.path_constraint_count(), "path constraint"),
+                  counted(traced.boundary_condition_count(), "boundary condition"),
+                  traced.holonomic_count() > 0
+                      ? ", " + counted(traced.holonomic_count(), "constraint g(q) = 0", "constraints g(q) = 0")
+                      : "",
+                  traced.integral_count() > 0 ? ", " + counted(traced.integral_count(), "integral constraint") : ""));
   print_reference(problem);
   print_field("guess", guess_in_words(problem));
   print_field("scale", fmt::format("the cost is multiplied by {:g} for the solver", problem.cost_scale()));

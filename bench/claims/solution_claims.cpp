@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bench/claims/claim.hpp"
+#include "bench/tables/fitted_orders.hpp"
 #include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
@@ -16,7 +17,6 @@ constexpr double clearly_larger = 1e3;
 
 constexpr double equal_solutions_tolerance = 1e-9;
 constexpr double equal_costates_tolerance = 1e-8;
-constexpr double foreign_rows_tolerance = 1e-10;
 
 double largest_defect(const Row& row) { return row.needed("momentum_defect_max"); }
 double accumulated_defect(const Row& row) { return std::abs(row.needed("momentum_defect_total")); }
@@ -115,14 +115,6 @@ Finding momentum_consistency(const ResultTables& tables, const std::string& prob
       joined(others, ", ")));
 }
 
-bool is_answer_of_dmoc(const Row& row) {
-  const auto leaves_rounding = [&](const char* violation, const char* rounding) {
-    return row.needed(violation) < std::max(foreign_rows_tolerance, row.needed(rounding));
-  };
-  return leaves_rounding("violation_in_rows_of_dmoc", "rounding_in_rows_of_dmoc") &&
-         leaves_rounding("violation_of_dmoc_here", "rounding_here");
-}
-
 /// The largest differences from DMOC, relative to each quantity's largest value.
 struct Differences {
   Words words;  ///< by quantity
@@ -154,7 +146,7 @@ Finding equal_solutions(const ResultTables& tables, const std::string& problem) 
   const Selection all = tables.rows("equivalence", problem).where("method", "hamiltonian");
   const Selection rows = all.usable();
   require(!rows.empty(), "equivalence.csv has no solved row of {} by hamiltonian", problem);
-  const bool rows_agree = std::ranges::all_of(rows, is_answer_of_dmoc);
+  const bool rows_agree = std::ranges::all_of(rows, has_solution_of_dmoc);
   const Differences largest(rows);
   return found(largest.are_rounding() && rows_agree,
                "{} grids with {} tableaus, largest relative difference: {}, costates {:.0e}", rows.size(),
@@ -178,7 +170,7 @@ Finding equal_with_inequalities(const ResultTables& tables, const std::string& /
   for (const Selection& of_problem : rows.group_by({"problem"})) {
     const std::string& name = of_problem.front().text("problem");
     const Differences largest(of_problem, name);
-    const bool agree = std::ranges::all_of(of_problem, is_answer_of_dmoc);
+    const bool agree = std::ranges::all_of(of_problem, has_solution_of_dmoc);
     verdicts.push_back(verdict_on(agree && largest.are_rounding()));
     words.push_back(worded("{} on {} grids: {}, T {:.0e}, costates {:.0e}", name, of_problem.size(), largest.words,
                            Differences::of("T", of_problem.max("horizon_difference"), name),

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "methods/error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
 #include "methods/indirect/solve_indirect.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench::convergence_program {
 
@@ -128,10 +130,19 @@ class Convergence final : public ExperimentOf<Measured> {
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     reference_ = parse_reference(reference_text_);
     if (!fit_.empty()) {
-      const std::size_t colon = std::min(fit_.find(':'), fit_.size());
+      const std::size_t colon = fit_.find(':');
+      if (colon == std::string::npos)
+        throw Error(fmt::format("--fit takes a range of N, such as 16:128, not {}", fit_));
       const long long first = parse_intervals("--fit", fit_.substr(0, colon)).front();
-      const long long last = colon == fit_.size() ? first : parse_intervals("--fit", fit_.substr(colon + 1)).back();
+      const long long last = parse_intervals("--fit", fit_.substr(colon + 1)).back();
       if (last < first) throw Error(fmt::format("--fit: the range {} ends below its start", fit_));
+      std::set<long long> grids;
+      for (const Case& the_case : chosen) grids.insert(intervals_of(the_case));
+      const auto fitted = std::ranges::count_if(grids, [&](long long n) { return first <= n && n <= last; });
+      if (fitted < fewest_in_range) {
+        throw Error(fmt::format("--fit: {} of --intervals lie{} in the range {}, but a fit needs {}",
+                                counted(fitted, "grid"), fitted == 1 ? "s" : "", fit_, fewest_in_range));
+      }
       fit_range_ = {first, last};
     }
     if (reference_ == exact_reference) {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "bench/run/experiment.hpp"
 #include "bench/tables/fitted_orders.hpp"
 #include "methods/diagnostics/adjoint_scheme.hpp"
@@ -14,6 +16,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 
@@ -74,6 +77,20 @@ struct Measured {
 Case by_dmoc(Case the_case) {
   the_case.method = "dmoc";
   return the_case;
+}
+
+/// What the compared rows of a method show; empty without rows.
+std::string finding_on(const Selection& rows) {
+  if (rows.empty()) return "";
+  const std::size_t equal = rows.where(has_solution_of_dmoc).size();
+  return fmt::format(
+      "equivalence: {} and dmoc have {} solutions: in {} of {} each satisfies the other method's equations to "
+      "round-off; largest relative difference of q {:.0e}",
+      rows.front().text("method"),
+      equal == rows.size() ? "equal"
+      : equal == 0         ? "different"
+                           : "partly equal",
+      equal, counted(rows.size(), "comparison"), rows.max("configuration_difference"));
 }
 
 class Equivalence final : public ExperimentOf<Measured> {
@@ -174,6 +191,10 @@ class Equivalence final : public ExperimentOf<Measured> {
 
   void finish(Table& table, FurtherOutput& output) override {
     output.write("_slopes.csv", fit_differences(table, "configuration_difference"));
+    for (const Selection& rows : Selection(table).group_by({"method"})) {
+      const std::string finding = finding_on(rows.with_number("violation_in_rows_of_dmoc"));
+      if (!finding.empty()) output.summary.say(finding);
+    }
   }
 
  private:

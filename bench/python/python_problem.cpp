@@ -13,6 +13,7 @@
 #include "bench/python/formula_text.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench::python {
@@ -74,7 +75,8 @@ template <class Arguments>
 Expression PythonProblem::single_formula(const char* member, const Arguments& arguments) const {
   const ExpressionVector entries = python_.formula(member, arguments);
   if (entries.size() != 1) {
-    throw Error(fmt::format("{}: {} returns {} entries, expected one formula", name(), member, entries.size()));
+    throw Error(fmt::format("{}: {} returns {}, expected one formula", name(), member,
+                            counted(entries.size(), "entry", "entries")));
   }
   return entries[0];
 }

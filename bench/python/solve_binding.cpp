@@ -20,6 +20,7 @@
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/adaptive/error_estimate.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/iteration_scope.hpp"
 #include "methods/solvers/solver.hpp"
@@ -116,8 +117,8 @@ class Watch {
     in_python([&] {
       const std::string error = is_solved(grid.status) ? fmt::format("estimated error {:.1e}", grid.relative)
                                                        : std::string(name_of(grid.status));
-      py::print(fmt::format("grid of {} intervals, {} stage{}: {}, {} iterations, {:.2g} s", grid.intervals,
-                            grid.stages, grid.stages == 1 ? "" : "s", error, grid.iterations, grid.seconds),
+      py::print(fmt::format("grid of {}, {}: {}, {}, {:.2g} s", counted(grid.intervals, "interval"),
+                            counted(grid.stages, "stage"), error, counted(grid.iterations, "iteration"), grid.seconds),
                 py::arg("flush") = true);
     });
   }

@@ -35,8 +35,12 @@ namespace {
 long long parse_count(std::string_view option, std::string_view text) {
   const auto count = parsed<long long>(text);
   if (!count || *count < 1 || *count > Grid::most_intervals) {
+    const std::size_t dash = text.find('-');
+    const bool is_range = dash != std::string_view::npos && parsed<long long>(text.substr(0, dash)) &&
+                          parsed<long long>(text.substr(dash + 1));
     throw Error(
-        fmt::format("{}: {} is not a whole number between 1 and {}", option, as_shown(text), Grid::most_intervals));
+        fmt::format("{}: {} is not a whole number between 1 and {}{}", option, as_shown(text), Grid::most_intervals,
+                    is_range ? fmt::format("; a range is {}:{}", text.substr(0, dash), text.substr(dash + 1)) : ""));
   }
   return *count;
 }

@@ -16,6 +16,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/polish.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "methods/numerics/quantile.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -97,8 +98,7 @@ void judge_between_stages(SolvedCase& solved, const Trajectory& motion) {
   solved.between_stages = found;
   if (!is_solved(solved.solution.status) || found.is_motion()) return;
   solved.solution.status = Status::violates_between_stages;
-  solved.solution.message =
-      std::string(sentence_of(solved.solution.status)) + found.words(motion, problem.card().time_unit.factor);
+  solved.solution.message = std::string(sentence_of(solved.solution.status)) + found.words(problem, motion);
 }
 
 /// A sentence with the estimated error of an answer; empty where there is no estimate.
@@ -146,21 +146,20 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
     return;
   }
   const Eigen::Index k = found.interval;
-  const double unit = solved.the_case.problem->card().time_unit.factor;
+  const std::string times = time_in_words(*solved.the_case.problem, motion.node_times[k], motion.node_times[k + 1]);
   const auto undefined = undefined_point(*solved.the_case.problem, motion, k);
   if (undefined || std::isinf(found.relative_jump)) {
     solved.solution.message = fmt::format(
-        "The discrete program is solved, but interval {} (t = {:.4g} to {:.4g}) does not lead to the next node: {} "
+        "The discrete program is solved, but interval {} ({}) does not lead to the next node: {} "
         "More intervals do not help. Keep the formula finite along the trajectory: bound the coordinates away from a "
         "singularity, or use a force as control and limit its power by a path constraint.",
-        k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
+        k, times,
         undefined ? undefined->quantity + " is not a finite number there." : "its formulas are singular there.");
     return;
   }
-  solved.solution.message = fmt::format(
-      "{} Interval {} (t = {:.4g} to {:.4g}), integrated alone, misses the next node by {:.2g} of the range.",
-      sentence_of(Status::too_coarse), k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
-      found.relative_jump);
+  solved.solution.message =
+      fmt::format("{} Interval {} ({}), integrated alone, misses the next node by {:.2g} of the range.",
+                  sentence_of(Status::too_coarse), k, times, found.relative_jump);
 }
 
 /// Notes if the scaled cost of the solver differs from 1 by three orders of magnitude.

@@ -24,8 +24,6 @@ namespace {
 constexpr double rounding_level = 1e-11;
 /// The factor above the floor from which an error shows the order.
 constexpr double above_floor = 100.0;
-/// The fewest grids for an order in a range of the user's.
-constexpr std::size_t fewest_in_range = 3;
 
 constexpr std::array fitted_quantities{"state",
                                        "control",
@@ -222,11 +220,18 @@ std::optional<std::string> note_on_missing_orders(std::span<const FittedCurve> f
   if (fits.empty() || has_order) return std::nullopt;
   const Row& head = fits.front().head;
   const Fit& fit = fits.front().fit;
-  const bool has_few = fit.verdict == "few grids";
-  return fmt::format("{} {} {} {}: no order is fitted ({}: {} above round-off){}", head.text("problem"),
-                     head.text("method"), head.text("tableau"), head.text("stages"), fit.verdict,
-                     counted(fit.grids.size(), "grid"),
-                     has_few ? "; use at least four grids besides the reference, all solved and not too coarse" : "");
+  const std::string grids = counted(fit.grids.size(), "grid");
+  std::string reason = "no four neighbouring grids have the same order; try finer grids";
+  if (fit.verdict == "few grids") {
+    reason = grids + "; use at least four grids besides the reference, all solved and not too coarse";
+  } else if (fit.verdict == "floor") {
+    reason = fmt::format(
+        "the {} error stops falling at {:.1e}, and {} above {:g} times this level; use coarser grids. If the level is "
+        "far above round-off, reduce --tolerance, or add a small cost of a control that is not determined",
+        fits.front().quantity, *fit.floor, counted(fit.grids.size(), "grid is", "grids are"), above_floor);
+  }
+  return fmt::format("{} {} {} {}: no order is fitted ({}: {})", head.text("problem"), head.text("method"),
+                     head.text("tableau"), head.text("stages"), fit.verdict, reason);
 }
 
 /// The orders of a curve's largest jump and of its state error on the same grids.
@@ -339,6 +344,15 @@ Table fit_differences(const Selection& equivalence, const std::string& column) {
     append_fit(curves, column, column, above_the_floor(curve, column, rounded.max(column)), curve);
   }
   return table_of(order_columns(), curves);
+}
+
+bool has_solution_of_dmoc(const Row& row) {
+  constexpr double tolerance = 1e-10;
+  const auto leaves_rounding = [&](const char* violation, const char* rounding) {
+    return row.needed(violation) < std::max(tolerance, row.needed(rounding));
+  };
+  return leaves_rounding("violation_in_rows_of_dmoc", "rounding_in_rows_of_dmoc") &&
+         leaves_rounding("violation_of_dmoc_here", "rounding_here");
 }
 
 }  // namespace dmocbench

@@ -15,6 +15,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/polish.hpp"
 #include "methods/runtime/clock.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/families.hpp"
@@ -91,12 +92,12 @@ class AdaptiveRun {
     }
     if (!between_.is_motion()) {
       return end(AdaptiveOutcome::not_solved,
-                 fmt::format("After {} grids the trajectory still violates constraints between stages:{}",
-                             options_.most_grids, between_.words(answer_.trajectory, 1.0)));
+                 fmt::format("After {} the trajectory still violates constraints between stages:{}",
+                             counted(options_.most_grids, "grid"), between_.words(*task_.problem, answer_.trajectory)));
     }
     return end(AdaptiveOutcome::too_many,
-               fmt::format("After {} grids the estimated error is still {:.1e}, above the requested {:g}.",
-                           options_.most_grids, answer_.estimate.relative, options_.accuracy));
+               fmt::format("After {} the estimated error is still {:.1e}, above the requested {:g}.",
+                           counted(options_.most_grids, "grid"), answer_.estimate.relative, options_.accuracy));
   }
 
   AdaptiveAnswer end(AdaptiveOutcome outcome, std::string message) {
@@ -206,8 +207,8 @@ class AdaptiveRun {
     const ErrorEstimate& estimate = answer_.estimate;
     if (estimate.relative <= options_.accuracy) {
       answer_.outcome = AdaptiveOutcome::reached;
-      answer_.message = fmt::format("The estimated error is {:.1e} on {} intervals with {} stage{}{}.",
-                                    estimate.relative, answer_.grids.back().intervals, stages_, stages_ == 1 ? "" : "s",
+      answer_.message = fmt::format("The estimated error is {:.1e} on {} with {}{}.", estimate.relative,
+                                    counted(answer_.grids.back().intervals, "interval"), counted(stages_, "stage"),
                                     reason_to_compare_.empty() ? "" : ", by comparison with the previous grid");
       return true;
     }

@@ -11,6 +11,7 @@
 #include "methods/judgement/negative_curvature.hpp"
 #include "methods/judgement/newton_correction.hpp"
 #include "methods/judgement/stop_rule.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
@@ -135,7 +136,7 @@ int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution&
     if (next.curvature) return 0;  // Newton's method leads to saddles too
     // If the cost is so small that any residual passes, an answer whose residuals were large remains unchecked.
     if (!was_unsettled && confirmation.scaling(tolerance, next.primal, next).of_cost != 1.0) return 0;
-    next.message += fmt::format(" {} Newton steps after the solver confirmed the solution.", steps);
+    next.message += fmt::format(" {} after the solver confirmed the solution.", counted(steps, "Newton step"));
     if (solution.status != Status::not_confirmed && !is_solved(solution.status)) {
       next.message += fmt::format(" The solver itself reported \"{}\".", name_of(solution.status));
     }

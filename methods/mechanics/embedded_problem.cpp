@@ -15,6 +15,7 @@
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/numerics/dense_solve.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -86,7 +87,8 @@ void EmbeddedProblem::trace_embedding() {
   if (q.size() == 0)
     throw Error(redundant_->name() + " does not define embedding(theta); define it or use multipliers");
   if (q.size() != n) {
-    throw Error(fmt::format("{}: embedding has {} entries, expected {}", redundant_->name(), q.size(), n));
+    throw Error(
+        fmt::format("{}: embedding has {}, expected {}", redundant_->name(), counted(q.size(), "entry", "entries"), n));
   }
   embedding_ = Schedule(q);
   const ExpressionMatrix by_theta = jacobian(q, theta);

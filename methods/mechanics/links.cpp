@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -44,8 +45,8 @@ ExpressionVector impact(const VectorFormula& guard, const Expression& restitutio
   const ExpressionVector change = change_of_q(before, after);
   const ExpressionVector distance = guard(before.q);
   if (impulse.size() != distance.size()) {
-    throw Error(fmt::format("an impact with {} guards has {} impulses; it needs one per guard", distance.size(),
-                            impulse.size()));
+    throw Error(fmt::format("an impact with {} has {}; it needs one per guard", counted(distance.size(), "guard"),
+                            counted(impulse.size(), "impulse")));
   }
   const ExpressionMatrix gradient = jacobian_at(guard, before.q);
   return stacked({change, ExpressionVector(after.p - before.p - gradient.transpose() * impulse), distance,

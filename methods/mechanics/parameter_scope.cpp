@@ -11,6 +11,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -36,7 +37,8 @@ ParameterScope*& innermost() {
 Eigen::VectorXd checked(const Problem& problem, Eigen::VectorXd values) {
   const std::vector<Parameter>& parameters = problem.parameters();
   if (static_cast<std::size_t>(values.size()) != parameters.size()) {
-    throw Error(fmt::format("{} has {} parameters, got {} values", problem.name(), parameters.size(), values.size()));
+    throw Error(fmt::format("{} has {}, got {}", problem.name(), counted(parameters.size(), "parameter"),
+                            counted(values.size(), "value")));
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].check(values[static_cast<Eigen::Index>(i)]);
   return values;

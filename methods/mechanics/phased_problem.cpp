@@ -11,6 +11,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -265,8 +266,8 @@ ExpressionVector PhasedProblem::force(const ControlledState& x) const {
   return of_all([&](std::size_t i, const Problem& phase) -> ExpressionVector {
     const ExpressionVector force = phase.force(in_own_velocities(i, x));
     if (force.size() == parts_[i].q.size) return share(i) * force;
-    throw Error(
-        fmt::format("force of phase {} has {} entries, expected {}", phases_[i].name, force.size(), parts_[i].q.size));
+    throw Error(fmt::format("force of phase {} has {}, expected {}", phases_[i].name,
+                            counted(force.size(), "entry", "entries"), parts_[i].q.size));
   });
 }
 
@@ -358,40 +359,71 @@ ExpressionVector PhasedProblem::checked_link(std::size_t i, const PhaseEnd& befo
   const Eigen::Index held = 2 * in_phase(next, constraint_count);
   const auto unknown_count = static_cast<Eigen::Index>(unknowns().size());
   const Eigen::Index most = open + open_entries(phase_bounds(preceding(next)).last) + unknown_count;
-  const std::string subject = fmt::format("link {}, from {} to {}, has {} entries", i, phases_[preceding(next)].name,
-                                          phases_[next].name, entries.size());
+  const std::string subject = name_of_link(i) + " has " + counted(entries.size(), "entry", "entries");
   if (entries.size() < open - held) {
-    throw Error(fmt::format("{}, but the start of {} has {} numbers that are not given; state an entry for each",
-                            subject, phases_[next].name, open - held));
+    throw Error(fmt::format("{}, but {} not given at the start of {}; state an entry for each", subject,
+                            counted(open - held, "number is", "numbers are"), phases_[next].name));
   }
   if (entries.size() > most) {
     throw Error(
-        fmt::format("{}, but only {} numbers are not given at its two ends; leave open in both phases what "
-                    "the switch determines",
-                    subject, most));
+        fmt::format("{}, but only {} not given at its two ends; leave open in both phases what the switch determines",
+                    subject, counted(most, "number is", "numbers are")));
   }
   return entries;
 }
 
-ExpressionVector PhasedProblem::boundary_conditions(const State& first, const State& last) const {
+std::vector<PhasedProblem::NamedConditions> PhasedProblem::named_conditions(const State& first,
+                                                                            const State& last) const {
   std::vector<PhaseEnd> starts;
   std::vector<PhaseEnd> ends;
-  std::vector<ExpressionVector> rows;
+  std::vector<NamedConditions> all;
   for (std::size_t i = 0; i < phases_.size(); ++i) {
     const State start = in_own_velocities(i, first);
     State end = in_own_velocities(i, last);
     end.t = duration(i);
-    rows.push_back(in_phase(i, [&](const Problem& phase) { return phase.boundary_conditions(start, end); }));
-    rows.push_back(end_velocities(i, start, false));
-    rows.push_back(end_velocities(i, end, true));
+    const std::string& name = phases_[i].name;
+    all.push_back({"boundary_conditions of " + name,
+                   in_phase(i, [&](const Problem& phase) { return phase.boundary_conditions(start, end); })});
+    all.push_back({"the velocity at the start of " + name, end_velocities(i, start, false)});
+    all.push_back({"the velocity at the end of " + name, end_velocities(i, end, true)});
     starts.push_back(end_of(i, start));
     ends.push_back(end_of(i, end));
   }
   for (std::size_t i = 0; i + 1 < phases_.size(); ++i) {
-    rows.push_back(checked_link(i, ends[preceding(i + 1)], starts[i + 1]));
+    all.push_back({name_of_link(i), checked_link(i, ends[preceding(i + 1)], starts[i + 1])});
   }
-  rows.push_back(call_formula(*this, "conditions", [&] { return conditions(starts, ends); }));
+  all.push_back({"conditions", call_formula(*this, "conditions", [&] { return conditions(starts, ends); })});
+  return all;
+}
+
+ExpressionVector PhasedProblem::boundary_conditions(const State& first, const State& last) const {
+  std::vector<ExpressionVector> rows;
+  for (const NamedConditions& some : named_conditions(first, last)) rows.push_back(some.entries);
   return stacked(rows);
+}
+
+std::string PhasedProblem::condition_in_words(std::size_t i) const {
+  InputCounter inputs;
+  const Eigen::Index n = configuration_size();
+  const State any{inputs.take(n), inputs.take(n), inputs.take(), inputs.take(first_order_size())};
+  auto entry = static_cast<Eigen::Index>(i);
+  for (const NamedConditions& some : named_conditions(any, any)) {
+    if (entry < some.entries.size()) return fmt::format("{}, entry [{}]", some.name, entry);
+    entry -= some.entries.size();
+  }
+  throw Error(fmt::format("{} has no boundary condition {}", name(), i));
+}
+
+std::string PhasedProblem::name_of_link(std::size_t i) const {
+  return fmt::format("the link from {} to {}", phases_[preceding(i + 1)].name, phases_[i + 1].name);
+}
+
+std::string time_in_words(const Problem& problem, double from, std::optional<double> to) {
+  const bool is_phased = problem.phased() != nullptr;
+  const double unit = is_phased ? 1.0 / problem.horizon() : problem.card().time_unit.factor;
+  const std::string until = to ? fmt::format(" to {:.4g}", unit * *to) : "";
+  return is_phased ? fmt::format("{:.4g}{} of each phase", unit * from, until)
+                   : fmt::format("t = {:.4g}{}", unit * from, until);
 }
 
 BoundaryState PhasedProblem::ends(BoundaryState (Problem::*end)() const) const {

@@ -116,6 +116,8 @@ class PhasedProblem : public Problem {
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const final;
   [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const final;
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const final;
+  /// "the link from fall to rise, entry [0]": entry i of `boundary_conditions`.
+  [[nodiscard]] std::string condition_in_words(std::size_t i) const;
   /// The sum of the phases' final costs.
   [[nodiscard]] Expression final_cost(const State& last) const final;
   /// Of the phases that have one; 0 in the others. None if no phase has one.
@@ -123,6 +125,13 @@ class PhasedProblem : public Problem {
   [[nodiscard]] MotionPoint guess(double t) const override;
 
  private:
+  struct NamedConditions {
+    std::string name;
+    ExpressionVector entries;
+  };
+
+  [[nodiscard]] std::vector<NamedConditions> named_conditions(const State& first, const State& last) const;
+  [[nodiscard]] std::string name_of_link(std::size_t i) const;
   void add_phase(Phase phase);
   /// `call(phase i)`, whose parameters are this problem's.
   template <class Call>
@@ -157,5 +166,9 @@ class PhasedProblem : public Problem {
   std::vector<Phase> phases_;
   std::vector<Part> parts_;
 };
+
+/// "t = 0.41" or "t = 0.41 to 0.5", in the unit of `ProblemCard::time_unit`; of a `PhasedProblem` the share of each
+/// phase, "0.41 to 0.5 of each phase".
+[[nodiscard]] std::string time_in_words(const Problem& problem, double from, std::optional<double> to = {});
 
 }  // namespace dmocbench

@@ -13,6 +13,7 @@
 #include "methods/mechanics/column_names.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -20,7 +21,8 @@ namespace {
 
 void require_size(Eigen::Index actual, Eigen::Index wanted, const Problem& problem, const char* formula) {
   if (actual == wanted) return;
-  throw Error(fmt::format("{}: {} has {} entries, expected {}", problem.name(), formula, actual, wanted));
+  throw Error(
+      fmt::format("{}: {} has {}, expected {}", problem.name(), formula, counted(actual, "entry", "entries"), wanted));
 }
 
 /// Constraints have names all or none.
@@ -177,8 +179,9 @@ void TracedProblem::trace_holonomic(const Problem& problem) {
   holonomic_count_ = residual.size();
   if (holonomic_count_ == 0) return;
   if (holonomic_count_ >= n_) {
-    throw Error(fmt::format("{}: {} constraints leave no degree of freedom for {} coordinates; state fewer constraints",
-                            problem.name(), holonomic_count_, n_));
+    throw Error(fmt::format("{}: {} no degree of freedom for {}; state fewer constraints", problem.name(),
+                            counted(holonomic_count_, "constraint leaves", "constraints leave"),
+                            counted(n_, "coordinate")));
   }
   for (Eigen::Index i = 0; i < holonomic_count_; ++i) {
     if (reads(Schedule(residual.segment(i, 1)), parameter_inputs(), static_cast<std::size_t>(n_))) continue;

@@ -13,6 +13,7 @@
 #include "methods/judgement/least_violation.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/solvers/leave_saddle.hpp"
 
 namespace dmocbench {
@@ -105,8 +106,9 @@ void state_without_scaling(NonlinearProgram& program, const Scaling& scaling, co
   }
   if (scaling.of_rows.size() > 0) {
     solution.message +=
-        fmt::format(" {} constraints, whose sizes are far from 1, were multiplied by powers of two for the solver.",
-                    (scaling.of_rows.array() != 1.0).count());
+        fmt::format(" {} multiplied by powers of two for the solver.",
+                    counted((scaling.of_rows.array() != 1.0).count(), "constraint, whose size is far from 1, was",
+                            "constraints, whose sizes are far from 1, were"));
   }
   if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would ignore the factors
   if (solution.barrier_parameter) *solution.barrier_parameter /= scaling.of_cost;

@@ -104,7 +104,7 @@ class Mistakes(unittest.TestCase):
         self.refused("lacks first_order_rates", variant(y=y, start=start, end=end))
         self.refused("first_order_rates has 2 entries, expected 1",
                      variant(y=y, start=start, end=end, first_order_rates=lambda self, x: [x.u.tau, 1.0]))
-        self.refused("start: y has 1 entries, expected 0", variant(start=start))
+        self.refused("start: y has 1 entry, expected 0", variant(start=start))
         self.refused("y has no entry voltage; it has current", variant(**{**rates, "force": lambda self, x: [x.y.voltage]},
                                                                        start=start, end=end), AttributeError)
 
@@ -141,7 +141,7 @@ class Mistakes(unittest.TestCase):
             return [x.u.tau**2]
 
         self.refused("bounds\\['integrals'\\] has nothing to bound", variant(bounds={"integrals": (0.0, 1.0)}))
-        self.refused("bounds of integrals has 2 entries, and integrands has 1",
+        self.refused("bounds of integrals has 2 entries, but integrands has 1",
                      variant(integrands=integrands, bounds={"integrals": ([0.0, 1.0], [2.0, 2.0])}))
         self.refused("integrals", variant(integrands=integrands))
         self.refused("1 lower and 3 upper|2 lower and 3 upper",

@@ -135,7 +135,7 @@ TEST(EmbeddedProblemRefuses, ThatMissAnEnd) {
 
 TEST(EmbeddedProblemRefuses, OfAnotherSizeOrNone) {
   EXPECT_EQ(refusal([](const Expression& theta) { return ExpressionVector{{theta}}; }),
-            "pendulum_by_rod: embedding has 1 entries, expected 2");
+            "pendulum_by_rod: embedding has 1 entry, expected 2");
   EXPECT_EQ(refusal([](const Expression&) { return ExpressionVector(); }),
             "pendulum_by_rod does not define embedding(theta); define it or use multipliers");
 }

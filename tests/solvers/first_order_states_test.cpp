@@ -343,7 +343,7 @@ TEST(FirstOrderStatesRefused, WithRatesOfAnotherSize) {
   EXPECT_EQ(tests::sentence_of_error([] {
               static_cast<void>(tests::transcribe(Short(), {"dmoc", 1}, Grid::uniform(8)));
             }),
-            "short: first_order_rates has 1 entries, expected 2");
+            "short: first_order_rates has 1 entry, expected 2");
 }
 
 }  // namespace

@@ -284,13 +284,13 @@ TEST(PhasedProblem, RefusesStatementsThatCannotBeMeant) {
   };
   expect_refused({"at least one phase"}, {});
   expect_refused({"two phases are named a"}, {{"a", a}, {"a", b}});
-  expect_refused({"phase b", "lower bound 0", "positive"},
+  expect_refused({"phase b", "lower bound of its duration is 0", "positive"},
                  {{"a", a}, {"b", sprung(half_way, target, 0.5, {0.0, 2.0})}});
   expect_refused({"phase b", "follows phase 1"}, {{"a", a}, {"b", b, 1}});
   auto stiff = sprung(half_way, target, 0.5);
   stiff->set_parameter("stiffness", 3.0);
   expect_refused({"phase b", "stiffness"}, {{"a", a}, {"b", stiff}});
-  expect_refused({"link 0, from a to b, has 2 entries", "only 0 numbers"},
+  expect_refused({"the link from a to b has 2 entries", "only 0 numbers"},
                  {{"a", sprung(start, target, 0.5)}, {"b", sprung(start, target, 0.5)}});
   const auto expect_link_refused = [&](std::initializer_list<std::string> parts, const auto& link) {
     Composed phased({{"a", a}, {"b", b}});
@@ -298,9 +298,11 @@ TEST(PhasedProblem, RefusesStatementsThatCannotBeMeant) {
     tests::expect_error_naming(parts, [&] { static_cast<void>(TracedProblem(phased)); });
   };
   expect_link_refused(
-      {"has 1 entries", "2 numbers"},
+      {"has 1 entry", "2 numbers"},
       [](const PhaseEnd& before, const PhaseEnd& after) -> ExpressionVector { return after.q - before.q; });
-  expect_link_refused({"1 guards", "2 impulses"}, [](const PhaseEnd& before, const PhaseEnd& after) {
+  EXPECT_EQ(Composed({{"a", a}, {"b", b}}).condition_in_words(1), "the link from a to b, entry [1]");
+  EXPECT_EQ(time_in_words(Composed({{"a", a}, {"b", b}}), 0.0, a->horizon()), "0 to 1 of each phase");
+  expect_link_refused({"1 guard has 2 impulses"}, [](const PhaseEnd& before, const PhaseEnd& after) {
     return impact([](const ExpressionVector& q) { return q; }, 1.0, ExpressionVector{{1.0, 2.0}}, before, after);
   });
 }

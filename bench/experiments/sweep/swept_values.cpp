@@ -135,8 +135,8 @@ void require_quantities(const Problem& problem, const std::vector<SweptQuantity>
       continue;
     }
     if (entry->number >= problem.configuration_size()) {
-      throw Error(fmt::format("--over {}: the end states of {} have {} entries of q and of v", quantity.name,
-                              problem.name(), problem.configuration_size()));
+      throw Error(fmt::format("--over {}: the end states of {} have {} of q and of v", quantity.name, problem.name(),
+                              counted(problem.configuration_size(), "entry", "entries")));
     }
     const ProblemBounds bounds = problem.bounds();
     const EndBounds& end = entry->is_first ? bounds.first : bounds.last;
