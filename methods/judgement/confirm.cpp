@@ -79,17 +79,10 @@ double Confirmation::scaled_residual(double tolerance, const Solution& solution)
 
 /// The lengths of the Newton step; none where it cannot be computed.
 std::optional<Confirmation::StepLengths> Confirmation::newton_step(const Solution& solution) {
-  const auto step_by = [&](NewtonCorrections& corrections) -> std::optional<StepLengths> {
-    const auto length = corrections.length_at(solution.primal, solution.multipliers, memory_);
-    if (!length) return std::nullopt;
-    return StepLengths{.of_all = *length, .of_state = corrections.length_of_state()};
-  };
   if (!corrections_) corrections_.emplace(program_);
-  const std::optional<StepLengths> step = step_by(*corrections_);
-  if (step && step->of_all <= settled) return step;
-  // A long step may be an inaccurate one: elimination by intervals does not pivot across them.
-  NewtonCorrections pivoting(program_, NewtonCorrections::Factorisation::sparse);
-  return step_by(pivoting);
+  const auto length = corrections_->length_at(solution.primal, solution.multipliers, memory_);
+  if (!length) return std::nullopt;
+  return StepLengths{.of_all = *length, .of_state = corrections_->length_of_state()};
 }
 
 void Confirmation::look_for_curvature(double tolerance, Solution& solution) {

@@ -117,7 +117,4 @@ inline constexpr double confirmation_factor = 10.0;
 /// The permitted ratio of the residual of an acceptable solution to a solved one's.
 inline constexpr double acceptable_factor = 100.0;
 
-/// The largest Newton step, relative to the answer, at which an answer is settled.
-inline constexpr double settled = 1e-4;
-
 }  // namespace dmocbench

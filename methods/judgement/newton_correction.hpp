@@ -9,6 +9,7 @@
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
 #include "methods/kkt/kkt_system.hpp"
+#include "methods/kkt/newton_residual.hpp"
 #include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench {
@@ -22,6 +23,9 @@ struct NewtonCorrection {
   /// The same without the unknowns that are values of a control.
   double length_of_state = 0.0;
 };
+
+/// The largest Newton step, relative to the answer, at which an answer is settled.
+inline constexpr double settled = 1e-4;
 
 /// The distance of answers of a program from the point where the Karush-Kuhn-Tucker conditions hold exactly, to first
 /// order: the error of an answer that small residuals still permit. Where the cost is flat, or a step h is small,
@@ -40,8 +44,10 @@ class NewtonCorrections {
  public:
   /// The factorisation of the linear systems.
   enum class Factorisation : std::uint8_t {
-    by_intervals,  ///< where the program's structure allows it, in time linear in the intervals; otherwise sparse
-    sparse,        ///< with pivoting: slower, and the last digits are better
+    by_intervals,  ///< where the program's structure allows it, in time linear in the intervals, long steps refined,
+                   ///< since elimination by intervals does not pivot across them; otherwise, and where that fails,
+                   ///< sparse
+    sparse,  ///< with pivoting: slower, and the last digits are better
   };
 
   /// The program must outlive this.
@@ -75,13 +81,15 @@ class NewtonCorrections {
 
  private:
   void measure_step(const Eigen::VectorXd& primal, const Eigen::VectorXd& gradient);
+  [[nodiscard]] bool refine_step();
 
   NonlinearProgram& program_;
   std::unique_ptr<kkt::KktSystem> by_intervals_;  // until it fails once
   std::unique_ptr<kkt::SparseKkt> pivoting_;      // made when it is first needed
   bool has_minimum_ = false;
   LinearisedConditions conditions_;
-  NewtonCorrection step_;  // the last one
+  std::optional<kkt::NewtonResidual> residual_;  // made when it is first needed
+  NewtonCorrection step_;                        // the last one
 };
 
 }  // namespace dmocbench

@@ -118,7 +118,7 @@ int steps_to_rounding(NonlinearProgram& program, Solution& solution, int most_st
 
 /// Newton steps until the answer is confirmed; none, and the answer as it was, where they do not get there.
 int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
-  NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
+  NewtonCorrections corrections(program);
   Confirmation confirmation(program);
   const bool was_unsettled = is_unsettled(solution);
   Solution next = solution;

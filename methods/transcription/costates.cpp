@@ -159,9 +159,10 @@ StageCostates stage_costates(const Transcription& transcription, const Eigen::Ve
     for (Eigen::Index i = 0; i < s; ++i) {
       const Eigen::Index row = k * s + i;
       const RowBlock& first_order = blocks.row(Equation::first_order, i);
+      const double weight = tableau.b[i] * (family == NodeState::configuration ? 1.0 : h);
       Eigen::VectorXd psi_y(l);
       for (Eigen::Index j = 0; j < l; ++j) {
-        psi_y[j] = multipliers[first_order.index(j) + k] / transcription.cost_scale() / -h / tableau.b[i];
+        psi_y[j] = multipliers[first_order.index(j) + k] / transcription.cost_scale() / -weight;
       }
       at_stage.evaluate(trajectory.stage(row), trajectory.stage_times[row]);
       const Eigen::VectorXd psi_p = stages.psi_p.col(i);

@@ -37,13 +37,15 @@ Unknowns make_unknowns(const TracedProblem& problem, const Element& element, con
   return unknowns;
 }
 
-/// Ẏ_i - g at the stages.
+/// Ẏ_i - g at the stages. Equations of nodes have the factor h of an impulse, and then these have it too: a filter adds
+/// up the violations of all equations, and would let one kind outweigh the other N times.
 ExpressionVector first_order_equations(const TracedProblem& problem, const Unknowns& unknowns,
                                        const IntervalTrace& trace) {
   if (problem.first_order_size() == 0) return {};
+  const Expression factor = trace.left_rows.size() > 0 ? unknowns.h : Expression(1.0);
   std::vector<ExpressionVector> equations;
   for (std::size_t i = 0; i < trace.stages.size(); ++i) {
-    equations.emplace_back(unknowns.rates_y[i] - problem.of_stages().at(trace.stages[i]).first_order_rates);
+    equations.emplace_back(factor * (unknowns.rates_y[i] - problem.of_stages().at(trace.stages[i]).first_order_rates));
   }
   return stacked(equations);
 }
