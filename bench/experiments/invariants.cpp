@@ -7,6 +7,7 @@
 #include "bench/experiments/invariants/continuous_flow.hpp"
 #include "bench/experiments/invariants/energy_tables.hpp"
 #include "bench/experiments/invariants/example_systems.hpp"
+#include "bench/experiments/invariants/impact_tables.hpp"
 #include "bench/experiments/invariants/long_time_energy.hpp"
 #include "bench/experiments/invariants/momentum_tables.hpp"
 #include "bench/experiments/invariants/simulated_tables.hpp"
@@ -181,6 +182,11 @@ void add_examples(TableRun& run, const StructureOptions& options) {
     run.add("invariants_modified_energy", modified.drifts);
     run.add("invariants_modified_energy_slopes", modified.orders);
   });
+  stage("impacts", [&] {
+    const ImpactTables tables = impact_tables({16, 32, 64, 128, 256});
+    run.add("invariants_impacts", tables.impacts);
+    run.add("invariants_impacts_slopes", tables.orders);
+  });
   stage("energies against the work of forces", [&] {
     std::vector<std::shared_ptr<const Problem>> problems;
     for (const std::string& name : paper_problem_names()) problems.push_back(make_problem(name));
@@ -230,7 +236,8 @@ int run(int argc, char** argv) {
       "trajectories whose forces are orthogonal to the symmetry: invariants_orthogonal_forces.csv. Symplectic form: "
       "invariants_symplecticity.csv. Both along the continuous flow: invariants_flow_momentum.csv and "
       "invariants_flow_symplecticity.csv. Energy of an eccentric orbit over many periods: invariants_energy.csv and "
-      "invariants_energy_behaviour.csv. Modified energy of the midpoint rule along free trajectories: "
+      "invariants_energy_behaviour.csv. Elastic impacts by three conditions on the energy: invariants_impacts.csv. "
+      "Modified energy of the midpoint rule along free trajectories: "
       "invariants_modified_energy.csv. Energy and modified energy compared with the work of the forces along the "
       "optimal trajectories of the paper's problems: invariants_energy_work.csv and invariants_modified_work.csv. "
       "--problem replaces the examples: for each problem it measures the symplectic form at states of an optimal "

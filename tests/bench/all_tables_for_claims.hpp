@@ -249,6 +249,30 @@ inline Rows phase_rows() {
   return rows;
 }
 
+/// Impacts with and without force by all conditions, or their orders.
+inline Rows impact_rows(bool are_orders) {
+  Rows rows;
+  for (const char* force : {"none", "drag"}) {
+    for (const char* condition : {"momenta", "steps", "steps_and_work"}) {
+      for (const char* stages : {"1", "2"}) {
+        const bool has_full_order = force == std::string("none") || condition == std::string("momenta");
+        const std::string order = has_full_order                      ? stages == std::string("1") ? "2.01" : "4.01"
+                                  : condition == std::string("steps") ? "0.99"
+                                                                      : "1.97";
+        rows.push_back(are_orders ? row_of_texts({"problem", "method", "tableau", "stages", "force", "condition",
+                                                  "quantity", "slope", "standard_error"},
+                                                 {"bouncing_particle", "dmoc", "gauss", stages, force, condition,
+                                                  "state_error", order, "0.01"})
+                                  : row_of_texts({"problem", "method", "tableau", "stages", "force", "condition",
+                                                  "steps", "energy_change"},
+                                                 {"bouncing_particle", "dmoc", "gauss", stages, force, condition, "64",
+                                                  condition == std::string("momenta") ? "1e-16" : "1e-3"}));
+      }
+    }
+  }
+  return rows;
+}
+
 /// Costs of order 4 in both statements of four problems.
 inline Rows constrained_cost_rows() {
   Rows rows;
@@ -505,6 +529,8 @@ inline std::map<std::string, Rows> all_rows() {
   rows["consistency_constrained"] = rows["consistency"];
   rows["equivalence_phases"] = phase_rows();
   rows["consistency_phases"] = rows["consistency"];
+  rows["invariants_impacts"] = impact_rows(false);
+  rows["invariants_impacts_slopes"] = impact_rows(true);
   rows["convergence_phases_slopes"] =
       galerkin_slope_rows("gauss", {{"dmoc", "1", "2.01"}, {"dmoc", "2", "3.99"}, {"tangent", "2", "4.0"}});
   rows["objective_constrained"] = constrained_cost_rows();

@@ -34,6 +34,8 @@ TEST(TheoryClaims, DifferByOneFalseNumberOfTheirTables) {
       {"equivalence_phases", has("stages", "2"), "control_difference", 1e-5, "phases/equal_solutions"},
       {"consistency_phases", has("method", "dmoc"), "momentum_defect_total", 1e-6, "phases/momentum"},
       {"convergence_phases_slopes", has("quantity", "costate"), "slope", 3.0, "phases/orders"},
+      {"invariants_impacts_slopes", has("condition", "steps"), "slope", 2.5, "phases/energy_at_impacts"},
+      {"invariants_impacts", has("condition", "momenta"), "energy_change", 1e-9, "phases/energy_at_impacts"},
       {"smoothness_slopes", has("active", "control"), "slope", 1.0, "examples/order_within_control_bounds"},
       {"smoothness_slopes", has("end", "free"), "slope", 1.0, "examples/order_with_a_free_end"},
       {"smoothness_slopes", has("stages", "2"), "slope", 4.0, "examples/kinks_leave_order_2"},
