@@ -310,18 +310,22 @@ void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more, double fac
 Trajectory motion_in_tables(const Problem& problem, const Table& nodes, const std::optional<Table>& stages,
                             const std::filesystem::path& file);
 
-/// A motion whose phases follow each other, side by side. Throws `Error` unless all have as many nodes.
+/// A motion whose phases follow each other, side by side. Unknowns without a column are the durations of the rows, or
+/// guessed. Throws `Error` unless all phases have as many nodes.
 Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const std::optional<Table>& stages,
                         const std::filesystem::path& file) {
   Trajectory all;
-  for (const auto& [name, phase, follows] : problem.phases()) {
+  std::map<std::string, double> durations;
+  for (std::size_t i = 0; i < problem.phases().size(); ++i) {
+    const auto& [name, phase, follows] = problem.phases()[i];
     const auto first = std::ranges::find(nodes.rows(), name, [](const Row& row) { return row.text("phase"); });
     if (first == nodes.rows().end()) throw Error(fmt::format("{} has no rows of the phase {}", file.string(), name));
     const double start = first->needed("t");
     const SharedParameters shared(problem, *phase);
     const std::optional<Table> own_stages = stages ? std::optional(rows_of_phase(*stages, name, start)) : std::nullopt;
     const Trajectory own = motion_in_tables(*phase, rows_of_phase(nodes, name, start), own_stages, file);
-    const double share = own.node_times.tail<1>()[0] / problem.horizon();
+    const double duration = durations[problem.name_of_duration(i)] = own.node_times.tail<1>()[0];
+    const double share = duration / problem.horizon();
     if (all.node_times.size() == 0) {
       all.tableau = own.tableau;
       all.node_times = own.node_times / share;
@@ -341,7 +345,14 @@ Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const 
     append_columns(all.psi_p, own.psi_p);
     append_columns(all.psi_y, own.psi_y);
   }
-  read_unknowns(problem, nodes, file, all);
+  const std::vector<std::string> names = unknown_names(problem);
+  all.unknowns.resize(std::ssize(names));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto duration = durations.find(names[i]);
+    const double otherwise = duration == durations.end() ? problem.parameter(names[i]) : duration->second;
+    const Row& row = nodes.rows().front();
+    all.unknowns[static_cast<Eigen::Index>(i)] = row.text(names[i]).empty() ? otherwise : row.needed(names[i]);
+  }
   return all;
 }
 
