@@ -251,17 +251,22 @@ TEST(PhasedProblem, HoldsPathConstraintsAndTheirCounts) {
   EXPECT_GE(motion.stage_u.col(1).minCoeff(), -1.0 - 1e-9);
 }
 
-TEST(PhasedProblem, TakesItsGuardAsPathConstraintUnlessAStageIsAtTheSwitch) {
+TEST(PhasedProblem, TakesItsGuardAsPathConstraintAlsoWhereAStageIsAtTheSwitch) {
   auto below = sprung(start, half_way, 0.5);
   below->most_x = 0.45;
   Composed phased({{"a", below}, {"b", sprung(half_way, target, 0.5)}});
   phased.of_link = [](const PhaseEnd& before, const PhaseEnd& after) {
     return stacked({continuous(before, after), ExpressionVector{{0.45 - before.q[0]}}});
   };
-  EXPECT_NEAR(solved(phased, {"dmoc", 2}, 8).q(8, 0), 0.45, 1e-12);
-  tests::expect_error_naming({"path_constraints[0]", "condition at the end", "gauss"}, [&] {
-    static_cast<void>(tests::transcribe(phased, {"dmoc", 3, "lobatto"}, Grid::uniform(8)));
-  });
+  const double cost = solved(phased, {"dmoc", 3}, 16).cost;
+  for (const char* const method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const tests::Scheme& scheme : {tests::Scheme{method, 2}, {method, 2, "lobatto"}, {method, 3, "lobatto"}}) {
+      const Trajectory motion = solved(phased, scheme, 16);
+      EXPECT_NEAR(motion.q(16, 0), 0.45, 1e-12) << scheme.label();
+      EXPECT_LE(motion.q.col(0).maxCoeff(), 0.45 + 1e-12) << scheme.label();
+      EXPECT_NEAR(motion.cost, cost, 0.01 * cost) << scheme.label();
+    }
+  }
 }
 
 TEST(PhasedProblem, BranchesFromTheEndOfAnyPhaseBeforeIt) {
