@@ -12,6 +12,7 @@
 #include "bench/python/calls.hpp"
 #include "bench/python/formula_text.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/first_order_problem.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -87,6 +88,7 @@ ExpressionVector PythonProblem::optional_formula(const char* member, const Argum
 }
 
 Expression PythonProblem::lagrangian(const State& x) const {
+  if (has_no_configuration(*this)) return 0.5 * x.v[0] * x.v[0];
   return single_formula("lagrangian", [&] { return py::make_tuple(point(x)); });
 }
 

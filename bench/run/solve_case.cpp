@@ -378,12 +378,14 @@ void take_judgement(SolvedCase& solved, const Start& start, std::shared_ptr<Judg
 
 bool is_on_branch(const Trajectory& trajectory, const Motion& branch) {
   constexpr double share = 0.1;
-  const Eigen::VectorXd range = trajectory.q.colwise().maxCoeff() - trajectory.q.colwise().minCoeff();
+  const bool moves = trajectory.y.cols() == 0 || (trajectory.q.rowwise() - trajectory.q.row(0)).any();
+  const Eigen::MatrixXd& states = moves ? trajectory.q : trajectory.y;  // of first-order states alone
+  const Eigen::VectorXd range = states.colwise().maxCoeff() - states.colwise().minCoeff();
   const double stretch = branch.horizon / trajectory.node_times[trajectory.intervals()];  // same relative time
   double distance = 0.0;
   for (Eigen::Index k = 0; k < trajectory.q.rows(); ++k) {
-    const Eigen::VectorXd q = branch.at(trajectory.node_times[k] * stretch).q;
-    distance = std::max(distance, (trajectory.q.row(k).transpose() - q).lpNorm<Eigen::Infinity>());
+    const MotionPoint at = branch.at(trajectory.node_times[k] * stretch);
+    distance = std::max(distance, (states.row(k).transpose() - (moves ? at.q : at.y)).lpNorm<Eigen::Infinity>());
   }
   return distance < share * range.maxCoeff();
 }

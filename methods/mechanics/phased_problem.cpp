@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/first_order_problem.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
@@ -330,6 +331,7 @@ PhaseEnd PhasedProblem::end_of(std::size_t i, const State& own) const {
   static_cast<State&>(end) = own;
   end.t = start_time(i) + own.t;
   end.p = ExpressionVector(jacobian_at(lagrangian, own.v).transpose());
+  if (has_no_configuration(*phases_[i].problem)) end.q = end.v = end.p = ExpressionVector();
   return end;
 }
 
