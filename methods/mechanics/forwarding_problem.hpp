@@ -44,6 +44,9 @@ class ForwardingProblem : public Problem {
   [[nodiscard]] ExpressionVector embedding(const ExpressionVector& theta) const override {
     return original_.embedding(theta);
   }
+  [[nodiscard]] ExpressionVector moving_embedding(const ExpressionVector& theta, const Expression& t) const override {
+    return original_.moving_embedding(theta, t);
+  }
   [[nodiscard]] const Problem* redundant() const override { return original_.redundant(); }
   [[nodiscard]] const PhasedProblem* phased() const override { return original_.phased(); }
   [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override { return original_.integrands(x); }

@@ -104,6 +104,10 @@ ExpressionVector Problem::constraints(const ExpressionVector& /*q*/) const { ret
 
 ExpressionVector Problem::embedding(const ExpressionVector& /*theta*/) const { return {}; }
 
+ExpressionVector Problem::moving_embedding(const ExpressionVector& theta, const Expression& /*t*/) const {
+  return embedding(theta);
+}
+
 const Problem* Problem::redundant() const { return nullptr; }
 
 const PhasedProblem* Problem::phased() const { return nullptr; }

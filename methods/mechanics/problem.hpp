@@ -109,6 +109,9 @@ class Problem {
   /// q = Φ(θ), n entries, of n - c coordinates θ with g(Φ(θ)) = 0: `EmbeddedProblem` takes it in the place of
   /// multipliers. Default: none.
   [[nodiscard]] virtual ExpressionVector embedding(const ExpressionVector& theta) const;
+  /// q = Φ(θ, t), where no chart of the manifold is regular along the whole motion: a chart that moves with it, at
+  /// every node another one. Default: `embedding(theta)`.
+  [[nodiscard]] virtual ExpressionVector moving_embedding(const ExpressionVector& theta, const Expression& t) const;
   /// The problem with constraints whose `embedding` has the coordinates of this one, an `EmbeddedProblem`: stages are
   /// in its coordinates. Default: null.
   [[nodiscard]] virtual const Problem* redundant() const;

@@ -96,7 +96,9 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
   trace_formulas(problem);
   trace_ends(problem);
   if (const Problem* const redundant = problem.redundant(); redundant != nullptr) {
-    embedding_ = Schedule(redundant->embedding(input_vector(0, n_)));
+    InputCounter node;
+    const ExpressionVector theta = node.take(n_);
+    embedding_ = Schedule(redundant->moving_embedding(theta, node.take()));
     of_stages_ = std::make_shared<const TracedProblem>(*redundant);
   }
   parameters.require_unknowns_read();
@@ -212,9 +214,9 @@ TracedProblem::HolonomicValues TracedProblem::holonomic_at(const ExpressionVecto
   return values;
 }
 
-ExpressionVector TracedProblem::in_stages(const ExpressionVector& q) const {
+ExpressionVector TracedProblem::in_stages(const ExpressionVector& q, const Expression& t) const {
   if (!has_embedding()) return q;
-  return FormulaReader(embedding_, {&q}, {}).vector(of_stages_->configuration_size());
+  return FormulaReader(embedding_, {&q}, t).vector(of_stages_->configuration_size());
 }
 
 void TracedProblem::trace_ends(const Problem& problem) {

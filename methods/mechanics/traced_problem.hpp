@@ -94,8 +94,8 @@ class TracedProblem {
   [[nodiscard]] bool has_embedding() const noexcept { return of_stages_ != nullptr; }
   /// The formulas in the coordinates of stages: with an embedding the redundant statement's, otherwise these.
   [[nodiscard]] const TracedProblem& of_stages() const noexcept { return of_stages_ ? *of_stages_ : *this; }
-  /// The configuration of a node in the coordinates of stages: with an embedding Φ(θ), otherwise q.
-  [[nodiscard]] ExpressionVector in_stages(const ExpressionVector& q) const;
+  /// The configuration of a node at time t in the coordinates of stages: with an embedding Φ(θ, t), otherwise q.
+  [[nodiscard]] ExpressionVector in_stages(const ExpressionVector& q, const Expression& t) const;
   /// Whether entry i of h reads a control.
   [[nodiscard]] const std::vector<bool>& constraints_read_controls() const noexcept {
     return constraints_read_controls_;

@@ -16,8 +16,8 @@ Eigen::Index DmocElement::multipliers(const Tableau& tableau) const {
 
 IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& tableau,
                                  const IntervalUnknowns& unknowns) const {
-  const ExpressionVector left = problem.in_stages(unknowns.left_q);
-  const ExpressionVector right = problem.in_stages(unknowns.right_q);
+  const ExpressionVector left = problem.in_stages(unknowns.left_q, unknowns.t);
+  const ExpressionVector right = problem.in_stages(unknowns.right_q, unknowns.t + unknowns.h);
   const auto rates = stage_rates(left, right, unknowns.rates_q, tableau.b, unknowns.h);
   const auto configurations = stage_values(left, rates, tableau.a, unknowns.h);
   return lagrange_d_alembert(problem, tableau, unknowns, {configurations, rates, unknowns.controls}, tableau.b);
