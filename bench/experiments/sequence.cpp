@@ -82,6 +82,13 @@ std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std:
                             problem->name()));
   }
   const std::optional<SweptQuantity> quantity = homotopy_of(options, *problem);
+  const bool has_phases = problem->phased() != nullptr;
+  if (has_phases && !quantity) {
+    throw Error(
+        fmt::format("{} has phases, which a receding horizon would move on together; give a quantity --over "
+                    "NAME=LOWER:UPPER, or choose another problem",
+                    problem->name()));
+  }
   std::vector<SequenceStep> steps;
   const std::vector<SolvedCase> answers = first_answers(options, problem, starts, solver_options);
   // NOLINTNEXTLINE(bugprone-unchecked-optional-access): every one of them is solved
@@ -90,8 +97,10 @@ std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std:
   std::vector<SequenceRun> receding;
   std::vector<SequenceRun> continued;
   for (const SolvedCase& answer : answers) {
-    receding.emplace_back(answer, receding_horizon(problem, motion, disturbance, options.seed), solver_options,
-                          options.repeats);
+    if (!has_phases) {
+      receding.emplace_back(answer, receding_horizon(problem, motion, disturbance, options.seed), solver_options,
+                            options.repeats);
+    }
     if (!quantity) continue;
     continued.emplace_back(answer, homotopy(problem, options.problems.settings, *quantity, options.steps),
                            solver_options, options.repeats);

@@ -128,6 +128,18 @@ class Experiments(unittest.TestCase):
             for slope in fitted:
                 self.assertAlmostEqual(slope, 2.0, delta=0.1)
 
+    def test_are_solved_by_experiments_that_compare_many_solves(self):
+        options = {"derivatives": {}, "local_minima": {"starts": 2}, "savings_by_solver": {},
+                   "sequence": {"steps": 2, "over": "e=0.7:1"}}
+        for experiment, further in options.items():
+            with self.subTest(experiment), tempfile.TemporaryDirectory() as folder:
+                results = db.run(experiment, Ball, out=folder, method="dmoc", intervals=8, **further)
+                table = results if len(results) else results.further["sequence"]
+                rows = [row for row in table if row.get("derivatives", "tape") == "tape"]
+                self.assertTrue(rows)
+                self.assertEqual({row["status"] for row in rows}, {"solved"})
+                self.assertEqual({row.get("sequence", "homotopy") for row in rows}, {"homotopy"})
+
     def test_sweep_a_parameter(self):
         with tempfile.TemporaryDirectory() as folder:
             db.run("sweep", Ball, out=folder, over="e=0.7:1:2", intervals=32)
