@@ -150,10 +150,13 @@ void print_problem(const Problem& problem) {
                                     bounds_in_words(problem.bounds().u, problem.control_names())));
   print_field(
       "rows",
-      fmt::format("{}, {}{}{}", counted(traced.path_constraint_count(), "path constraint"),
+      fmt::format("{}, {}{}{}{}", counted(traced.path_constraint_count(), "path constraint"),
                   counted(traced.boundary_condition_count(), "boundary condition"),
                   traced.holonomic_count() > 0
                       ? ", " + counted(traced.holonomic_count(), "constraint g(q) = 0", "constraints g(q) = 0")
+                      : "",
+                  traced.velocity_constraint_count() > 0
+                      ? ", " + counted(traced.velocity_constraint_count(), "velocity constraint")
                       : "",
                   traced.integral_count() > 0 ? ", " + counted(traced.integral_count(), "integral constraint") : ""));
   print_reference(problem);

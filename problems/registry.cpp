@@ -16,6 +16,7 @@
 #include "problems/cart_pole.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/chaplygin_sleigh.hpp"
+#include "problems/chaplygin_sleigh_cartesian.hpp"
 #include "problems/compass_gait.hpp"
 #include "problems/container_crane.hpp"
 #include "problems/control_rate.hpp"
@@ -41,6 +42,7 @@
 #include "problems/refraction.hpp"
 #include "problems/rigid_quadrotor.hpp"
 #include "problems/robot_arm.hpp"
+#include "problems/rolling_disk.hpp"
 #include "problems/satellite_directors.hpp"
 #include "problems/spherical_pendulum.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
@@ -119,6 +121,8 @@ Registry problems_of_the_suite() {
   registry.add<Refraction>();
   registry.add<SwingAndRelease>();
   registry.add<ChaplyginSleigh>();
+  registry.add<ChaplyginSleighCartesian>();
+  registry.add<RollingDisk>();
   return registry;
 }
 

@@ -119,6 +119,13 @@ ExpressionVector PythonProblem::constraints(const ExpressionVector& q) const {
                           [&] { return py::make_tuple(python_.object().attr("_coordinates_at")(list_of(q))); });
 }
 
+ExpressionVector PythonProblem::velocity_constraints(const ExpressionVector& q, const ExpressionVector& v) const {
+  return optional_formula("velocity_constraints", [&] {
+    const py::object named = python_.object().attr("_coordinates_at");
+    return py::make_tuple(named(list_of(q)), named(list_of(v), "v"));
+  });
+}
+
 ExpressionVector PythonProblem::boundary_conditions(const State& first, const State& last) const {
   return optional_formula("boundary_conditions", [&] { return py::make_tuple(point(first), point(last)); });
 }

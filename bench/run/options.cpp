@@ -469,7 +469,8 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   }
   for (const auto& problem : problems) {
     const std::vector<std::string> solvers = solvers_for(*problem, options.solvers);
-    // Of all problems those with holonomic constraints are left out where a method lacks them; alone they are refused.
+    // Of all problems those with constraints of the motion are left out where a method lacks them; alone they are
+    // refused.
     const TracedProblem traced(*problem);
     const auto is_offered = [&](const ChosenScheme& scheme) {
       return !all ||
@@ -507,7 +508,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
     }
   }
   if (!left_out.empty())
-    remark(fmt::format("--problem all leaves out problems with holonomic constraints: {}", fmt::join(left_out, ", ")));
+    remark(fmt::format("--problem all leaves out problems with constraints on q or v: {}", fmt::join(left_out, ", ")));
   return cases;
 }
 

@@ -346,7 +346,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
 Solution solve_from(Transcription& program, const Eigen::VectorXd& start,
                     const std::optional<Trajectory>& with_costates, const Solver& solver) {
   const TracedProblem& problem = program.traced_problem();
-  const bool is_mechanism = problem.holonomic_count() > 0 || problem.has_embedding();  // which costates do not start
+  const bool is_mechanism = problem.constraint_count() > 0 || problem.has_embedding();  // which costates do not start
   if (!with_costates || !takes_multipliers(solver) || is_mechanism) return solver.solve(program, start);
   Solution solution = solver.solve(program, start, sample_multipliers(program, *with_costates));
   if (is_solved(solution.status) || solution.status == Status::interrupted) return solution;

@@ -85,6 +85,9 @@ void EmbeddedProblem::trace_embedding() {
   const Eigen::Index c =
       call_formula(*redundant_, "constraints", [&] { return redundant_->constraints(input_vector(0, n)).size(); });
   if (c == 0) throw Error(redundant_->name() + " has no constraints g(q) = 0 and needs no embedding");
+  if (redundant_->velocity_constraints(input_vector(0, n), input_vector(0, n)).size() > 0) {
+    throw Error(redundant_->name() + ": an embedding does not support velocity_constraints; use multipliers");
+  }
   freedoms_ = n - c;
   InputCounter inputs;
   const ExpressionVector theta = inputs.take(freedoms_);

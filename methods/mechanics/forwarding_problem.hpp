@@ -41,6 +41,10 @@ class ForwardingProblem : public Problem {
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override {
     return original_.constraints(q);
   }
+  [[nodiscard]] ExpressionVector velocity_constraints(const ExpressionVector& q,
+                                                      const ExpressionVector& v) const override {
+    return original_.velocity_constraints(q, v);
+  }
   [[nodiscard]] ExpressionVector embedding(const ExpressionVector& theta) const override {
     return original_.embedding(theta);
   }

@@ -290,6 +290,12 @@ ExpressionVector PhasedProblem::constraints(const ExpressionVector& q) const {
       [&](std::size_t i, const Problem& phase) -> ExpressionVector { return phase.constraints(parts_[i].q.of(q)); });
 }
 
+ExpressionVector PhasedProblem::velocity_constraints(const ExpressionVector& q, const ExpressionVector& v) const {
+  return of_all([&](std::size_t i, const Problem& phase) -> ExpressionVector {
+    return phase.velocity_constraints(parts_[i].q.of(q), parts_[i].q.of(v));
+  });
+}
+
 ExpressionVector PhasedProblem::path_constraints(const ControlledState& x) const {
   return of_all([&](std::size_t i, const Problem& phase) -> ExpressionVector {
     const ControlledState own = in_own_velocities(i, x);

@@ -67,7 +67,7 @@ void require_feedback(const Transcription& program, const Eigen::VectorXd& prima
                        : traced.integral_count() > 0           ? "integral constraints"
                        : traced.first_order_size() > 0         ? "first-order states"
                        : traced.unknown_count() > 0            ? "unknown parameters"
-                       : functions.multipliers > 0             ? "constraints g(q) = 0"
+                       : functions.multipliers > 0             ? "constraints of the trajectory"
                        : program.interval_structure()->has_interior_equations ? "conditions between the ends"
                                                                               : nullptr;
   if (reason != nullptr) {

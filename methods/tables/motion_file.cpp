@@ -180,12 +180,12 @@ Series priced(const std::string& prefix, const std::vector<std::string>& names, 
 
 /// λ at the stages, whatever the method; without columns where there are none, or the equations of motion are singular.
 Series multipliers_at_stages(const Problem& problem, const Trajectory& trajectory) {
-  Series series{"lambda_", {}, {}, "multiplier of a constraint g(q) = 0, energy per unit of g"};
-  if (problem.constraints(input_vector(0, problem.configuration_size())).size() == 0) return series;
+  Series series{"lambda_", {}, {}, "multiplier of a constraint g(q) = 0, energy per unit of g, or A(q) v = 0"};
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
+  if (traced.constraint_count() == 0) return series;
   EquationsOfMotion motion(traced);
-  Eigen::MatrixXd values(trajectory.stage_times.size(), traced.holonomic_count());
+  Eigen::MatrixXd values(trajectory.stage_times.size(), traced.constraint_count());
   try {
     for (Eigen::Index row = 0; row < values.rows(); ++row) {
       values.row(row) = motion.multipliers(trajectory.stage(row), trajectory.stage_times[row]).transpose();

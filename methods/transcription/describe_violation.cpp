@@ -384,6 +384,7 @@ std::string contradiction(const Transcription& transcription) {
   if (transcription.traced_problem().path_constraint_count() > 0) parts.emplace_back("path_constraints");
   if (transcription.traced_problem().integral_count() > 0) parts.push_back(member_name("bounds().integrals"));
   if (transcription.traced_problem().holonomic_count() > 0) parts.emplace_back("constraints");
+  if (transcription.traced_problem().velocity_constraint_count() > 0) parts.emplace_back("velocity_constraints");
   if (parts.empty()) return "";
   std::string text = " The solver found no trajectory near this one that satisfies " + parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];

@@ -1,5 +1,7 @@
 #include "methods/transcription/interval_functions.hpp"
 
+#include <numeric>
+
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -134,8 +136,10 @@ IntervalFunctions trace_interval(const TracedProblem& traced, const Element& ele
   functions.mayer = rules.mayer;
   functions.free_horizon = rules.free_horizon;
   functions.integrals = problem.integral_count();
-  functions.multipliers = std::ssize(unknowns.multipliers) * problem.holonomic_count();
-  functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum}));
+  for (const ExpressionVector& vector : unknowns.multipliers) functions.conditions.push_back(vector.size());
+  functions.multipliers = std::reduce(functions.conditions.begin(), functions.conditions.end());
+  functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum, trace.left_impulse,
+                                        trace.right_impulse, stacked(trace.stage_forces)}));
   const auto stages = problem.has_embedding() ? stages_between_nodes(trace.stages, unknowns) : trace.stages;
   functions.stages = stage_table(stages, unknowns.rates_y);
   return functions;

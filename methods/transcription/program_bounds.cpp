@@ -114,7 +114,7 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
   require_bounds_of_formulas(problem, bounds, traced.path_constraint_count(), traced.integral_count());
   const Bounds path = bounds.of_path(traced.path_constraint_count());
   require_path_constraints_at_ends(problem, traced, bounds, horizon);
-  require_holonomic_constraints_at_ends(problem, traced, bounds);
+  require_motion_constraints_at_ends(problem, traced, bounds);
   const std::size_t last_node = blocks.intervals();
   const Bounds first_momentum = end_momentum(ends.first_clamped, bounds.first, 0.0, traced, problem, "start");
   const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last, horizon, traced, problem, "end");

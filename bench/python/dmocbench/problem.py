@@ -277,6 +277,7 @@ def _table(values, t, name):
 _declared = {"q", "u", "y", "start", "end", "horizon", "bounds", "waypoints", "guess", "cost_scale", "name", "source",
              "time_unit", "reference", "path_constraint_names", "boundary_condition_names"}
 _formulas = {"lagrangian", "force", "running_cost", "first_order_rates", "integrands", "path_constraints", "constraints",
+             "velocity_constraints",
              "boundary_conditions", "final_cost", "symmetry", "picture"}
 _members = _declared | _formulas
 
@@ -296,7 +297,8 @@ class Problem:
     Optional:
 
     final_cost(self, last): a cost of the end, where last.t is the horizon; boundary_conditions(self, first, last) = 0;
-    constraints(self, q) = 0 of a mechanism in redundant coordinates;
+    constraints(self, q) = 0 of a mechanism in redundant coordinates; velocity_constraints(self, q, v) = 0, linear in v, of
+    wheels and blades;
     path_constraints(self, x) >= 0, or between bounds = {"path": (lower, upper)}; equal bounds make an equality;
     waypoints: a dict of shares of the horizon to state(...), conditions at these times; parts and entries that are left out
     are open;
@@ -408,8 +410,8 @@ class Problem:
         control = None if u is None else named(u, self._controls().names, "u")
         return Point(named(q, names, "q"), named(v, names, "v"), control, t, named(y, self._first_order_names(), "y"))
 
-    def _coordinates_at(self, q):
-        return named(q, self._coordinates().names, "q")
+    def _coordinates_at(self, q, letter="q"):
+        return named(q, self._coordinates().names, letter)
 
     def _end(self, name):
         end = self._value_of(name)

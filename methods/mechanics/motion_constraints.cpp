@@ -1,4 +1,4 @@
-#include "methods/mechanics/holonomic_constraints.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 
 #include <cmath>
 
@@ -7,27 +7,26 @@
 
 namespace dmocbench {
 
-HolonomicConstraints::HolonomicConstraints(const TracedProblem& problem)
+MotionConstraints::MotionConstraints(const TracedProblem& problem)
     : n_(problem.configuration_size()),
-      c_(problem.holonomic_count()),
+      c_(problem.constraint_count()),
+      holonomic_(problem.holonomic_count()),
       function_(n_, problem.control_size(),
                 [&](const ControlledState& x) {
-                  const TracedProblem::HolonomicValues values = problem.holonomic_at(x.q, x.v);
-                  ExpressionVector outputs(c_ + c_ * n_ + c_ * n_ * n_);
+                  const TracedProblem::ConstraintValues values = problem.constraints_at(x.q, x.v);
                   const ExpressionVector entries = values.jacobian.reshaped();
-                  outputs << values.residual, entries, dmocbench::jacobian(entries, x.q).reshaped();
-                  return outputs;
+                  return stacked({values.residual, entries, dmocbench::jacobian(entries, x.q).reshaped()});
                 }),
       values_(function_.output_count()) {}
 
-void HolonomicConstraints::evaluate(const Eigen::VectorXd& q) {
+void MotionConstraints::evaluate(const Eigen::VectorXd& q) {
   function_.evaluate(q, Eigen::VectorXd::Zero(n_), Eigen::VectorXd(), 0.0, values_);
 }
 
-void HolonomicConstraints::project(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> v) {
+void MotionConstraints::project(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> v) {
   constexpr int most_steps = 3;  // from near the manifold each doubles the digits
-  const auto least = [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {
-    const Eigen::MatrixXd by_q = jacobian();
+  const auto least = [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {  // of the first constraints
+    const Eigen::MatrixXd by_q = jacobian().topRows(change.size());
     return by_q.transpose() * solve_square(Eigen::MatrixXd(by_q * by_q.transpose()), change);
   };
   for (int step = 0; step < most_steps; ++step) {
@@ -38,7 +37,7 @@ void HolonomicConstraints::project(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eig
   v -= least(jacobian() * v);
 }
 
-Eigen::MatrixXd HolonomicConstraints::hessian(const Eigen::VectorXd& mu) const {
+Eigen::MatrixXd MotionConstraints::force_by_configuration(const Eigen::VectorXd& mu) const {
   // Entry (a, i) of G stands in row a + c i, its derivative by q_j in column j.
   const auto second = values_.tail(c_ * n_ * n_).reshaped(c_ * n_, n_);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n_, n_);

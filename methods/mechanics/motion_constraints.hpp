@@ -9,31 +9,35 @@
 
 namespace dmocbench {
 
-/// The holonomic constraints g(q) = 0 of a problem, in numbers.
-class HolonomicConstraints {
+/// The constraints g(q) = 0 and A(q) q̇ = 0 of a problem, in numbers.
+class MotionConstraints {
  public:
   /// Traces them for the problem.
-  explicit HolonomicConstraints(const TracedProblem& problem);
+  explicit MotionConstraints(const TracedProblem& problem);
 
   /// Moves to a configuration, n entries.
   void evaluate(const Eigen::VectorXd& q);
 
-  /// Moves q to where g vanishes to rounding, by Newton steps of least length, and v to where G v does: n entries each.
+  /// Moves q to where g vanishes to rounding, by Newton steps of least length, and v to where G v does, A among the
+  /// rows of G: n entries each.
   void project(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> v);
 
   /// c.
   [[nodiscard]] Eigen::Index count() const noexcept { return c_; }
-  /// g, c entries.
-  [[nodiscard]] Eigen::VectorXd residual() const { return values_.head(c_); }
-  /// G = ∂g/∂q, c × n.
-  [[nodiscard]] Eigen::MatrixXd jacobian() const { return values_.segment(c_, c_ * n_).reshaped(c_, n_); }
-  /// Σ μ_a ∂²g_a/∂q², n × n, for c numbers μ.
-  [[nodiscard]] Eigen::MatrixXd hessian(const Eigen::VectorXd& mu) const;
+  /// How many of them are g(q) = 0.
+  [[nodiscard]] Eigen::Index holonomic_count() const noexcept { return holonomic_; }
+  /// g, as many entries.
+  [[nodiscard]] Eigen::VectorXd residual() const { return values_.head(holonomic_); }
+  /// G = ∂g/∂q, then A, c × n.
+  [[nodiscard]] Eigen::MatrixXd jacobian() const { return values_.segment(holonomic_, c_ * n_).reshaped(c_, n_); }
+  /// ∂(Gᵀμ)/∂q, n × n, for c numbers μ; symmetric without velocity constraints.
+  [[nodiscard]] Eigen::MatrixXd force_by_configuration(const Eigen::VectorXd& mu) const;
 
  private:
   Eigen::Index n_;
   Eigen::Index c_;
-  PointFunction function_;  // outputs: g, G and the Hessians of g, column by column
+  Eigen::Index holonomic_;
+  PointFunction function_;  // outputs: g, G and ∂G/∂q, column by column
   Eigen::VectorXd values_;
 };
 
