@@ -96,6 +96,15 @@ void Confirmation::look_for_curvature(double tolerance, Solution& solution) {
   solution.curvature = curvature_->share;
 }
 
+/// The largest |∂a_i/∂ξ_j λ_i| of the free variables.
+double Confirmation::largest_term(const Eigen::VectorXd& multipliers) const {
+  double largest = 0.0;
+  program_.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
+    if (!is_fixed(program_, column)) largest = std::max(largest, std::abs(memory_.jacobian[e] * multipliers[row]));
+  });
+  return largest;
+}
+
 /// Takes "solved" back from an answer whose residuals the tolerance, or the round-off of a constraint, hides.
 void Confirmation::require_visible(double tolerance, Solution& solution) {
   const auto hidden = sizes_.hidden_violation(program_, solution.primal, memory_);
@@ -112,6 +121,16 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
   const double mean = multipliers.lpNorm<1>() / std::max(1.0, static_cast<double>(multipliers.size()));
   const double residual = solution.kkt_residual.value_or(0.0);
   const double gradient = largest_of_free(program_, memory_.gradient_of_cost);
+  const double term = largest_term(multipliers);
+  has_huge_multipliers_ = term > largest_terms * std::max(gradient, tolerance);
+  if (std::numeric_limits<double>::epsilon() * term > ConstraintSizes::largest_share * std::max(gradient, tolerance)) {
+    solution.status = Status::not_confirmed;
+    solution.message = fmt::format(
+        "The multipliers are so large, {:.1g}, that round-off hides the residual of stationarity: constraints depend "
+        "on each other. State each condition once.",
+        multipliers.lpNorm<Eigen::Infinity>());
+    return;
+  }
   if (residual <= confirmation_factor * tolerance * StopRule::scale(mean)) return;
   if (!(residual > ConstraintSizes::largest_share * gradient)) return;
   needs_factors_of_rows_ = true;
@@ -166,6 +185,7 @@ void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton)
   solution.curvature.reset();
   curvature_.reset();
   needs_factors_of_rows_ = false;
+  has_huge_multipliers_ = false;
   const bool claims_success = solution.status == Status::solved || solution.status == Status::acceptable;
   if (!claims_success) return;
   solution.status = confirmed_status(solution.status, scaled_residual(tolerance, solution));
