@@ -37,13 +37,6 @@ double expected_order_of(const Row& row) {
   return 2.0 * std::min(spaces.degree, spaces.nodes);
 }
 
-/// Whether an order was fitted. Where finer grids contradict the range that it was fitted on, it can support an order
-/// and not refute it: errors are not asymptotic there.
-bool is_fitted(const Row& row) {
-  if (row.text("verdict") != "slope") return false;
-  return row.text("fine_end") != "orders" || verdict_on_order(row, expected_order_of(row)) == ClaimVerdict::reproduced;
-}
-
 /// State and costates at the nodes have the order 2 min(s, m), of the spaces that are meant; `floor` if less than half
 /// of their orders were fitted.
 Predicate have_the_order_of_spaces(std::string table, bool (*is_meant)(const Spaces&)) {
@@ -52,17 +45,16 @@ Predicate have_the_order_of_spaces(std::string table, bool (*is_meant)(const Spa
       return is_meant(spaces_of(row)) && (row.text("quantity") == "state" || row.text("quantity") == "costate");
     });
     require(!rows.empty(), "{}_slopes.csv has no order of a galerkin method for {}", table, problem);
-    const Selection fitted = rows.where(is_fitted);
+    const Selection fitted = rows.where(has_order);
     const ClaimVerdict of_fitted =
         verdict_on_all(fitted, [](const Row& row) { return verdict_on_order(row, expected_order_of(row)); });
     const bool are_few = 2 * fitted.size() < rows.size();
     const auto order_in_words = [](const Row& row) {
       const std::string& quantity = row.text("quantity");
       const std::string points = "r = " + row.text("stages");
-      const Words order = is_fitted(row)
-                              ? worded("{:.2f}", Measurement{"slope of the " + quantity, row.needed("slope"),
-                                                             row.text("method"), points})
-                              : worded("{}", row.text("verdict") == "slope" ? "not asymptotic" : row.text("verdict"));
+      const Words order = has_order(row) ? worded("{:.2f}", Measurement{"slope of the " + quantity, row.needed("slope"),
+                                                                        row.text("method"), points})
+                                         : worded("{}", why_without_order(row));
       return worded("{} {} {} {}", row.text("method"), points, quantity, order);
     };
     return found(are_few && of_fitted == ClaimVerdict::reproduced ? ClaimVerdict::floor : of_fitted,

@@ -154,6 +154,19 @@ TEST(Claims, OrdersOfWhichNoneRisesAboveTheFloorAreNeitherReproducedNorRefuted) 
   EXPECT_EQ(verdict_on("order_of_convergence", floored), ClaimVerdict::floor);
 }
 
+TEST(Claims, AnOrderOfLowTableausThatFinerGridsContradictDoesNotHideBehindTheOthers) {
+  for (const std::string quantity : {"state", "costate"}) {
+    for (const char* const stages : {"2", "3"}) {
+      const ResultTables doctored = tables("convergence_indirect_slopes", [&](Row& row) {
+        if (row.text("tableau") != "lobatto" || row.text("stages") != stages || row.text("quantity") != quantity) return;
+        row.set("slope", 1.0);
+        row.set("fine_end", "orders");
+      });
+      EXPECT_EQ(verdict_on("order_of_convergence", doctored), ClaimVerdict::floor) << quantity << stages;
+    }
+  }
+}
+
 TEST(Claims, AnAdjointSchemeWithAResidualOrWithoutAControlDiffers) {
   const auto doctored = [](const char* column, double value) {
     return tables("equivalence", [=](Row& row) {
