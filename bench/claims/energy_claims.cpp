@@ -1,4 +1,6 @@
 // Energy and modified energy, without forces and against their work along optimal motions.
+#include <algorithm>
+#include <limits>
 
 #include "bench/claims/claim.hpp"
 
@@ -30,23 +32,21 @@ Words slope_in_words(const Row& row) {
 Finding gap_beside_tangent(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("invariants_energy_work", problem);
   const Selection dmoc = rows.where("method", "dmoc");
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0.0;
+  std::vector<Measurement> ratios;
   for (const Row& row : dmoc) {
     const Selection other = rows.where("method", "tangent").matching(row, {"intervals"});
     require(!other.empty(), "invariants_energy_work.csv has no row of tangent with {} intervals",
             row.text("intervals"));
-    const double ratio = quotient(other.front(), row, "largest_gap");
-    least = std::min(least, ratio);
-    most = std::max(most, ratio);
+    ratios.push_back({"largest gap of tangent over DMOC's", quotient(other.front(), row, "largest_gap"), "tangent",
+                      "N = " + row.text("intervals")});
   }
   require(dmoc.size() > 1, "invariants_energy_work.csv has {} rows of dmoc for {}; two are needed", dmoc.size(),
           problem);
-  const bool is_as_stated = problem == two_link ? most < 1.0 : least > 1.0;
-  return found(is_as_stated,
-               "largest |change of energy - work|, ratio of tangent to DMOC: {:.2f} to {:.2f} on {} grids",
-               Measurement{"least ratio of the gaps", least, "tangent"},
-               Measurement{"largest ratio of the gaps", most, "tangent"}, dmoc.size());
+  const auto [least, most] = std::ranges::minmax(ratios, {}, &Measurement::value);
+  return found(verdict_on_interval(least.value, most.value, 1.0, std::numeric_limits<double>::infinity()),
+               "largest |change of energy - work|, ratio of tangent to DMOC on {} grids: between {:.2f} ({}) and "
+               "{:.2f} ({})",
+               dmoc.size(), least, least.at, most, most.at);
 }
 
 Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*problem*/) {
@@ -82,14 +82,10 @@ Finding balances_modified_work(const ResultTables& tables, const std::string& pr
 Claims energy_claims() {
   return {{.id = "energy_against_work",
            .where = in_paper,
-           .states = Wording(
-               "along the optimal trajectory the energy of DMOC misses the virtual work by less than the energy of "
-               "tangent-space collocation",
-               "along the optimal trajectory the energy of DMOC misses the virtual work by more than the energy "
-               "of tangent-space collocation"),
+           .states = "along the optimal trajectory the energy of DMOC misses the virtual work by less than the energy of "
+                     "tangent-space collocation",
            .judge = gap_beside_tangent,
-           .condition = "both gaps are of order h^2, and their factors depend on the trajectory: DMOC's is smaller on "
-                        "the slow transfer and larger on the fast manipulator",
+           .condition = "both gaps are of order h^2, with factors that belong to the trajectory",
            .evidence = {"invariants_energy_work.csv", "figures/{}_energy_work.svg"}},
           {.id = "modified_energy_and_work",
            .where = in_paper,

@@ -233,7 +233,7 @@ void follow_optimal_motions(const std::shared_ptr<const Problem>& problem, const
   const FollowedEnergy followed(*problem, method);
   Case the_case{.problem = problem, .method = method, .tableau = "gauss", .solver = "ipopt"};
   Curves curves;
-  for (const long long intervals : {32, 48, 64, 96, 128, 192, 256}) {
+  for (const long long intervals : {16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 128, 192, 256}) {
     throw_if_interrupted();
     the_case.grid = Grid::uniform(intervals);
     const auto measured = measured_or_reason([&] { return energy_along(starts.solve(the_case), *problem, followed); });
