@@ -80,22 +80,23 @@ Finding balances_modified_work(const ResultTables& tables, const std::string& pr
 
 /// Energies against work along optimal motions.
 Claims energy_claims() {
-  return {{.id = "energy_against_work",
-           .where = in_paper,
-           .states = "along the optimal trajectory the energy of DMOC misses the virtual work by less than the energy of "
-                     "tangent-space collocation",
-           .judge = gap_beside_tangent,
-           .condition = "both gaps are of order h^2, with factors that belong to the trajectory",
-           .evidence = {"invariants_energy_work.csv", "figures/{}_energy_work.svg"}},
-          {.id = "modified_energy_and_work",
-           .where = in_paper,
-           .states =
-               "along optimal trajectories H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule change by the "
-               "modified work up to h^2, h^4 and h^6",
-           .judge = balances_modified_work,
-           .condition = "the work must be modified too, by terms that vanish with the force: compared with the virtual "
-                        "work alone, every truncation has a gap of order 2",
-           .evidence = {"invariants_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
+  return {
+      {.id = "energy_against_work",
+       .where = in_paper,
+       .states = "along the optimal trajectory the energy of DMOC misses the virtual work by less than the energy of "
+                 "tangent-space collocation",
+       .judge = gap_beside_tangent,
+       .condition = "both gaps are of order h^2, with factors that belong to the trajectory",
+       .evidence = {"invariants_energy_work.csv", "figures/{}_energy_work.svg"}},
+      {.id = "modified_energy_and_work",
+       .where = in_paper,
+       .states =
+           "along optimal trajectories H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule change by the "
+           "modified work up to h^2, h^4 and h^6",
+       .judge = balances_modified_work,
+       .condition = "the work must be modified too, by terms that vanish with the force: compared with the virtual "
+                    "work alone, every truncation has a gap of order 2",
+       .evidence = {"invariants_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
 }
 
 /// The modified energy without forces.

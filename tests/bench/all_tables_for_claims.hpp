@@ -125,8 +125,9 @@ inline Rows rotation_rows() {
 }
 
 inline Rows transform_rows() {
-  return rows_of_texts({"problem", "h", "left_defect", "right_defect", "largest_momentum"},
-                       {{orbit, "0.1", "1e-13", "1e-13", "2"}});
+  return rows_of_texts(
+      {"problem", "h", "left_defect", "right_defect", "largest_momentum", "force_error", "force_error_curl"},
+      {{orbit, "0.1", "1e-13", "1e-13", "2", "1e-4", "1e-12"}});
 }
 
 inline Rows smoothness_rows() {
