@@ -83,8 +83,10 @@ inline Rows truncation_rows(const char* problem, const std::vector<std::string>&
     for (const char* truncation : {"2", "4", "6"}) {
       const bool is_tangent = std::string(method) == "tangent" || quantity == "gap_to_work";
       rows.push_back(
-          row_of_texts({"problem", "method", "tableau", "stages", "quantity", "truncation", "slope", "standard_error"},
-                       {problem, method, "gauss", "1", quantity, truncation, is_tangent ? "2" : truncation, "0.01"}));
+          row_of_texts({"problem", "method", "tableau", "stages", "quantity", "truncation", "slope", "standard_error",
+                        "mass"},
+                       {problem, method, "gauss", "1", quantity, truncation, is_tangent ? "2" : truncation, "0.01",
+                        "moving"}));
     }
   }
   return rows;
