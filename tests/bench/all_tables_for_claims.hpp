@@ -330,9 +330,14 @@ inline Rows jump_rows() {
 }
 
 inline Rows currency_rows() {
-  return rows_of_texts({"problem", "method", "tableau", "stages", "derivatives", "tolerance", "intervals", "currency",
-                        "ratio_at_equal_accuracy"},
-                       {{orbit, "tangent", "gauss", "1", "tape", "1e-06", "64", "ipopt_iterations", "1.2"}});
+  const ColumnNames columns{"problem",   "method",    "tableau",  "stages",
+                            "derivatives", "tolerance", "intervals", "currency",
+                            "ratio_at_equal_intervals", "ratio_at_equal_accuracy"};
+  return rows_of_texts(
+      columns, {{orbit, "tangent", "gauss", "1", "tape", "1e-06", "64", "ipopt_iterations", "1", "1.2"},
+                {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "64", "factor_nonzeros", "2.1", ""},
+                {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "128", "factor_nonzeros", "2.2", ""},
+                {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "64", "kkt_nonzeros", "1.9", ""}});
 }
 
 inline Rows cold_start_rows() {
