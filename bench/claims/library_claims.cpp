@@ -135,14 +135,14 @@ Finding saving_lost_by_short_steps(const ResultTables& tables, const std::string
                                iterations_of_other));
     lost_by_full_steps += has_short_steps ? 0 : 1;
   }
-  require(!lost.empty(), "profile_three_stages.csv: none of {} pairs loses the saving", pairs);
-  return found(lost_by_full_steps == 0,
+  require(pairs > 0, "profile_three_stages.csv has no pair of solves with equal costs");
+  return found(ClaimVerdict::measured,
                "{} pairs with equal costs: DMOC takes {:.2f} times the iterations (geometric mean)", pairs,
-               Measurement{"ratio of iterations to Hamiltonian collocation's",
-                           std::exp(sum / static_cast<double>(pairs)), "dmoc"})
-      .also(worded("on {} of them it needs more evaluations per iteration", shortened))
-      .also(worded("the saving is lost on {}, on {} of these without more evaluations per iteration: {}", lost.size(),
-                   lost_by_full_steps, fmt::join(lost, ", ")));
+               Measurement{"iterations over Hamiltonian collocation's", std::exp(sum / static_cast<double>(pairs)),
+                           "dmoc"})
+      .also(worded("on {} of them it evaluates more often per iteration", shortened))
+      .also(worded("the saving is lost on {}, on {} of these without more evaluations per iteration{}{}", lost.size(),
+                   lost_by_full_steps, lost.empty() ? "" : ": ", fmt::join(lost, ", ")));
 }
 
 }  // namespace
@@ -178,12 +178,15 @@ Claims library_claims() {
   claims.push_back({.id = "saving_lost_by_short_steps",
                     .problems = Problems(1, "library"),
                     .where = "section 5, on two problems",
-                    .states = "with three stages on fine grids the saving of DMOC is lost only where the line search "
-                              "shortens its steps",
+                    .states = "with three stages on fine grids, how often DMOC takes so many more iterations that its "
+                              "saving is lost, and how often it evaluates more often per iteration there",
                     .judge = saving_lost_by_short_steps,
                     .condition = "from each problem's guess, by interior_point; lost where DMOC's iterations exceed "
-                                 "Hamiltonian's by more than the ratio of variables; short steps show as evaluations",
+                                 "Hamiltonian's by more than the ratio of variables; short steps of the line search "
+                                 "show as evaluations; the few lost savings belong to two problems, too few for a "
+                                 "statement",
                     .evidence = {"profile_three_stages.csv"},
+                    .has_verdict = false,
                     .needs = "profile_three_stages"});
   return claims;
 }
