@@ -1,4 +1,5 @@
 // Momentum-force consistency "to numerical accuracy", and which methods have equal solutions.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -156,6 +157,28 @@ Finding equal_solutions(const ResultTables& tables, const std::string& problem) 
       .also(left_out(all, rows));
 }
 
+/// The optimal costs of the same programs with the cost as a sum and as the last value of a further state.
+Finding bolza_is_mayer(const ResultTables& tables, const std::string& problem) {
+  constexpr double rounding_of_costs = 1e-9;
+  const Selection all = tables.rows("objective_mayer", problem);
+  const Selection bolza = tables.rows("objective", problem).usable();
+  Selection used;
+  double largest = 0.0;
+  for (const Row& row : all.usable()) {
+    const Selection same = bolza.matching(row, {"method", "tableau", "stages", "intervals"});
+    if (same.empty()) continue;
+    used.append(row);
+    largest = std::max(largest, std::abs(quotient(row, same.front(), "objective") - 1.0));
+  }
+  require(used.size() > 1, "objective.csv and objective_mayer.csv have {} programs of {} solved in both forms",
+          used.size(), problem);
+  return found(largest < rounding_of_costs,
+               "costs of {} programs by {} in both forms differ by at most {:.0e}, relative", used.size(),
+               fmt::join(used.distinct("method"), ", "),
+               Measurement{"largest relative difference of the costs", largest})
+      .also(left_out(all, used, "not solved in both forms, in favour of"));
+}
+
 /// The same where inequalities are active or the horizon is free. An answer that no Newton step could refine differs by
 /// the tolerance of its solver.
 Finding equal_with_inequalities(const ResultTables& tables, const std::string& /*problem*/) {
@@ -291,6 +314,13 @@ Claims solution_claims() {
        .judge = equal_solutions,
        .condition = "fixed ends, no inequality is active, solutions are refined by Newton steps",
        .evidence = equivalence},
+      {.id = "bolza_is_mayer",
+       .where = "sections 3.1, 3.2 and 3.4, eq:gDLOCP_mayer, eq:dHOCP1_mayer",
+       .whose = Whose::paper,
+       .states = "the transformation to Mayer form yields exactly the same problem",
+       .judge = bolza_is_mayer,
+       .condition = "by the optimal costs of separate solves",
+       .evidence = {"objective.csv", "objective_mayer.csv"}},
       {.id = "equal_solutions_with_inequalities",
        .problems = examples,
        .where = "section 3.4, th:equi",
@@ -316,19 +346,23 @@ Claims solution_claims() {
        .judge = tangent_differs,
        .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}},
       {.id = "dmoc_is_the_forced_form",
-       .where = "section 5",
+       .where = "section 3.5",
        .states = "by the midpoint rule the optimality conditions of DMOC and Hamiltonian collocation are the discrete "
                  "Euler-Lagrange equations of the control Lagrangian C + xi (L_q + f) + xi' L_v",
        .judge = dmoc_is_the_forced_form,
-       .condition = "the multiplier xi is the costate of the momentum; ends are fixed and no inequality is active",
+       .condition = "the multiplier xi is the costate of the momentum; ends are fixed and no inequality is active; "
+                    "control Lagrangians are the topic of Leyendecker et al. (arXiv 2307.13402) and Konopik et al. "
+                    "(arXiv 2502.04742, 2503.04466)",
        .evidence = {"equivalence.csv"}},
       {.id = "tangent_is_the_acceleration_form",
-       .where = "section 5",
+       .where = "section 3.5",
        .states = "the optimality conditions of tangent-space collocation are the discrete equations of another form "
                  "of it, C + xi q'' + xi' q' with q'' a function of (q, q', u)",
        .judge = tangent_is_the_acceleration_form,
-       .condition = "the multiplier xi is L_vv times the costate of the momentum; the forms are equal where L_vv and "
-                    "L_vq are constant",
+       .condition =
+           "the multiplier xi is L_vv times the costate of the momentum; the forms are equal where L_vv and "
+           "L_vq are constant; this one is the control Lagrangian of Leyendecker et al. (arXiv 2307.13402) and "
+           "Konopik et al. (arXiv 2502.04742, 2503.04466)",
        .evidence = {"equivalence.csv"}}};
 }
 

@@ -541,6 +541,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["invariants_impacts_slopes"] = impact_rows(true);
   rows["convergence_phases_slopes"] =
       galerkin_slope_rows("gauss", {{"dmoc", "1", "2.01"}, {"dmoc", "2", "3.99"}, {"tangent", "2", "4.0"}});
+  rows["objective_mayer"] = rows["objective"];
   rows["objective_constrained"] = constrained_cost_rows();
   rows["objective_forms"] = constraint_form_rows();
   rows["convergence_indirect_jumps"] = jump_rows();
