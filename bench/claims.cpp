@@ -18,7 +18,7 @@ void print(const std::vector<JudgedClaim>& claims) {
     print_line(fmt::format("{:12}measured: {}", "", claim.measured()));
     if (!claim.reason().empty()) print_line(fmt::format("{:12}reason:   {}", "", claim.reason()));
   }
-  fmt::print("{}\n", fmt::join(closing_lines(claims), "\n"));
+  fmt::print("{}\n{}\n", fmt::join(section_lines(claims), "\n"), fmt::join(closing_lines(claims), "\n"));
 }
 
 int judge_all(CommandLine& line) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <ranges>
 #include <string_view>
 #include <system_error>
@@ -122,6 +123,16 @@ std::string told_together(std::ptrdiff_t count, ClaimVerdict verdict) {
   return fmt::format("{} {}", count, are_several ? "differ" : name_of(verdict));
 }
 
+/// "21 reproduced, 4 differ".
+std::string counts_in_words(const std::vector<JudgedClaim>& claims) {
+  std::vector<std::string> counts;
+  for (const ClaimVerdict verdict : all_verdicts) {
+    const auto count = std::ranges::count(claims, verdict, &JudgedClaim::verdict);
+    if (count > 0) counts.push_back(told_together(count, verdict));
+  }
+  return fmt::format("{}", fmt::join(counts, ", "));
+}
+
 /// "- **orbit/fast** (section 4): reproduced. It is claimed; measured: 2.01; why".
 std::string bullet(const JudgedClaim& claim) {
   return fmt::format("- **{}** ({}), {}: {}. Measured: {}.{}{}\n", claim.id(), claim.where, name_of(claim.verdict),
@@ -130,7 +141,8 @@ std::string bullet(const JudgedClaim& claim) {
 
 /// The summary: the counts, each statement of the paper that is not reproduced, and our most important findings.
 std::string summary_markdown(const std::vector<JudgedClaim>& claims) {
-  std::string text = fmt::format("## Summary\n\n- {}\n", fmt::join(closing_lines(claims), "\n- "));
+  std::string text = fmt::format("## Summary\n\n- {}\n\nThe paper's statements by section:\n\n- {}\n",
+                                 fmt::join(closing_lines(claims), "\n- "), fmt::join(section_lines(claims), "\n- "));
   const auto append = [&](const char* heading, const auto& is_wanted) {
     std::string bullets;
     for (const JudgedClaim& claim : claims) {
@@ -252,17 +264,28 @@ std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims) {
   for (const Whose whose : all_sources) {
     const std::vector<JudgedClaim> of_source = stated_by(claims, whose);
     if (of_source.empty()) continue;
-    std::vector<std::string> counts;
-    for (const ClaimVerdict verdict : all_verdicts) {
-      const auto count = std::ranges::count(of_source, verdict, &JudgedClaim::verdict);
-      if (count > 0) counts.push_back(told_together(count, verdict));
-    }
-    lines.push_back(fmt::format("{}: {}", title_of(whose).line, fmt::join(counts, ", ")));
+    lines.push_back(fmt::format("{}: {}", title_of(whose).line, counts_in_words(of_source)));
   }
   if (const std::vector<JudgedClaim> findings = without_verdict(claims); !findings.empty()) {
     const auto count = std::ranges::count(findings, ClaimVerdict::measured, &JudgedClaim::verdict);
     lines.push_back(fmt::format("measurements without a verdict: {} of {}", count, findings.size()));
   }
+  return lines;
+}
+
+std::string section_in(std::string_view where) {
+  const std::size_t number = where.find_first_of("0123456789");
+  if (number == std::string_view::npos) return std::string(where.substr(0, where.find(',')));
+  const std::size_t end = std::min(where.find_first_not_of("0123456789.", number), where.size());
+  return fmt::format("section {}", where.substr(number, end - number));
+}
+
+std::vector<std::string> section_lines(const std::vector<JudgedClaim>& claims) {
+  std::map<std::string, std::vector<JudgedClaim>> sections;
+  for (const JudgedClaim& claim : stated_by(claims, Whose::paper)) sections[section_in(claim.where)].push_back(claim);
+  std::vector<std::string> lines;
+  for (const auto& [section, of_section] : sections)
+    lines.push_back(fmt::format("{}: {}", section, counts_in_words(of_section)));
   return lines;
 }
 

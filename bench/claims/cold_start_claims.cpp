@@ -1,5 +1,6 @@
 // Cold starts: how often a method converges from the problem's guess and near it, which warm starts cannot show.
 #include <algorithm>
+#include <string_view>
 
 #include "bench/claims/claim.hpp"
 #include "bench/claims/cold_start_counts.hpp"
@@ -29,7 +30,9 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
   require(dmoc.size() == 1, "cold_start_shares.csv has {} rows of {} by dmoc and interior_point, not one", dmoc.size(),
           problem);
   const ShareCount own = count_of_cold_starts(dmoc.front(), column);
-  Finding finding = found(ClaimVerdict::measured, "{} cold starts", share_in_words("dmoc", own));
+  Finding finding =
+      found(ClaimVerdict::measured, "cold starts that are {}: {}",
+            std::string_view(column) == "best" ? "confirmed in the best minimum" : column, share_in_words("dmoc", own));
   for (const std::string method : {"hamiltonian", "tangent"}) {
     const Selection others = midpoint(rows, method).matching(dmoc.front(), {"intervals", "derivatives"});
     require(others.size() == 1, "cold_start_shares.csv has {} rows of {} by {} to compare with dmoc, not one",

@@ -128,6 +128,14 @@ TEST(ClaimsTable, CountsThePapersStatementsApartFromOursAndFromMisprints) {
                                                            "our findings: 1 differs", "misprints: 1 differs"}));
 }
 
+TEST(ClaimsTable, CountsThePapersStatementsBySection) {
+  std::vector<JudgedClaim> claims = some;
+  claims[2].where = "sections 2.2 and 3.4, equ_L_RK";
+  claims[4].where = "section 2.2";
+  EXPECT_EQ(section_lines(claims), (std::vector<std::string>{"section 2.2: 2 differ", "section 4: 1 reproduced"}));
+  EXPECT_EQ(section_in("th:pontryagin, below"), "th:pontryagin");
+}
+
 TEST(ClaimsTable, HasATableForEachSourceAndNoBarThatWouldBeginAColumn) {
   const std::string text = claims_markdown(some);
   const auto place = [&](const char* part) { return text.find(part); };
