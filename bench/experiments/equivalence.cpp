@@ -16,7 +16,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/runtime/numbers_in_text.hpp"
+#include "methods/transcription/elements/galerkin_element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 
@@ -70,6 +70,8 @@ struct Measured {
   std::optional<double> plain_residual;
   std::optional<double> forced_form_residual;
   std::optional<double> acceleration_form_residual;
+  std::optional<double> galerkin_form_difference;
+  std::optional<double> straight_form_difference;
   std::optional<double> costate_momentum_spread;
   std::optional<int> polish_steps;
 };
@@ -137,6 +139,12 @@ class Equivalence final : public ExperimentOf<Measured> {
         {"acceleration_form_residual", "",
          "the same residual for C + xi q'' + xi' q', with q'' a function of (q, q', u)",
          &Measured::acceleration_form_residual},
+        {"galerkin_form_difference", "",
+         "relative difference of the program's Lagrangian, at the start and with the solution's multipliers, from the "
+         "sum of h b_i (C + xi F + xi' L_v), xi of the degree of q",
+         &Measured::galerkin_form_difference},
+        {"straight_form_difference", "", "the same with xi straight on every interval",
+         &Measured::straight_form_difference},
     };
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
@@ -152,6 +160,14 @@ class Equivalence final : public ExperimentOf<Measured> {
     if (!solved.trajectory || !is_discrete_optimum(solved)) return;  // the theorem is about these
     const Case& here = solved.the_case;
     const Trajectory& trajectory = *solved.trajectory;
+    if (has_galerkin_form(*solved.program)) {
+      const auto difference_of = [&](MultiplierPath path) {
+        return galerkin_form(*solved.program, solved.start, solved.solution.multipliers, path).difference();
+      };
+      measured.galerkin_form_difference = difference_of(MultiplierPath::polynomial);
+      measured.straight_form_difference = difference_of(MultiplierPath::straight);
+    }
+    const bool is_galerkin = here.method.starts_with(galerkin_family);
     if (trajectory.has_costates() && TracedProblem(*here.problem).has_symmetry())
       measured.costate_momentum_spread = costate_momentum(*here.problem, trajectory).spread;
     if (trajectory.has_stage_costates()) {
@@ -169,7 +185,7 @@ class Equivalence final : public ExperimentOf<Measured> {
         measured.forced_form_residual = of_form(ControlLagrangianForm::forced_euler_lagrange);
         measured.acceleration_form_residual = of_form(ControlLagrangianForm::acceleration);
       }
-    } else if (trajectory.has_costates()) {
+    } else if (trajectory.has_costates() && !is_galerkin) {
       solved.note(
           "The adjoint scheme is not evaluated: with path constraints, integrals or first-order states the stages have "
           "further multipliers.");
@@ -178,6 +194,7 @@ class Equivalence final : public ExperimentOf<Measured> {
       answers_.emplace_back(here, trajectory);
       return;
     }
+    if (is_galerkin) return;  // its stages are not DMOC's
     const Case partner = by_dmoc(here);
     const auto found = std::ranges::find_if(answers_, [&](const auto& answer) {
       return answer.first.same_curve(partner) && answer.first.grid.relative_times() == here.grid.relative_times();

@@ -82,11 +82,9 @@ inline Rows truncation_rows(const char* problem, const std::vector<std::string>&
   for (const std::string& quantity : quantities) {
     for (const char* truncation : {"2", "4", "6"}) {
       const bool is_tangent = std::string(method) == "tangent" || quantity == "gap_to_work";
-      rows.push_back(
-          row_of_texts({"problem", "method", "tableau", "stages", "quantity", "truncation", "slope", "standard_error",
-                        "mass"},
-                       {problem, method, "gauss", "1", quantity, truncation, is_tangent ? "2" : truncation, "0.01",
-                        "moving"}));
+      rows.push_back(row_of_texts(
+          {"problem", "method", "tableau", "stages", "quantity", "truncation", "slope", "standard_error", "mass"},
+          {problem, method, "gauss", "1", quantity, truncation, is_tangent ? "2" : truncation, "0.01", "moving"}));
     }
   }
   return rows;
@@ -330,14 +328,21 @@ inline Rows jump_rows() {
 }
 
 inline Rows currency_rows() {
-  const ColumnNames columns{"problem",   "method",    "tableau",  "stages",
-                            "derivatives", "tolerance", "intervals", "currency",
-                            "ratio_at_equal_intervals", "ratio_at_equal_accuracy"};
-  return rows_of_texts(
-      columns, {{orbit, "tangent", "gauss", "1", "tape", "1e-06", "64", "ipopt_iterations", "1", "1.2"},
-                {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "64", "factor_nonzeros", "2.1", ""},
-                {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "128", "factor_nonzeros", "2.2", ""},
-                {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "64", "kkt_nonzeros", "1.9", ""}});
+  const ColumnNames columns{"problem",
+                            "method",
+                            "tableau",
+                            "stages",
+                            "derivatives",
+                            "tolerance",
+                            "intervals",
+                            "currency",
+                            "ratio_at_equal_intervals",
+                            "ratio_at_equal_accuracy"};
+  return rows_of_texts(columns,
+                       {{orbit, "tangent", "gauss", "1", "tape", "1e-06", "64", "ipopt_iterations", "1", "1.2"},
+                        {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "64", "factor_nonzeros", "2.1", ""},
+                        {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "128", "factor_nonzeros", "2.2", ""},
+                        {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "64", "kkt_nonzeros", "1.9", ""}});
 }
 
 inline Rows cold_start_rows() {
@@ -563,6 +568,8 @@ inline std::map<std::string, Rows> all_rows() {
   rows["convergence_galerkin_shared_slopes"] = galerkin_slope_rows("gauss", {{"galerkin_2_2_shared", "3", "4.04"}});
   rows["convergence_galerkin_lobatto_slopes"] = galerkin_slope_rows("lobatto", {{"galerkin_2_1", "3", "2.02"}});
   rows["consistency_galerkin"] = galerkin_momentum_rows();
+  rows["equivalence_galerkin"] = galerkin_form_rows();
+  rows["equivalence_galerkin_lobatto"] = galerkin_form_rows();
   rows["cold_start_shooting_shares"] = shooting_cold_rows();
   rows["savings_by_solver_shooting"] = shooting_cost_rows();
   rows["profile"] = profile_rows();

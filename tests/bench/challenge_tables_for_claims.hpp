@@ -101,6 +101,19 @@ inline Rows galerkin_rows() {
   return rows;
 }
 
+/// Lagrangians of programs equal to the discrete action of the control Lagrangian, by a multiplier of the right degree.
+inline Rows galerkin_form_rows() {
+  Rows rows;
+  for (const char* method : {"dmoc", "galerkin_2_1", "galerkin_2_2"}) {
+    Row row = solved_row(method, 16);
+    row.set("stages", 3LL);
+    row.set("galerkin_form_difference", 1e-15);
+    row.set("straight_form_difference", 0.1);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 inline Rows galerkin_momentum_rows() {
   Rows rows;
   for (const char* method : {"galerkin_1_1", "galerkin_2_1"}) {
