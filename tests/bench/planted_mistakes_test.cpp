@@ -103,6 +103,30 @@ std::vector<Mistake> mistakes_about_solutions() {
       {"an adjoint scheme that Lobatto fulfils without the exchange", "equivalence",
        set(has("tableau", "lobatto"), "adjoint_residual_by_plain_coefficients", 1e-12),
        on_orbit("order_of_adjoint_scheme")},
+      {"orders of 1 by the low tableaus, which finer grids contradict", "convergence_indirect_slopes",
+       [](Rows& rows) {
+         for (Row& row : rows) {
+           if (row.text("stages") != "2") continue;
+           row.set("slope", 1.0);
+           row.set("fine_end", "orders");
+         }
+       },
+       on_orbit("order_of_convergence"), ClaimVerdict::floor},
+      {"stage controls of the order of the nodes", "convergence_indirect_slopes",
+       set([](const Row& row) { return row.text("quantity") == "control" && row.text("stages") == "3"; }, "slope", 6.0),
+       on_orbit("order_of_stage_controls")},
+      {"a replay error that is smaller on coarse grids alone", "convergence",
+       set([](const Row& row) { return row.text("method") == "dmoc" && row.text("intervals") == "1024"; },
+           "replay_error", 1.2 * std::pow(1.0 / 1024.0, 2)),
+       on_orbit("replay_beside_tangent"), ClaimVerdict::undecided},
+      {"one grid of Hamiltonian collocation that misses the balance", "consistency",
+       set([](const Row& row) { return row.text("method") == "hamiltonian" && row.text("intervals") == "1024"; },
+           "momentum_defect_max", 1e-9),
+       on_orbit("momentum_consistency")},
+      {"one grid whose solutions differ", "equivalence",
+       set([](const Row& row) { return row.text("method") == "hamiltonian" && row.text("intervals") == "1024"; },
+           "control_difference", 1e-7),
+       on_orbit("equal_solutions")},
       {"minima that are no motions", "local_minima_minima", set(has("minimum", "2"), "is_motion", "no"),
        "examples/local_minima"},
       {"a homotopy of which DMOC leaves steps unsolved", "sequence",
@@ -140,6 +164,20 @@ std::vector<Mistake> mistakes_about_flows() {
        set(has("force", "orthogonal"), "momentum_change", 1e-8), "simulations/continuous_forced_noether_theorem"},
       {"a continuous flow that is not symplectic", "invariants_flow_symplecticity", set(every_row, "defect", 1e-9),
        "simulations/lagrangian_form_preserved"},
+      {"an energy that tangent-space collocation balances better", "invariants_energy_work",
+       scale(has("method", "tangent"), "largest_gap", 0.01), on_orbit("energy_against_work")},
+      {"an energy that it balances better on one grid", "invariants_energy_work",
+       scale([](const Row& row) { return row.text("method") == "tangent" && row.text("intervals") == "64"; },
+             "largest_gap", 0.01),
+       on_orbit("energy_against_work"), ClaimVerdict::undecided},
+      {"a negative direction of the second variation", "coercivity",
+       set([](const Row& row) { return row.text("end") == "free"; }, "smallest_curvature", -15.25),
+       on_orbit("coercive_with_a_free_end")},
+      {"an error of the forces that is not a differential", "consistency_order_transforms",
+       set(every_row, "force_error_curl", 5e-5), on_orbit("order_theorem")},
+      {"transforms of the order that they have", "consistency_order_slopes",
+       set([](const Row& row) { return row.text("quantity").ends_with("legendre"); }, "slope", 2.0),
+       on_orbit("order_theorem")},
       {"an energy that drifts", "invariants_energy_behaviour", set(has("method", "dmoc"), "range", 0.5),
        "simulations/energy_does_not_drift"},
   };
@@ -154,6 +192,19 @@ std::vector<Mistake> mistakes_about_cost() {
        scale(has("method", "dmoc"), "minor_iterations", 1.1), on_orbit("minor_iteration_ratio")},
       {"all grids but one dropped", "iterations", drop([](const Row& row) { return row.text("intervals") != "64"; }),
        on_orbit("minor_iteration_ratio"), ClaimVerdict::not_judged},
+      {"one minor iteration more on one grid", "iterations",
+       [](Rows& rows) {
+         const auto one = std::ranges::find_if(rows, has("crash", "none"));
+         one->set("minor_iterations", one->needed("minor_iterations") + 1.0);
+       },
+       on_orbit("minor_iterations_equal_variable_ratio")},
+      {"a crash basis that saves nothing", "iterations",
+       [](Rows& rows) {
+         for (Row& row : rows) {
+           if (row.text("crash") == "basis") row.set("minor_iterations", row.needed("free_variables") + 3.0);
+         }
+       },
+       on_orbit("minor_iterations_saved_in_phase_1")},
       {"minor iterations that miss the law", "iterations", scale(every_row, "predicted_minors", 1.01),
        on_orbit("minor_iterations_equal_variable_ratio")},
       {"quasi-Newton iterations that all methods need alike", "iterations_limited_memory_by_cost",
