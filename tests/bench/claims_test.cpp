@@ -311,6 +311,15 @@ TEST(Claims, ASlipTellsTheRowThatItWasJudgedBy) {
     EXPECT_EQ(std::ranges::count(judged.front().rows.front().columns, column), 1) << column;
 }
 
+TEST(Claims, OfOursHaveOneStatementThatHoldsOnSomeProblemsAndNotOnOthers) {
+  std::map<std::string, std::string> statements;
+  for (const JudgedClaim& claim : judge_claims(tables())) {
+    if (claim.whose != Whose::ours) continue;
+    EXPECT_EQ(statements.try_emplace(claim.name, claim.states).first->second, claim.states) << claim.id();
+  }
+  EXPECT_GT(statements.size(), 30U);
+}
+
 TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {
   std::set<std::string> seen;
   for (const JudgedClaim& claim : judge_claims(tables())) {
