@@ -540,6 +540,10 @@ inline std::map<std::string, Rows> all_rows() {
   rows["equivalence_constrained"] = constrained_rows("gauss");
   rows["equivalence_constrained_lobatto"] = constrained_rows("lobatto");
   rows["consistency_constrained"] = rows["consistency"];
+  rows["equivalence_velocity_constraints"] = constrained_rows("gauss");
+  rows["consistency_velocity_constraints"] = rows["consistency"];
+  rows["convergence_velocity_constraints_slopes"] =
+      galerkin_slope_rows("gauss", {{"dmoc", "1", "2.01"}, {"tangent", "1", "1.98"}});
   rows["equivalence_phases"] = phase_rows();
   rows["consistency_phases"] = rows["consistency"];
   rows["invariants_impacts"] = impact_rows(false);
