@@ -31,6 +31,7 @@
 #include "problems/hovercraft.hpp"
 #include "problems/hypersensitive.hpp"
 #include "problems/kepler_cartesian.hpp"
+#include "problems/leg_hop.hpp"
 #include "problems/link_chain.hpp"
 #include "problems/link_chain_maximal.hpp"
 #include "problems/orbital_transfer.hpp"
@@ -123,6 +124,7 @@ Registry problems_of_the_suite() {
   registry.add<ChaplyginSleigh>();
   registry.add<ChaplyginSleighCartesian>();
   registry.add<RollingDisk>();
+  registry.add<LegHop>();
   return registry;
 }
 

@@ -1,8 +1,11 @@
 #include "methods/mechanics/motion_constraints.hpp"
 
 #include <cmath>
+#include <span>
 
 #include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
+#include "methods/expression/schedule.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
@@ -45,6 +48,37 @@ Eigen::MatrixXd MotionConstraints::force_by_configuration(const Eigen::VectorXd&
     for (Eigen::Index a = 0; a < c_; ++a) sum.row(i) += mu[a] * second.row(a + c_ * i);
   }
   return sum;
+}
+
+ExpressionVector constraint_multipliers(const Problem& problem, const ControlledState& x) {
+  constexpr std::size_t own = 4096;  // where inputs of these formulas begin, after the parameters
+  const Eigen::Index n = x.q.size();
+  InputCounter inputs(own);
+  ControlledState at{inputs.take(n), inputs.take(n), inputs.take(x.u.size()), {}};
+  at.y = inputs.take(x.y.size());
+  at.t = inputs.take();
+  const Expression lagrangian = problem.lagrangian(at.state());
+  const ExpressionVector momentum = gradient(lagrangian, at.v);
+  ExpressionVector right = gradient(lagrangian, at.q) + problem.force(at) - jacobian(momentum, at.q) * at.v;
+  right -= jacobian(momentum, ExpressionVector::Constant(1, at.t));
+  if (at.y.size() > 0) right -= jacobian(momentum, at.y) * problem.first_order_rates(at);
+  const ExpressionMatrix of_g = jacobian(problem.constraints(at.q), at.q);
+  const ExpressionMatrix of_rates = jacobian(problem.velocity_constraints(at.q, at.v), at.v);
+  ExpressionMatrix by_v(of_g.rows() + of_rates.rows(), n);  // G
+  by_v.topRows(of_g.rows()) = of_g;
+  by_v.bottomRows(of_rates.rows()) = of_rates;
+  const ExpressionMatrix mass = jacobian(momentum, at.v);
+  ExpressionMatrix moved(n, by_v.rows());  // L_vv⁻¹ Gᵀ
+  for (Eigen::Index a = 0; a < by_v.rows(); ++a) moved.col(a) = solve_symmetric(mass, by_v.row(a).transpose());
+  const ExpressionVector rate = by_v * solve_symmetric(mass, right) + jacobian(by_v * at.v, at.q) * at.v;
+  const Schedule formulas(solve_symmetric(by_v * moved, rate));
+  std::vector<Expression> point(own);
+  for (std::size_t i = 0; i < own; ++i) point[i] = Expression::input(i);
+  append(point, stacked({x.q, x.v, x.u, x.y}));
+  point.push_back(x.t);
+  const std::vector<Expression> result =
+      replay<Expression>(formulas, std::span<const Expression>(point).first(formulas.input_count()));
+  return Eigen::Map<const ExpressionVector>(result.data(), std::ssize(result));
 }
 
 std::vector<Eigen::Index> independent_columns(Eigen::MatrixXd jacobian, const std::vector<bool>& is_preferred) {

@@ -41,6 +41,14 @@ class MotionConstraints {
   Eigen::VectorXd values_;
 };
 
+/// λ of the constraints of a problem at a point, as formulas: c entries, first of g(q) = 0. They solve
+/// L_vv q̈ + Gᵀλ = L_q + f - ..., G q̈ = -Ġ q̇ (`EquationsOfMotion`), so that path constraints which call this bound
+/// forces of constraint in the same way for every method.
+///
+/// -Gᵀλ is the force on the motion. With g = -(the height above a floor) the floor presses upwards with λ >= 0; with g
+/// = the height the pressure is -λ. Throws `Error` if L_vv, or G L_vv⁻¹ Gᵀ, has a pivot that is a structural zero.
+[[nodiscard]] ExpressionVector constraint_multipliers(const Problem& problem, const ControlledState& x);
+
 /// Columns of G, c × n, that are independent, c of them: those with `is_preferred` first, and the largest pivots. Fewer
 /// where G has less than full rank.
 [[nodiscard]] std::vector<Eigen::Index> independent_columns(Eigen::MatrixXd jacobian,
