@@ -127,8 +127,10 @@ std::vector<Parameter> parameters_of(const std::vector<PhasedProblem::Phase>& ph
   return parameters;
 }
 
-Eigen::Index constraint_count(const Problem& problem) {
-  return problem.constraints(input_vector(0, problem.configuration_size())).size();
+/// How many numbers of an end its constraints determine: g = 0, its rate and A q̇ = 0.
+Eigen::Index held_numbers(const Problem& problem) {
+  const ExpressionVector x = input_vector(0, problem.configuration_size());
+  return 2 * problem.constraints(x).size() + problem.velocity_constraints(x, x).size();
 }
 
 Eigen::Index path_constraint_count(const Problem& problem) {
@@ -364,7 +366,7 @@ ExpressionVector PhasedProblem::checked_link(std::size_t i, const PhaseEnd& befo
   const ExpressionVector entries = call_formula(*this, "link", [&] { return link(i, before, after); });
   const std::size_t next = i + 1;
   const Eigen::Index open = open_entries(phase_bounds(next).first);
-  const Eigen::Index held = 2 * in_phase(next, constraint_count);
+  const Eigen::Index held = in_phase(next, held_numbers);
   const auto unknown_count = static_cast<Eigen::Index>(unknowns().size());
   const Eigen::Index most = open + open_entries(phase_bounds(preceding(next)).last) + unknown_count;
   const std::string subject = name_of_link(i) + " has " + counted(entries.size(), "entry", "entries");

@@ -212,7 +212,8 @@ class RestatedProblems(unittest.TestCase):
     def test_of_the_library_have_its_costs(self):
         for cls, name in ((restated.CartPole, "cart_pole"), (restated.DoubleIntegrator, "double_integrator"),
                           (restated.Hovercraft, "hovercraft"), (restated.SphericalPendulum, "spherical_pendulum"),
-                          (restated.TwoLinkManipulator, "two_link_manipulator")):
+                          (restated.TwoLinkManipulator, "two_link_manipulator"),
+                          (restated.RollingDisk, "rolling_disk")):
             with self.subTest(name):
                 a, b = (db.solve(problem, intervals=64, solver="interior_point") for problem in (cls(), name))
                 self.assertTrue(a.is_solved, a)

@@ -13,6 +13,7 @@
 #include "methods/mechanics/embedded_problem.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/motion_constraints.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "problems/chaplygin_sleigh_cartesian.hpp"
 #include "problems/rolling_disk.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -266,6 +267,56 @@ TEST(VelocityConstraints, GiveEqualSolutionsByDmocAndHamiltonianCollocation) {
   expect_equal(ChaplyginSleighCartesian(), 32);
   expect_equal(RollingDisk(), 32);
   expect_equal(SleighByDirection(), 32);
+}
+
+/// One half of the sleigh's time.
+class HalfOfTheSleigh final : public ChaplyginSleighCartesian {
+ public:
+  explicit HalfOfTheSleigh(bool is_first) : is_first_(is_first) {}
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
+  [[nodiscard]] double horizon() const override { return 0.5 * ChaplyginSleighCartesian::horizon(); }
+  [[nodiscard]] BoundaryState initial_state() const override { return is_first_ ? outer_state(true) : middle(); }
+  [[nodiscard]] BoundaryState final_state() const override { return is_first_ ? middle() : outer_state(false); }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    (is_first_ ? bounds.last : bounds.first) = {Bounds::none(3), Bounds::none(3), Bounds::none(0)};
+    return bounds;
+  }
+
+ private:
+  [[nodiscard]] BoundaryState outer_state(bool first) const {
+    return first ? ChaplyginSleighCartesian::initial_state() : ChaplyginSleighCartesian::final_state();
+  }
+  static BoundaryState middle() {  // as guessed
+    return {.q = Eigen::Vector3d(0.5, 0.5, 0.8), .v = Eigen::Vector3d(0.5, 0.5, 0.8)};
+  }
+  bool is_first_;
+};
+
+/// Both halves; velocities are continuous along the blade, and so across it.
+class SleighInTwoPhases final : public PhasedProblem {
+ public:
+  SleighInTwoPhases()
+      : PhasedProblem({{"first", std::make_shared<HalfOfTheSleigh>(true)},
+                       {"second", std::make_shared<HalfOfTheSleigh>(false)}}) {}
+  [[nodiscard]] std::string name() const override { return "sleigh_in_two_phases"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
+  [[nodiscard]] ExpressionVector link(std::size_t /*i*/, const PhaseEnd& before, const PhaseEnd& after) const override {
+    const ExpressionVector change = after.v - before.v;
+    const Expression along = cos(before.q[2]) * change[0] + sin(before.q[2]) * change[1];
+    return stacked({after.q - before.q, ExpressionVector{{along, change[2]}}});
+  }
+};
+
+TEST(VelocityConstraints, OfTwoPhasesGiveTheSolutionOfOne) {
+  const SleighInTwoPhases in_phases;
+  const ChaplyginSleighCartesian whole;
+  for (const Scheme& scheme : {Scheme{"dmoc", 1}, Scheme{"hamiltonian", 1}, Scheme{"tangent", 2}}) {
+    const Trajectory once = solved(whole, scheme, 32).motion;
+    const Trajectory motion = solved(in_phases, scheme, 16).motion;
+    EXPECT_NEAR(motion.cost, once.cost, 1e-12 * once.cost) << scheme.label();
+    EXPECT_LT((motion.q.leftCols(3) - once.q.topRows(17)).lpNorm<Eigen::Infinity>(), 1e-12) << scheme.label();
+  }
 }
 
 /// A particle in the plane, stated with velocity constraints that may be wrong.
