@@ -54,7 +54,8 @@ Finding equal_with_velocity_constraints(const ResultTables& tables, const std::s
   return equal_under_constraints(tables.rows("equivalence_velocity_constraints").where("method", "hamiltonian"), 1e-12);
 }
 
-Finding balance_of_momentum(const ResultTables& tables, const std::string& table, double rounding) {
+Finding balance_of_momentum(const ResultTables& tables, const std::string& table) {
+  constexpr double rounding = 1e-10;  // of a solver's tolerance
   const Selection rows = tables.rows(table).usable();
   const auto of = [&](const char* method) { return rows.where("method", method); };
   require(!of("dmoc").empty() && !of("hamiltonian").empty() && !of("tangent").empty(),
@@ -74,11 +75,11 @@ Finding balance_of_momentum(const ResultTables& tables, const std::string& table
 }
 
 Finding momentum_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
-  return balance_of_momentum(tables, "consistency_constrained", 1e-10);
+  return balance_of_momentum(tables, "consistency_constrained");
 }
 
 Finding momentum_with_velocity_constraints(const ResultTables& tables, const std::string& /*problem*/) {
-  return balance_of_momentum(tables, "consistency_velocity_constraints", 1e-12);
+  return balance_of_momentum(tables, "consistency_velocity_constraints");
 }
 
 Finding orders_with_velocity_constraints(const ResultTables& tables, const std::string& /*problem*/) {
