@@ -36,7 +36,7 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
       std::ranges::minmax_element(std::min(first, ratios.end() - 2), ratios.end(), {}, &Measurement::value);
   const auto [least_of_all, most_of_all] = std::ranges::minmax(ratios, {}, &Measurement::value);
   return found(verdict_on_interval(least->value, most->value, 0.0, 1.0),
-               "replay error of DMOC over the error of tangent-space collocation: {:.3f} on the finest grid, N = {}, "
+               "ratio of replay errors, DMOC to tangent-space collocation: {:.3f} on the finest grid, N = {}, "
                "and within 1 % of it from N = {} on",
                ratios.back(), used.back().text("intervals"), coarsest.text("intervals"))
       .also(worded("on all {} grids, from N = {} on, between {:.3f} ({}) and {:.3f} ({})", used.size(),
@@ -104,7 +104,7 @@ Claims accuracy_claims() {
                     "forces as computed, and compares no responses; controls are constant over an interval; on coarse "
                     "grids either method may have the smaller error",
        .cause = "the momentum balance that the discrete system keeps does not bound the error of its trajectory: both "
-                "errors are of order h^2, with factors that belong to the trajectory",
+                "errors are of order h^2, and their factors depend on the trajectory",
        .evidence = {"convergence.csv"},
        .headline = true},
       {.id = "rounding_floor",

@@ -85,7 +85,7 @@ Claims energy_claims() {
        .states = "along the optimal trajectory the energy of DMOC misses the virtual work by less than the energy of "
                  "tangent-space collocation",
        .judge = gap_beside_tangent,
-       .condition = "both gaps are of order h^2, with factors that belong to the trajectory",
+       .condition = "both gaps are of order h^2, and their factors depend on the trajectory",
        .evidence = {"invariants_energy_work.csv", "figures/{}_energy_work.svg"}},
       {.id = "modified_energy_and_work",
        .where = in_paper,

@@ -90,7 +90,7 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
     coarser = &tangent.front();
     const double ratio = error(tangent.front()) / error(row);
     if (row.needed("intervals") < coarsest_judged) {
-      below.push_back({"error of tangent over error of dmoc", ratio, "tangent", "N = " + row.text("intervals")});
+      below.push_back({"ratio of errors, tangent to dmoc", ratio, "tangent", "N = " + row.text("intervals")});
       continue;
     }
     are_equal = are_equal && ratio < equally_well && ratio > 1.0 / equally_well;
@@ -102,7 +102,7 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
   const ClaimVerdict verdict = ratios.empty() ? ClaimVerdict::floor : verdict_on(is_identical && are_equal);
   return found(verdict, "J of dmoc and hamiltonian differ by {:.0e} relative",
                Measurement{"relative difference of J", difference, "hamiltonian"})
-      .also(worded("error of tangent over error of dmoc, up to N = {}: {}", used.back().text("intervals"),
+      .also(worded("ratio of errors, tangent to dmoc, up to N = {}: {}", used.back().text("intervals"),
                    listed("{:.2f}", ratios)))
       .also(below.empty() ? Words() : worded("on coarser ones, not judged: {}", listed("{:.2f}", below)))
       .also(worded("{} grids at the round-off of J left out", at_floor))

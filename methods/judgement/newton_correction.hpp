@@ -47,7 +47,7 @@ class NewtonCorrections {
     by_intervals,  ///< where the program's structure allows it, in time linear in the intervals, long steps refined,
                    ///< since elimination by intervals does not pivot across them; otherwise, and where that fails,
                    ///< sparse
-    sparse,  ///< with pivoting: slower, and the last digits are better
+    sparse,        ///< with pivoting: slower, and the last digits are better
   };
 
   /// The program must outlive this.

@@ -26,8 +26,8 @@ namespace {
 using tests::Answer;
 using tests::Scheme;
 
-Answer solved(const Problem& problem, const Scheme& scheme, Eigen::Index intervals,
-              const std::string& solver = "interior_point") {
+Answer solved_with_constraints(const Problem& problem, const Scheme& scheme, Eigen::Index intervals,
+                               const std::string& solver = "interior_point") {
   return tests::confirmed(problem, scheme, intervals, guessed_motion(problem), 1e-9, solver);
 }
 
@@ -81,12 +81,12 @@ TEST_P(VelocityConstraintsBy, LeaveRowsOfFullRankAndAsManyFreedomsAsQuasiVelocit
 
 /// The sleigh in quasi-velocities, solved with order 8.
 const Trajectory& reference() {
-  static const Trajectory motion = solved(ChaplyginSleigh(), {"hamiltonian", 4}, 256).motion;
+  static const Trajectory motion = solved_with_constraints(ChaplyginSleigh(), {"hamiltonian", 4}, 256).motion;
   return motion;
 }
 
 /// The errors at the nodes: q, p, the costates along motions, and the cost.
-std::map<std::string, double> errors(const Trajectory& motion) {
+std::map<std::string, double> errors_of_reduced(const Trajectory& motion) {
   const ChaplyginSleighCartesian problem;
   const ChaplyginSleigh quasi;
   const Trajectory& exact = reference();
@@ -129,8 +129,10 @@ TEST_P(VelocityConstraintsBy, HaveTheOrderOfTheTableauAtTheNodes) {
   const ChaplyginSleighCartesian problem;
   const int order = GetParam().tableau().order;
   const Eigen::Index finest = order == 2 ? 256 : 128;
-  const std::map<std::string, double> coarse = errors(solved(problem, GetParam(), finest / 2).motion);
-  const std::map<std::string, double> fine = errors(solved(problem, GetParam(), finest).motion);
+  const std::map<std::string, double> coarse =
+      errors_of_reduced(solved_with_constraints(problem, GetParam(), finest / 2).motion);
+  const std::map<std::string, double> fine =
+      errors_of_reduced(solved_with_constraints(problem, GetParam(), finest).motion);
   for (const auto& [name, error] : fine) {
     EXPECT_NEAR(std::log2(coarse.at(name) / error), order, 0.25)
         << name << ": errors " << coarse.at(name) << ", " << error;
@@ -140,14 +142,14 @@ TEST_P(VelocityConstraintsBy, HaveTheOrderOfTheTableauAtTheNodes) {
 TEST_P(VelocityConstraintsBy, HaveTheOrderAndOptimumOfTheRollingDisk) {
   const RollingDisk problem;
   const int order = GetParam().tableau().order;
-  const double coarse = solved(problem, GetParam(), 64).motion.cost - optimum_of(problem);
-  const double fine = solved(problem, GetParam(), 128).motion.cost - optimum_of(problem);
+  const double coarse = solved_with_constraints(problem, GetParam(), 64).motion.cost - optimum_of(problem);
+  const double fine = solved_with_constraints(problem, GetParam(), 128).motion.cost - optimum_of(problem);
   EXPECT_NEAR(std::log2(std::abs(coarse / fine)), order, 0.25) << coarse << ", " << fine;
 }
 
 TEST_P(VelocityConstraintsBy, HoldAtTheNodesToRounding) {
   const RollingDisk problem;
-  const Answer answer = solved(problem, GetParam(), 32);
+  const Answer answer = solved_with_constraints(problem, GetParam(), 32);
   MotionConstraints constraints(answer.program->traced_problem());
   for (Eigen::Index k = 0; k <= 32; ++k) {
     constraints.evaluate(answer.motion.q.row(k).transpose());
@@ -162,7 +164,7 @@ TEST_P(VelocityConstraintsBy, LetMomentaBeTheWorkOfTheForcesWithImpulses) {
   const ChaplyginSleighCartesian sleigh;
   for (const Problem* problem : {static_cast<const Problem*>(&disk), static_cast<const Problem*>(&sleigh)}) {
     SCOPED_TRACE(problem->name());
-    Trajectory motion = solved(*problem, GetParam(), 16).motion;
+    Trajectory motion = solved_with_constraints(*problem, GetParam(), 16).motion;
     const double defect = momentum_consistency(*problem, motion).largest;
     if (GetParam().method != "tangent") {
       EXPECT_LT(defect, 1e-12);
@@ -179,15 +181,15 @@ TEST_P(VelocityConstraintsBy, LetMomentaBeTheWorkOfTheForcesWithImpulses) {
 TEST_P(VelocityConstraintsBy, AreKeptByTheReplayOfTheControls) {
   const RollingDisk problem;
   const auto missed = [&](Eigen::Index intervals) {
-    return replay_error(problem, solved(problem, GetParam(), intervals).motion).norm();
+    return replay_error(problem, solved_with_constraints(problem, GetParam(), intervals).motion).norm();
   };
   EXPECT_LT(missed(64), 0.5 * missed(32));
 }
 
 TEST_P(VelocityConstraintsBy, AreSolvedAlikeByIpoptAndByTheEliminationOfIntervals) {
   const ChaplyginSleighCartesian problem;
-  const double by_intervals = solved(problem, GetParam(), 48).motion.cost;
-  EXPECT_NEAR(solved(problem, GetParam(), 48, "ipopt").motion.cost, by_intervals, 1e-8 * by_intervals);
+  const double by_intervals = solved_with_constraints(problem, GetParam(), 48).motion.cost;
+  EXPECT_NEAR(solved_with_constraints(problem, GetParam(), 48, "ipopt").motion.cost, by_intervals, 1e-8 * by_intervals);
 }
 
 /// The sleigh with the direction (c, s) of its blade as coordinates: one constraint of either kind.
@@ -233,8 +235,8 @@ class SleighByDirection final : public Problem {
 TEST_P(VelocityConstraintsBy, HaveTheOrderOfTheTableauTogetherWithHolonomicOnes) {
   const SleighByDirection problem;
   const int order = GetParam().tableau().order;
-  const double coarse = solved(problem, GetParam(), 64).motion.cost - optimum_of(ChaplyginSleigh());
-  const double fine = solved(problem, GetParam(), 128).motion.cost - optimum_of(ChaplyginSleigh());
+  const double coarse = solved_with_constraints(problem, GetParam(), 64).motion.cost - optimum_of(ChaplyginSleigh());
+  const double fine = solved_with_constraints(problem, GetParam(), 128).motion.cost - optimum_of(ChaplyginSleigh());
   EXPECT_NEAR(std::log2(std::abs(coarse / fine)), order, 0.25) << coarse << ", " << fine;
 }
 
@@ -246,10 +248,10 @@ INSTANTIATE_TEST_SUITE_P(All, VelocityConstraintsBy,
 
 void expect_equal(const Problem& problem, Eigen::Index intervals) {
   SCOPED_TRACE(problem.name());
-  const Trajectory motion = solved(problem, {"dmoc", 1}, intervals).motion;
+  const Trajectory motion = solved_with_constraints(problem, {"dmoc", 1}, intervals).motion;
   const auto program = tests::transcribe(problem, {"hamiltonian", 1}, Grid::uniform(intervals));
   EXPECT_LT(tests::row_residual(*program, embed(problem, *program, motion)), 1e-10);
-  const Trajectory collocated = solved(problem, {"hamiltonian", 1}, intervals).motion;
+  const Trajectory collocated = solved_with_constraints(problem, {"hamiltonian", 1}, intervals).motion;
   const auto distance = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
     return (a - b).lpNorm<Eigen::Infinity>();
   };
@@ -312,8 +314,8 @@ TEST(VelocityConstraints, OfTwoPhasesGiveTheSolutionOfOne) {
   const SleighInTwoPhases in_phases;
   const ChaplyginSleighCartesian whole;
   for (const Scheme& scheme : {Scheme{"dmoc", 1}, Scheme{"hamiltonian", 1}, Scheme{"tangent", 2}}) {
-    const Trajectory once = solved(whole, scheme, 32).motion;
-    const Trajectory motion = solved(in_phases, scheme, 16).motion;
+    const Trajectory once = solved_with_constraints(whole, scheme, 32).motion;
+    const Trajectory motion = solved_with_constraints(in_phases, scheme, 16).motion;
     EXPECT_NEAR(motion.cost, once.cost, 1e-12 * once.cost) << scheme.label();
     EXPECT_LT((motion.q.leftCols(3) - once.q.topRows(17)).lpNorm<Eigen::Infinity>(), 1e-12) << scheme.label();
   }

@@ -223,16 +223,16 @@ TEST_F(WiderStatementsRefused, BoundsThatContradictEachOther) {
 }
 
 TEST_F(WiderStatementsRefused, MoreEqualitiesThanControls) {
-  EXPECT_EQ(
-      restated([](Statement& s) {
-        s.path_constraints = [](const ControlledState& x) {
-          ExpressionVector h(2);
-          h << x.u[0] - x.q[0], x.u[0] + x.v[0];
-          return h;
-        };
-        s.path = Bounds::all(2, 0.0, 0.0);
-      }),
-      "double_integrator: bounds().path makes 2 path constraints equalities; there can be at most as many as controls, 1");
+  EXPECT_EQ(restated([](Statement& s) {
+              s.path_constraints = [](const ControlledState& x) {
+                ExpressionVector h(2);
+                h << x.u[0] - x.q[0], x.u[0] + x.v[0];
+                return h;
+              };
+              s.path = Bounds::all(2, 0.0, 0.0);
+            }),
+            "double_integrator: bounds().path makes 2 path constraints equalities; there can be at most as many as "
+            "controls, 1");
 }
 
 TEST_F(WiderStatementsRefused, EqualitiesThatLeaveNothingFree) {
