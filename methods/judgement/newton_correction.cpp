@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "methods/judgement/linearised_conditions.hpp"
+#include "methods/kkt/newton_residual.hpp"
 #include "methods/kkt/sparse_kkt.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
@@ -72,7 +73,7 @@ bool NewtonCorrections::refine_step() {
   constexpr double accuracy = 1e-6;
   const kkt::KktMatrix matrix = kkt_matrix_of(conditions_);
   const kkt::KktStep step{step_.primal, step_.multipliers};
-  if (!residual_) residual_.emplace(program_);
+  if (!residual_) residual_ = std::make_unique<kkt::NewtonResidual>(program_);
   NewtonCorrection correction{.primal = step_.primal, .multipliers = step_.multipliers};
   for (int i = 0; i <= most_refinements; ++i) {
     residual_->compute(matrix, {conditions_.gradient, conditions_.constraints}, step);

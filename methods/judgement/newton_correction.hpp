@@ -9,10 +9,13 @@
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
 #include "methods/kkt/kkt_system.hpp"
-#include "methods/kkt/newton_residual.hpp"
 #include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench {
+
+namespace kkt {
+class NewtonResidual;
+}
 
 /// A Newton step from a point near an optimum towards it.
 struct NewtonCorrection {
@@ -88,8 +91,8 @@ class NewtonCorrections {
   std::unique_ptr<kkt::SparseKkt> pivoting_;      // made when it is first needed
   bool has_minimum_ = false;
   LinearisedConditions conditions_;
-  std::optional<kkt::NewtonResidual> residual_;  // made when it is first needed
-  NewtonCorrection step_;                        // the last one
+  std::unique_ptr<kkt::NewtonResidual> residual_;  // made when it is first needed
+  NewtonCorrection step_;                          // the last one
 };
 
 }  // namespace dmocbench
