@@ -18,7 +18,7 @@ void print(const std::vector<JudgedClaim>& claims) {
     print_line(fmt::format("{:12}measured: {}", "", claim.measured()));
     if (!claim.reason().empty()) print_line(fmt::format("{:12}reason:   {}", "", claim.reason()));
   }
-  fmt::print("{}\n", fmt::join(closing_lines(claims), "\n"));
+  fmt::print("{}\n{}\n", fmt::join(section_lines(claims), "\n"), fmt::join(closing_lines(claims), "\n"));
 }
 
 int judge_all(CommandLine& line) {
@@ -31,8 +31,8 @@ int judge_all(CommandLine& line) {
   const ResultTables tables = ResultTables::read(out);
   std::vector<JudgedClaim> claims = judge_claims(tables);
   if (!tables.has_any()) {
-    throw Error(fmt::format("there is no table that a claim reads in {0}; run an experiment with --out {0} first",
-                            out.string()));
+    throw Error(
+        fmt::format("{0} contains no table that a claim reads; run an experiment with --out {0} first", out.string()));
   }
   mark_missing_evidence(claims, out);
   const std::vector<std::string> missed = not_reproduced(claims, required);
@@ -49,7 +49,7 @@ int judge_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "claims",
-      "Judges the claims of the paper by the tables of a results folder; writes claims.md and claims.csv there.", argc,
+      "Evaluates the paper's claims on the tables in a results folder and writes claims.md and claims.csv there.", argc,
       argv, judge_all);
 }
 

@@ -150,18 +150,22 @@ void print_problem(const Problem& problem) {
                                     bounds_in_words(problem.bounds().u, problem.control_names())));
   print_field(
       "rows",
-      fmt::format(
-          "{}, {}{}{}", counted(static_cast<std::size_t>(traced.path_constraint_count()), "path constraint"),
-          counted(static_cast<std::size_t>(traced.boundary_condition_count()), "boundary condition"),
-          traced.holonomic_count() > 0 ? fmt::format(", {} constraints g(q) = 0", traced.holonomic_count()) : "",
-          traced.integral_count() > 0 ? fmt::format(", {} integral constraints", traced.integral_count()) : ""));
+      fmt::format("{}, {}{}{}{}", counted(traced.path_constraint_count(), "path constraint"),
+                  counted(traced.boundary_condition_count(), "boundary condition"),
+                  traced.holonomic_count() > 0
+                      ? ", " + counted(traced.holonomic_count(), "constraint g(q) = 0", "constraints g(q) = 0")
+                      : "",
+                  traced.velocity_constraint_count() > 0
+                      ? ", " + counted(traced.velocity_constraint_count(), "velocity constraint")
+                      : "",
+                  traced.integral_count() > 0 ? ", " + counted(traced.integral_count(), "integral constraint") : ""));
   print_reference(problem);
   print_field("guess", guess_in_words(problem));
   print_field("scale", fmt::format("the cost is multiplied by {:g} for the solver", problem.cost_scale()));
   for (const Parameter& parameter : problem.parameters()) {
     fmt::print("    --set {}={:.6g}{}{}: {}, {}{}\n", parameter.name, parameter.value,
                parameter.unit.empty() ? "" : " ", parameter.unit, parameter.meaning, parameter.range(),
-               parameter.is_unknown ? "; an unknown, whose guess this is" : "");
+               parameter.is_unknown ? "; an unknown, with this guess" : "");
   }
 }
 
@@ -250,17 +254,18 @@ int print_all(CommandLine& line) {
   line.group(group_of_output);
   bool as_json = false;
   std::string schema;
-  line.flag("--json", as_json, "the problems as cards in JSON, for other programs");
+  line.flag("--json", as_json, "print the problems as JSON, for other programs");
   line.option("--schema", schema,
-              "a JSON Schema instead: problems (of --json), metadata (NAME.json next to results), claims, findings or "
-              "claims_rows");
+              "print a JSON Schema: problems (for --json), metadata (for NAME.json), claims, findings or claims_rows "
+              "(for rows of these tables)");
   bool as_gnuplot = false;
-  line.flag("--families", as_gnuplot, "the families of methods with labels and line styles instead, for figures");
+  line.flag("--families", as_gnuplot, "print the families of methods with labels and line styles, for figures");
   bool as_titles = false;
-  line.flag("--titles", as_titles, "titles and units of the problems instead, a table for figures");
+  line.flag("--titles", as_titles, "print titles and units of the problems as a table, for figures");
   std::string kind;
   line.option("--names", kind,
-              "only names, one per line: of problem, method, tableau, solver, derivatives, integrator or program");
+              "print only names, one per line, of one kind: problem, method, tableau, solver, derivatives, integrator "
+              "or program");
   line.example("--problem cart_pole");
   line.exit_code_1("");
   parse_with_libraries(line);
@@ -278,7 +283,7 @@ int print_all(CommandLine& line) {
     for (const auto& problem : problems) print_problem(*problem);
     return code;
   }
-  fmt::print("Problems (--problem); list --problem NAME shows all of one\n\n");
+  fmt::print("Problems (--problem); list --problem NAME shows the complete statement of one\n\n");
   print_briefly(problems);
   fmt::print("\nMethods (--method)\n\n");
   for (const std::string& name : all_methods()) {
@@ -299,8 +304,7 @@ int print_all(CommandLine& line) {
 
 int run(int argc, char** argv) {
   return run_program(
-      "list",
-      "Lists problems with their parameters and guesses, methods, tableaus, solvers and back ends of derivatives.",
+      "list", "Lists problems with their parameters and guesses, methods, tableaus, solvers and derivative back ends.",
       argc, argv, print_all);
 }
 

@@ -104,7 +104,7 @@ constexpr std::array core_programs{
     Program{"derivatives", "Exact derivatives compared with finite differences", derivatives_program::run},
     Program{"equivalence", "Compares the discrete solutions of DMOC and collocation", equivalence_program::run},
     Program{"iterations", "Iteration counts, evaluations and times of solves", iterations_program::run},
-    Program{"list", "Lists problems, methods, tableaus, solvers and back ends of derivatives", list_program::run},
+    Program{"list", "Lists problems, methods, tableaus, solvers and derivative back ends", list_program::run},
     Program{"local_minima", "Local minima and how often each method ends in each", local_minima_program::run},
     Program{"misprints", "Misprints of the paper, each formula evaluated as printed and as corrected",
             misprints_program::run},

@@ -8,14 +8,15 @@
 #include "bench/run/command_line.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/result_file.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench::report_program {
 
 int write_report(CommandLine& line) {
   std::filesystem::path from = "results";
   std::string to;
-  line.option("--from,--out", from, "the results folder, in which the page is written");
-  line.option("--to", to, "the page, if it is written elsewhere; default: report.html in the results folder");
+  line.option("--from,--out", from, "the results folder");
+  line.option("--to", to, "the file to write; default: report.html in the results folder");
   line.exit_code_1("");
   parse_with_libraries(line);
   const ResultsFolder results = read_results_folder(from);
@@ -26,9 +27,9 @@ int write_report(CommandLine& line) {
   const std::string folder = way.empty() || way == "." ? "" : way.string() + "/";
   const std::string html = report_page(results, folder);
   write_file(page, html);
-  print_line(fmt::format("report: {} tables, {} figures, {} claims, {:.1f} MB: {}", results.tables.size(),
-                         results.figures.size(), results.claims.size(), static_cast<double>(html.size()) * 1e-6,
-                         page.string()));
+  print_line(fmt::format("report: {}, {}, {}, {:.1f} MB: {}", counted(results.tables.size(), "table"),
+                         counted(results.figures.size(), "figure"), counted(results.claims.size(), "claim"),
+                         static_cast<double>(html.size()) * 1e-6, page.string()));
   return 0;
 }
 

@@ -131,11 +131,11 @@ int run_all(CommandLine& line) {
   line.option("--tableau", study.tableau, "the family of Butcher tableaus; invariants compares all families");
   line.number("--stages", study.stages, 1, 4, "its number of stages");
   line.option("--intervals", study.intervals, "grids of convergence; local_minima uses the second finest");
-  line.number("--starts", study.starts, 1, 100000, "starts of local_minima per method");
+  line.number("--starts", study.starts, 1, 100000, "starts per method in local_minima");
   line.group(group_of_output);
   line.option("--out", study.out, "folder for the results; default: study_PROBLEM");
   line.example("--problem cart_pole");
-  line.exit_code_1("a step has failed; the others have run");
+  line.exit_code_1("a step failed; the other steps were run");
   const std::string call = line.parse().front();
   if (study.problem.empty()) throw Error("name a problem: study --problem cart_pole; list shows all problems");
   if (study.out.empty()) study.out = "study_" + study.problem;

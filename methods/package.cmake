@@ -16,6 +16,7 @@ install(
   TARGETS ${umbrellas}
   EXPORT dmocbenchTargets
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES problems/umbrella/dmocbench/problems.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dmocbench)
 install(
   EXPORT dmocbenchTargets
   NAMESPACE dmocbench::

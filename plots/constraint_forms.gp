@@ -1,6 +1,5 @@
 # Mechanisms by DMOC with multipliers, by their embedding and in minimal coordinates: condition of the KKT matrix and time of
-# an iteration over the number of intervals, a row of panels per mechanism. Draws nothing without objective_forms.csv, which
-# bench/reproduce --all writes.
+# an iteration over the number of intervals, a row of panels per mechanism. Draws nothing without objective_forms.csv.
 #   gnuplot -e "results='results'" plots/constraint_forms.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"

@@ -25,7 +25,7 @@ class Acrobot : public Problem {
       : Problem({
             switch_parameter("physical", false, "0: the potential of the PROPT guide, 1: the mechanical one"),
             {"friction", 0.1, "N m s", "viscous friction b1 = b2 of the joints", 0.0, 1e2},
-            switch_parameter("bounded", true, "1: the torque is at most 10 N m, 0: there is no bound"),
+            switch_parameter("bounded", true, "1: the torque is at most 10 N m, 0: no bound"),
             horizon_parameter(4.0, "swing-up"),
         }) {}
 
@@ -96,8 +96,8 @@ class Acrobot : public Problem {
           .digits = 6,
           .certificate = "Gauss s = 3 on 800 and s = 4 on 500 intervals agree; replayed, the end met to 4e-4",
           .remark =
-              "the best of about a hundred starts, many of them around it; another minimum is 93.09407; not known to "
-              "be the least"};
+              "the best of about a hundred starts, many of them around it; not proven to be the global minimum; "
+              "another minimum is 93.09407"};
     }
     return ReferenceOptimum{
         .objective = 54.412699,
@@ -107,8 +107,8 @@ class Acrobot : public Problem {
         .remark =
             "the published cost is impossible: no trajectory costs less than 4 b2 dV = 27.468. Coarse grids have such "
             "false optima: DMOC with s = 1 and N = 128 finds 23.16 near this trajectory. The best of more than a "
-            "hundred starts, many of them around it; not known to be the least. From the guess every method ends in a "
-            "minimum of its own"};
+            "hundred starts, many of them around it; not proven to be the global minimum. From the guess every method "
+            "ends in a different minimum"};
   }
 
   static constexpr double mass_1 = 1.0;           // kg

@@ -35,7 +35,7 @@ class BouncingBall final : public PhasedProblem {
       card.reference =
           ReferenceOptimum{.objective = e == 1.0 ? 10.258191327671888 : 13.578573105569905,
                            .digits = 16,
-                           .certificate = "closed form of both phases, its two numbers by Newton's method"};
+                           .certificate = "closed form of both phases, with two constants from Newton's method"};
     }
     return card;
   }

@@ -21,7 +21,7 @@ class Brachistochrone : public Problem {
   Brachistochrone()
       : Problem({
             {"width", 10.0, "m", "x of the end", 1e-3, 1e3},
-            {"drop", 5.0, "m", "y lost on the way", 1e-3, 1e3},
+            {"drop", 5.0, "m", "height y lost on the way", 1e-3, 1e3},
             gravity_parameter(1e-3, 9.80665),
         }) {}
 
@@ -109,8 +109,8 @@ class Brachistochrone : public Problem {
                              .digits = 15,
                              .certificate = "closed form, the cycloid through both points",
                              .remark =
-                                 "Lobatto tableaus leave the control at t = 0 undetermined and converge badly or not "
-                                 "at all; to certify, take Gauss ones"};
+                                 "Lobatto tableaus leave the control at t = 0 undetermined and converge slowly or not "
+                                 "at all; certify with Gauss tableaus"};
     if (has_default_parameters()) optimum.published.push_back({1.8016, "Dymos, example brachistochrone"});
     const bool is_psopt = parameter("width") == 2.0 && parameter("drop") == 2.0 && parameter("gravity") == 9.8;
     if (is_psopt) optimum.published.push_back({0.8247591, "PSOPT, example brac1"});

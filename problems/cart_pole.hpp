@@ -24,7 +24,7 @@ class CartPole : public Problem {
             gravity_parameter(0.0),
             {"distance", 1.0, "m", "distance d that the cart travels", -2.0, 2.0},
             horizon_parameter(2.0, "swing-up"),
-            switch_parameter("bounded", true, "1: the bounds on force and position hold, 0: there are none"),
+            switch_parameter("bounded", true, "1: bounds on force and position, 0: no bounds"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "cart_pole"; }

@@ -14,11 +14,11 @@ class CartPoleCartesian final : public RedundantStatement<CartPole> {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     const ProblemCard of_angles = minimal().card();
-    return {.description = "swing-up of a pendulum on a cart in fixed time, as two points that a rod joins",
+    return {.description = "swing-up of a pendulum on a cart in fixed time, as two points joined by a rod",
             .title = "Cart-pole swing-up (Cartesian)",
             .axis_units = {.state = "m", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
             .source = "cart_pole in Cartesian coordinates with one constraint",
-            .guess = "the one of cart_pole",
+            .guess = "as in cart_pole",
             .reference = of_angles.reference,
             .picture = [](const ControlledState& x) -> Picture {
               return {{"cart_x", "m", x.q[0]}, {"bob_x", "m", x.q[1]}, {"bob_y", "m", x.q[2]}, {"force", "N", x.u[0]}};

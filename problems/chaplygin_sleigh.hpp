@@ -16,7 +16,7 @@ namespace dmocbench {
 /// where L is the kinetic energy on the constraint, and f contains the terms that the constraint adds to its
 /// Euler-Lagrange equations. u₁ pushes along the blade, u₂ turns; C = ½|u|². From (0, 0, 0) at rest to (1, 1, π/2) at
 /// rest in T = 2, s(T) free.
-class ChaplyginSleigh final : public Problem {
+class ChaplyginSleigh : public Problem {
  public:
   ChaplyginSleigh()
       : Problem({

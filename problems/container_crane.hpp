@@ -99,9 +99,9 @@ class ContainerCrane : public Problem {
             "controls; no more digits, because the control is singular",
         .published = {{0.0051513, "PSOPT, example crane"}},
         .remark =
-            "the published value belongs to its mesh, 2e-4 above; on fine grids a Newton step moves the singular "
-            "controls by tenths of their size though states and cost stay, whatever the tolerance: such solutions may "
-            "stay unconfirmed"};
+            "the published value is specific to its mesh, 2e-4 above; on fine grids a Newton step moves the singular "
+            "controls by tenths of their size, whatever the tolerance, while states and cost do not change; such "
+            "solutions may remain unconfirmed"};
   }
 };
 

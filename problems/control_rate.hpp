@@ -24,7 +24,7 @@ class ControlRate final : public Problem {
                                           .digits = 16,
                                           .certificate = "closed form",
                                           .published = {{1.846315, "PSOPT, example control_rate"}},
-                                          .remark = "the published value belongs to its grid"}};
+                                          .remark = "the published value is specific to its grid"}};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"force_rate"}; }

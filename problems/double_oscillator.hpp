@@ -42,8 +42,8 @@ class DoubleOscillator : public Problem {
                  "Gauss with 3 stages and Lobatto with 4; the replays of both controls have the same cost to 12 digits",
              .published = {{0.000910190, "CTBenchmarks.jl, midpoint rule, N = 200"},
                            {0.000910336, "CTBenchmarks.jl, trapezoidal rule, N = 200"}},
-             .remark = "the published values belong to their grids: ours of the midpoint and the trapezoidal rule "
-                       "on 200 intervals are 0.000910190 and 0.000910336, and converge to the reference as h^2"}),
+             .remark = "the published values are specific to their grids: ours with the midpoint and the trapezoidal "
+                       "rule on 200 intervals are 0.000910190 and 0.000910336, and converge to the reference as h^2"}),
         .picture = [this](const ControlledState& x) -> Picture {
           return {{"x_1", "m", x.q[0]},
                   {"x_2", "m", x.q[1]},

@@ -31,30 +31,29 @@ class Formation final : public Problem {
   [[nodiscard]] std::string name() const override { return "formation"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {
-        .description = "satellites in formation reverse their order with least distances between them",
-        .title = "Satellites in formation",
-        .axis_units = {.state = "km"},
-        .source =
-            "after Junge, Marsden, Ober-Bloebaum: Optimal reconfiguration of formation flying spacecraft - a "
-            "decentralized approach, 2006",
-        .guess = "half circles around the middle, without force",
-        .time_unit = {.name = "s", .factor = 1000.0},
-        .configuration_units = std::vector<std::string>(static_cast<std::size_t>(2 * count()), "km"),
-        .reference = with_default_parameters(
-            *this, {.objective = 7.53865012201,
-                    .digits = 12,
-                    .certificate = "the linear boundary value problem up to T/2 by its flow; DMOC and tangent-space "
-                                   "collocation by Gauss with 4 stages find it through bounds at T/2"}),
-        .path_constraint_names = pair_names(),
-        .picture = [this](const ControlledState& x) -> Picture {
-          Picture quantities;
-          const std::vector<std::string> names = configuration_names();
-          for (Eigen::Index i = 0; i < x.q.size(); ++i) {
-            quantities.push_back({names[static_cast<std::size_t>(i)], "km", x.q[i]});
-          }
-          return quantities;
-        }};
+    return {.description = "satellites in formation reverse their order with least distances between them",
+            .title = "Satellites in formation",
+            .axis_units = {.state = "km"},
+            .source =
+                "after Junge, Marsden, Ober-Bloebaum: Optimal reconfiguration of formation flying spacecraft - a "
+                "decentralized approach, 2006",
+            .guess = "half circles around the middle, without force",
+            .time_unit = {.name = "s", .factor = 1000.0},
+            .configuration_units = std::vector<std::string>(static_cast<std::size_t>(2 * count()), "km"),
+            .reference = with_default_parameters(
+                *this, {.objective = 7.53865012201,
+                        .digits = 12,
+                        .certificate = "the flow of the linear boundary value problem up to T/2; DMOC and "
+                                       "tangent-space collocation by Gauss with 4 stages and bounds at T/2 agree"}),
+            .path_constraint_names = pair_names(),
+            .picture = [this](const ControlledState& x) -> Picture {
+              Picture quantities;
+              const std::vector<std::string> names = configuration_names();
+              for (Eigen::Index i = 0; i < x.q.size(); ++i) {
+                quantities.push_back({names[static_cast<std::size_t>(i)], "km", x.q[i]});
+              }
+              return quantities;
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return per_satellite("x_", "y_"); }
   [[nodiscard]] std::vector<std::string> control_names() const override { return per_satellite("u_x_", "u_y_"); }

@@ -25,7 +25,7 @@ class GoddardRocket final : public Problem {
         .time_unit = {.name = "", .factor = 1.0},
         .reference = ReferenceOptimum{.objective = -1.0128369183175,
                                       .digits = 13,
-                                      .certificate = "the three arcs that the maximum principle leaves, integrated",
+                                      .certificate = "integration of the three arcs that the maximum principle allows",
                                       .published = {{-1.01283, "COPS 3.0"}}},
         .picture = [](const ControlledState& x) -> Picture {
           return {{"altitude", "", x.q[0] - 1.0}, {"mass", "", x.y[0]}, {"thrust", "", x.u[0]}};

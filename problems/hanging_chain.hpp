@@ -15,7 +15,8 @@ namespace dmocbench {
 /// still moves along it is `not confirmed`; cost and price are right all the same.
 class HangingChain final : public Problem {
  public:
-  HangingChain() : Problem({{"length", 4.0, "", "of the chain, more than the distance of its ends", 2.25, 100.0}}) {}
+  HangingChain()
+      : Problem({{"length", 4.0, "", "of the chain, larger than the distance between its ends", 2.25, 100.0}}) {}
 
   [[nodiscard]] std::string name() const override { return "hanging_chain"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
@@ -33,9 +34,9 @@ class HangingChain final : public Problem {
       card.reference =
           ReferenceOptimum{.objective = 5.06848011099341,
                            .digits = 14,
-                           .certificate = "the catenary through both points, its two numbers by Newton's method",
+                           .certificate = "the catenary through both points, with two constants from Newton's method",
                            .published = {{5.06891, "COPS 3.0, N = 400"}, {5.068480, "PSOPT, example chain"}},
-                           .remark = "the value of COPS belongs to its grid"};
+                           .remark = "the value of COPS is specific to its grid"};
     }
     return card;
   }

@@ -38,8 +38,8 @@ class LinkChain : public Problem {
                 "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2, "
                 "with n links",
             .guess =
-                "q on straight lines plus 2.5 sin(pi t/T) for the last rod, minus it for the rod before and so on with "
-                "changing signs, nothing for the first; v its slope, u = 0",
+                "q on straight lines, plus 2.5 sin(pi t/T) with alternating signs, positive for the last rod and "
+                "absent for the first; v its slope, u = 0",
             .reference = reference_optimum(),
             .picture = [this](const ControlledState& x) -> Picture {
               Picture quantities;

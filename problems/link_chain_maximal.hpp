@@ -19,12 +19,12 @@ class LinkChainMaximal final : public RedundantStatement<LinkChain> {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     const ProblemCard of_angles = minimal().card();
-    return {.description = "swing-up of a planar chain of n rods, each a body of its own that joints hold",
+    return {.description = "swing-up of a planar chain of n rods, each a separate body held by joints",
             .title = "Chain of links (maximal coordinates)",
             .axis_units =
                 {.state = "m or rad", .control = "N m", .momentum = "N s or N m s", .cost = "N² m² s", .energy = "N m"},
             .source = "link_chain in maximal coordinates with two constraints per joint",
-            .guess = "the one of link_chain",
+            .guess = "as in link_chain",
             .reference = of_angles.reference,
             .picture = [this](const ControlledState& x) -> Picture {
               Picture quantities;

@@ -19,7 +19,7 @@ class ParticleSteering : public Problem {
   ParticleSteering()
       : Problem({
             {"thrust", 100.0, "m/s^2", "acceleration a of the thrust", 1.0, 1e4},
-            {"height", 5.0, "m", "y to reach", 1e-2, 1e2},
+            {"height", 5.0, "m", "height y to reach", 1e-2, 1e2},
             {"speed", 45.0, "m/s", "speed to reach", 1.0, 1e3},
         }) {}
 
@@ -96,8 +96,8 @@ class ParticleSteering : public Problem {
     if (has_default_parameters()) {
       optimum.published = {{0.554577, "COPS 3.0 and the tests of COPSBenchmark.jl"}, {0.5545709, "PSOPT, example lts"}};
       optimum.remark =
-          "the value of COPS belongs to a coarse grid: the trapezoidal rule gives 0.5545770 on 100 intervals here and "
-          "0.5545724 on 200";
+          "the value of COPS is specific to a coarse grid: the trapezoidal rule gives 0.5545770 on 100 intervals here "
+          "and 0.5545724 on 200";
     }
     return optimum;
   }

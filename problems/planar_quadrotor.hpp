@@ -33,8 +33,8 @@ class PlanarQuadrotor : public Problem {
                                     {.objective = 19.81198431842,
                                      .digits = 11,
                                      .certificate = certificate,
-                                     .remark = "no published value is known; the bounds, by option, are not active; "
-                                               "dearer minima tumble on the way (23.05, 23.38, 25.58)"},
+                                     .remark = "no published value is known; the optional bounds are not active; other "
+                                               "minima cost more and tumble on the way (23.05, 23.38, 25.58)"},
                                     {"bounded"}),
         .picture = [this](const ControlledState& x) -> Picture {
           const double r = parameter("arm");

@@ -34,10 +34,11 @@ class PlanarQuadrotorFlip : public PlanarQuadrotor {
           .digits = 6,
           .certificate = "Gauss s = 3 on 256 and Lobatto s = 4 on 192 intervals and a replay agree"};
     }
-    return ReferenceOptimum{.objective = 14.19952298017,
-                            .digits = 11,
-                            .certificate = certificate,
-                            .remark = "no published value is known; dearer minima turn unevenly (17.47, 19.09)"};
+    return ReferenceOptimum{
+        .objective = 14.19952298017,
+        .digits = 11,
+        .certificate = certificate,
+        .remark = "no published value is known; other minima cost more and turn unevenly (17.47, 19.09)"};
   }
 
   static constexpr double flip_duration = 1.0;  // s

@@ -16,6 +16,7 @@
 #include "problems/cart_pole.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/chaplygin_sleigh.hpp"
+#include "problems/chaplygin_sleigh_cartesian.hpp"
 #include "problems/compass_gait.hpp"
 #include "problems/container_crane.hpp"
 #include "problems/control_rate.hpp"
@@ -30,6 +31,7 @@
 #include "problems/hovercraft.hpp"
 #include "problems/hypersensitive.hpp"
 #include "problems/kepler_cartesian.hpp"
+#include "problems/leg_hop.hpp"
 #include "problems/link_chain.hpp"
 #include "problems/link_chain_maximal.hpp"
 #include "problems/orbital_transfer.hpp"
@@ -41,6 +43,7 @@
 #include "problems/refraction.hpp"
 #include "problems/rigid_quadrotor.hpp"
 #include "problems/robot_arm.hpp"
+#include "problems/rolling_disk.hpp"
 #include "problems/satellite_directors.hpp"
 #include "problems/spherical_pendulum.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
@@ -119,6 +122,9 @@ Registry problems_of_the_suite() {
   registry.add<Refraction>();
   registry.add<SwingAndRelease>();
   registry.add<ChaplyginSleigh>();
+  registry.add<ChaplyginSleighCartesian>();
+  registry.add<RollingDisk>();
+  registry.add<LegHop>();
   return registry;
 }
 

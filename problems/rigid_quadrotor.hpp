@@ -39,26 +39,24 @@ class RigidQuadrotor final : public Problem {
 
   [[nodiscard]] std::string name() const override { return "rigid_quadrotor"; }
   [[nodiscard]] ProblemCard card() const override {
-    return {
-        .description = "a quadrotor in space, a rigid body, follows a curve in fixed time, final state free",
-        .title = "Quadrotor in space",
-        .axis_units = {.state = "m or rad", .control = "m/s² or rad/s²", .momentum = "m/s or m²/s", .cost = "m² s"},
-        .source =
-            "Montoison, Caillau: Modeling and Optimization of Control Problems on GPUs (arXiv:2510.03932), problem "
-            "quadrotor, after ExaModels.jl; with torques instead of angular velocities",
-        .guess = "hovering: q on the straight line to (0, 0, 2 m), v its slope, u_1 = g, no torque",
-        .reference = with_default_parameters(
-            *this,
-            {.objective = 4.27652988126,
-             .digits = 12,
-             .certificate = "Gauss with s = 3 and Lobatto with s = 4 on 128 intervals and a replay agree",
-             .remark = "no published value is known, and none is of this problem: the published one has no torques"}),
-        .picture = [this](const ControlledState& x) -> Picture {
-          const ExpressionVector curve = curve_at(x.t);
-          return {{"x", "m", x.q[0]},         {"y", "m", x.q[1]},         {"z", "m", x.q[2]},
-                  {"curve_x", "m", curve[0]}, {"curve_y", "m", curve[1]}, {"curve_z", "m", curve[2]},
-                  {"thrust", "m/s^2", x.u[0]}};
-        }};
+    return {.description = "a quadrotor in space, a rigid body, follows a curve in fixed time, final state free",
+            .title = "Quadrotor in space",
+            .axis_units = {.state = "m or rad", .control = "m/s² or rad/s²", .momentum = "m/s or m²/s", .cost = "m² s"},
+            .source =
+                "Montoison, Caillau: Modeling and Optimization of Control Problems on GPUs (arXiv:2510.03932), problem "
+                "quadrotor, after ExaModels.jl; with torques instead of angular velocities",
+            .guess = "hovering: q on the straight line to (0, 0, 2 m), v its slope, u_1 = g, no torque",
+            .reference = with_default_parameters(
+                *this, {.objective = 4.27652988126,
+                        .digits = 12,
+                        .certificate = "Gauss with s = 3 and Lobatto with s = 4 on 128 intervals and a replay agree",
+                        .remark = "no value of this problem is published; the published problem has no torques"}),
+            .picture = [this](const ControlledState& x) -> Picture {
+              const ExpressionVector curve = curve_at(x.t);
+              return {{"x", "m", x.q[0]},         {"y", "m", x.q[1]},         {"z", "m", x.q[2]},
+                      {"curve_x", "m", curve[0]}, {"curve_y", "m", curve[1]}, {"curve_z", "m", curve[2]},
+                      {"thrust", "m/s^2", x.u[0]}};
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override {
     return {"x", "y", "z", "roll", "pitch", "yaw"};

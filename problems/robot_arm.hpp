@@ -121,9 +121,9 @@ class RobotArm : public Problem {
         .published = {{9.14138, "COPS 3.0, trapezoidal rule, N = 200"}},
         .remark =
             "COPS prints the value of its grid, which lacks the switching times: ours of the trapezoidal rule on 200 "
-            "intervals is 9.14140, on 400 9.14103; with several stages on 1024 intervals, solve to 1e-10: at 1e-8 the "
-            "barrier leaves the controls near their switches undecided and T 2e-4 too large, and such a solution is "
-            "not confirmed"};
+            "intervals is 9.14140, on 400 9.14103; with several stages on 1024 intervals use the tolerance 1e-10: at "
+            "1e-8 the barrier does not determine the controls near their switches, T is 2e-4 too large, and such a "
+            "solution is not confirmed"};
   }
 
   /// I_φ(ρ).

@@ -38,7 +38,7 @@ class SatelliteDirectors final : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "a rigid satellite turns from rest to rest, its attitude a rotation matrix",
+        .description = "a rigid satellite turns from rest to rest, with a rotation matrix as its attitude",
         .title = "Satellite (directors)",
         .axis_units = {.state = "dimensionless"},
         .source =
@@ -68,6 +68,17 @@ class SatelliteDirectors final : public Problem {
       }
     }
     return g;
+  }
+  /// R = R⁰(t) cay(θ): R⁰ turns evenly by half of the slew, and Cayley's map cay(θ) by 2 arctan(|θ|/2) about θ, so that
+  /// an attitude is out of reach only half a turn away from R⁰.
+  [[nodiscard]] ExpressionVector moving_embedding(const ExpressionVector& theta, const Expression& t) const override {
+    const Expression angle = 0.5 * parameter("angle") * t / horizon();
+    const ExpressionMatrix axis = cross_matrix(this->axis());
+    const ExpressionMatrix one = Eigen::Matrix3d::Identity().cast<Expression>();
+    const ExpressionMatrix centre = one + sin(angle) * axis + (1.0 - cos(angle)) * axis * axis;
+    const ExpressionMatrix turn = cross_matrix(theta);
+    const ExpressionMatrix cayley = one + (turn + 0.5 * turn * turn) / (1.0 + 0.25 * theta.dot(theta));
+    return ExpressionMatrix(centre * cayley).reshaped();
   }
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     const Expression half_sum = 0.5 * (varying("inertia_1") + varying("inertia_2") + varying("inertia_3"));
@@ -112,10 +123,18 @@ class SatelliteDirectors final : public Problem {
  private:
   static ExpressionVector director(const ExpressionVector& of, Eigen::Index i) { return of.segment(3 * i, 3); }
 
+  /// Of the slew, of length 1.
+  [[nodiscard]] Eigen::Vector3d axis() const {
+    return Eigen::Vector3d(parameter("axis_1"), parameter("axis_2"), parameter("axis_3")).normalized();
+  }
+  /// a × as a matrix.
+  static ExpressionMatrix cross_matrix(const ExpressionVector& a) {
+    return ExpressionMatrix{{0.0, -a[2], a[1]}, {a[2], 0.0, -a[0]}, {-a[1], a[0], 0.0}};
+  }
+
   /// Turned by an angle about the axis, with a rate.
   [[nodiscard]] BoundaryState turned(double angle, double rate) const {
-    Eigen::Vector3d axis(parameter("axis_1"), parameter("axis_2"), parameter("axis_3"));
-    axis.normalize();
+    const Eigen::Vector3d axis = this->axis();
     const Eigen::Matrix3d attitude = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
     BoundaryState state{.q = attitude.reshaped(), .v = Eigen::VectorXd(9)};
     for (Eigen::Index i = 0; i < 3; ++i) state.v.segment<3>(3 * i) = rate * axis.cross(attitude.col(i));

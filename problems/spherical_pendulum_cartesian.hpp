@@ -19,7 +19,7 @@ class SphericalPendulumCartesian : public RedundantStatement<SphericalPendulum> 
             .title = "Spherical pendulum (Cartesian)",
             .axis_units = {.state = "m", .control = "N m", .momentum = "N s", .cost = "N² m² s", .energy = "N m"},
             .source = "spherical_pendulum in Cartesian coordinates with one constraint",
-            .guess = "the one of spherical_pendulum",
+            .guess = "as in spherical_pendulum",
             .reference = of_angles.reference,
             .picture = [](const ControlledState& x) -> Picture {
               return {{"bob_x", "m", x.q[0]},

@@ -14,12 +14,12 @@ class TwoLinkMaximal final : public RedundantStatement<TwoLinkManipulator> {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     const ProblemCard of_angles = minimal().card();
-    return {.description = "swing-up of a planar two-link arm, each link a body of its own that joints hold",
+    return {.description = "swing-up of a planar two-link arm, each link a separate body held by joints",
             .title = "Two-link manipulator (maximal coordinates)",
             .axis_units =
                 {.state = "m or rad", .control = "N m", .momentum = "N s or N m s", .cost = "N² m² s", .energy = "N m"},
             .source = "two_link_manipulator in maximal coordinates with two constraints per joint",
-            .guess = "the one of two_link_manipulator",
+            .guess = "as in two_link_manipulator",
             .reference = of_angles.reference,
             .picture = [](const ControlledState& x) -> Picture {
               // The elbow lies as far beyond the centre of link 1 as the shoulder, at the origin, before it.

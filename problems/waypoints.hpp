@@ -31,7 +31,7 @@ class Waypoints final : public Problem {
     if (has_default_parameters()) {
       card.reference = ReferenceOptimum{.objective = 12129.0 / 275000.0,
                                         .digits = 16,
-                                        .certificate = "the cubic splines through the points, in fractions"};
+                                        .certificate = "exact fractions from the cubic splines through the points"};
     }
     return card;
   }

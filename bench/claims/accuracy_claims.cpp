@@ -2,8 +2,6 @@
 // the rounding errors that staying on Q x Q costs.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "bench/claims/claim.hpp"
 #include "bench/run/solve_case.hpp"
@@ -12,29 +10,37 @@ namespace dmocbench {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// The error that the controls of DMOC leave when they are integrated on the continuous equations, over the error by
-/// tangent-space collocation, grid by grid. The errors are exact numbers, so that all grids must agree.
+/// The error that the controls of DMOC leave when they are integrated on the continuous equations, over the error of
+/// tangent-space collocation. Both are of order h^2, so that their ratio has a limit: it is judged where the ratio is
+/// settled, on the grids from which on it is near the finest one's, and at least on the two finest.
 Finding replay_beside_tangent(const ResultTables& tables, const std::string& problem) {
+  constexpr double settled = 0.01;
   const Selection rows = tables.rows("convergence", problem);
   const Selection all = midpoint(rows, "dmoc");
   Selection used;
   std::vector<Measurement> ratios;
-  for (const Row& row : all.usable()) {
+  for (const Row& row : all.usable().sorted_by("intervals")) {
     const Selection tangent = midpoint(rows, "tangent").usable().matching(row, {"intervals"});
     if (tangent.empty()) continue;
-    ratios.push_back({"replay error of DMOC over the error of tangent-space collocation",
+    ratios.push_back({"ratio of replay errors, DMOC to tangent-space collocation",
                       quotient(row, tangent.front(), "replay_error"), "dmoc", "N = " + row.text("intervals")});
     used.append(row);
   }
   require(used.size() > 1, "convergence.csv has {} grids of {} solved by dmoc and tangent; two are needed", used.size(),
           problem);
-  const auto [least, most] = std::ranges::minmax(ratios, {}, &Measurement::value);
-  const auto [lower, upper] = problem == two_link ? std::pair(1.0, infinity) : std::pair(0.0, 1.0);
-  return found(verdict_on_interval(least.value, most.value, lower, upper),
-               "replay error of DMOC over the error of tangent-space collocation on {} grids, N = {} to {}: {}",
-               used.size(), used.front().text("intervals"), used.back().text("intervals"), listed("{:.3f}", ratios))
+  const double finest = ratios.back().value;
+  const auto is_unsettled = [&](const Measurement& ratio) { return std::abs(ratio.value / finest - 1.0) > settled; };
+  const auto first = std::find_if(ratios.rbegin(), ratios.rend(), is_unsettled).base();
+  const Row& coarsest = *(used.begin() + (first - ratios.begin()));
+  const auto [least, most] =
+      std::ranges::minmax_element(std::min(first, ratios.end() - 2), ratios.end(), {}, &Measurement::value);
+  const auto [least_of_all, most_of_all] = std::ranges::minmax(ratios, {}, &Measurement::value);
+  return found(verdict_on_interval(least->value, most->value, 0.0, 1.0),
+               "ratio of replay errors, DMOC to tangent-space collocation: {:.3f} on the finest grid, N = {}, "
+               "and within 1 % of it from N = {} on",
+               ratios.back(), used.back().text("intervals"), coarsest.text("intervals"))
+      .also(worded("on all {} grids, from N = {} on, between {:.3f} ({}) and {:.3f} ({})", used.size(),
+                   used.front().text("intervals"), least_of_all, least_of_all.at, most_of_all, most_of_all.at))
       .also(left_out(all, used, "not solved by both, in favour of"));
 }
 
@@ -55,7 +61,7 @@ Finding rounding_floor(const ResultTables& tables, const std::string& problem) {
   require(!finest.empty(), "consistency.csv has no grid of {} solved by dmoc and hamiltonian with a tolerance",
           problem);
   return found(ClaimVerdict::measured,
-               "largest defect of the momentum balance at N = {}: dmoc {:.1e}, hamiltonian {:.1e}, {:.1f} times",
+               "largest defect of the momentum balance at N = {}: dmoc {:.1e}, hamiltonian {:.1e}, ratio {:.1f}",
                finest.front().text("intervals"),
                Measurement{"largest defect of an interval", finest.front().needed("momentum_defect_max"), "dmoc"},
                Measurement{"largest defect of an interval", finest.back().needed("momentum_defect_max"), "hamiltonian"},
@@ -91,14 +97,14 @@ Claims accuracy_claims() {
   return {
       {.id = "replay_beside_tangent",
        .where = "section 1",
-       .states = Wording("replayed on the continuous equations, DMOC's controls miss the final state by less than "
-                         "the controls of tangent-space collocation, on every grid",
-                         "replayed on the continuous equations, DMOC's controls miss the final state by more than "
-                         "the controls of tangent-space collocation, on every grid: the momentum balance that the "
-                         "discrete system keeps does not bound the error of its trajectory"),
+       .states = "replayed on the continuous equations, DMOC's controls miss the final state by less than the controls "
+                 "of tangent-space collocation, in the limit of fine grids",
        .judge = replay_beside_tangent,
        .condition = "the paper motivates DMOC by effort that is meaningful only if the system responds to the "
-                    "forces as computed, and compares no responses; controls are constant over an interval",
+                    "forces as computed, and compares no responses; controls are constant over an interval; on coarse "
+                    "grids either method may have the smaller error",
+       .cause = "the momentum balance that the discrete system keeps does not bound the error of its trajectory: both "
+                "errors are of order h^2, and their factors depend on the trajectory",
        .evidence = {"convergence.csv"},
        .headline = true},
       {.id = "rounding_floor",
@@ -112,8 +118,8 @@ Claims accuracy_claims() {
        .where = "section 4.1, SQP Method",
        .states = "interior_point, the solver of experiments that do not compare solvers, ends in the minima of Ipopt",
        .judge = interior_point_beside_ipopt,
-       .condition = "warm, from a common start; the solutions of both are refined by Newton steps, so that the claim "
-                    "is about the branch and not about digits",
+       .condition = "warm, from a common start; the solutions of both are refined by Newton steps, so the claim is "
+                    "about the branch, not about digits",
        .evidence = {"convergence.csv", "convergence_stages.csv"}}};
 }
 

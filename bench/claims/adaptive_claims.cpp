@@ -27,10 +27,10 @@ std::size_t count_outside(const Selection& rows) {
 }
 
 Words words_of_effectivity(const Row& row) {
-  return worded("{:.2f} ({}, {}, s = {}, N = {}, {})",
-                Measurement{"estimated over true error", effectivity_of(row), row.text("method"), row.text("problem")},
-                row.text("problem"), row.text("method"), row.text("stages"), row.text("intervals"),
-                row.text("quantity"));
+  return worded(
+      "{:.2f} ({}, {}, s = {}, N = {}, {})",
+      Measurement{"ratio of estimated to true error", effectivity_of(row), row.text("method"), row.text("problem")},
+      row.text("problem"), row.text("method"), row.text("stages"), row.text("intervals"), row.text("quantity"));
 }
 
 Finding effective(const ResultTables& tables, const std::string& /*problem*/) {
@@ -45,10 +45,10 @@ Finding effective(const ResultTables& tables, const std::string& /*problem*/) {
   const Selection coarse = all.where("status", "too coarse");
   const Selection unsolved =
       all.where([](const Row& row) { return row.text("status") != "solved" && row.text("status") != "too coarse"; });
-  return found(outside == 0, "estimated over true error from {} to {}", words_of_effectivity(*least),
+  return found(outside == 0, "ratio of estimated to true error from {} to {}", words_of_effectivity(*least),
                words_of_effectivity(*most))
-      .also(worded("{} of {} outside of 0.3 to 3", outside, judged_rows.size()))
-      .also(worded("of {} with solutions off by more than 1 % {}", large.size(), count_outside(large)))
+      .also(worded("{} of {} outside 0.3 to 3", outside, judged_rows.size()))
+      .also(worded("of {} with errors above 1 %, {} are outside", large.size(), count_outside(large)))
       .also(worded("{} below the floor, {} solutions too coarse, {} not solved", all.where("verdict", "floor").size(),
                    coarse.size(), unsolved.size()))
       .also(worded("{} problems", measured.distinct("problem").size()));
@@ -83,7 +83,7 @@ Finding fewer_intervals(const ResultTables& tables, const std::string& problem) 
     const Row& best = fewest_intervals(adapted);
     const Row& other = fewest_intervals(uniform);
     const auto ratio = [&](const Row& uniform_row, const Row& adapted_row, const std::string& at) {
-      return Measurement{"intervals of uniform grids over adapted ones",
+      return Measurement{"ratio of intervals, uniform to adapted grids",
                          quotient(uniform_row, adapted_row, "intervals"), method, at};
     };
     std::vector<Words> of_method{worded("{} {} (s = {}) against {} (s = {}), {:.2f} times", method,
@@ -114,10 +114,10 @@ Finding more_variables_by_collocation(const ResultTables& tables, const std::str
       holds = holds && ratio > 1.0;
       const std::string stages = "s = " + own.text("stages");
       words.push_back(worded("{} {}: {:.2f}", method, stages,
-                             Measurement{"variables over DMOC's at equal accuracy", ratio, method, stages}));
+                             Measurement{"ratio of variables to DMOC's at equal accuracy", ratio, method, stages}));
     }
   }
-  return found(holds, "variables over DMOC's at equal accuracy: {}", joined(words, ", "));
+  return found(holds, "ratio of variables to DMOC's at equal accuracy: {}", joined(words, ", "));
 }
 
 }  // namespace
@@ -140,8 +140,8 @@ Claims adaptive_claims() {
        .problems = uneven_problems,
        .where = "section 5, Adaptive Time Steps",
        .whose = Whose::extension,
-       .states = "how many times as many intervals uniform grids need for an error of 1e-8 as grids that error control "
-                 "adapts, the best number of stages of each",
+       .states = "ratio of intervals for an error of 1e-8, uniform grids to grids adapted by error control, each with "
+                 "its best number of stages",
        .judge = fewer_intervals,
        .condition = "true errors of q, p and cost, relative to their ranges",
        .evidence = {"adaptive.csv", "figures/{}_adaptive.svg"},

@@ -125,7 +125,8 @@ std::vector<Words> reasons_of(const Claim& claim, const std::string& problem, co
   if (finding.verdict == ClaimVerdict::differs) reasons.push_back({.text = claim.cause.on(problem)});
   reasons.push_back({.text = claim.condition.on(problem)});
   if (claim.by_counting) {
-    reasons.push_back({.text = "it follows from counting the unknowns or from a choice, so that no solve can turn it"});
+    reasons.push_back(
+        {.text = "it follows from counting the unknowns or from a choice, so that no solve can change it"});
   }
   reasons.push_back(finding.reason);
   std::erase_if(reasons, [](const Words& words) { return words.is_empty(); });
@@ -196,7 +197,7 @@ ClaimVerdict verdict_on_all(const std::vector<ClaimVerdict>& verdicts) {
 
 double quotient(const Row& numerator, const Row& denominator, const std::string& column) {
   if (const auto value = ratio(numerator.needed(column), denominator.needed(column))) return *value;
-  throw Error(fmt::format("{}, column {}: a ratio needs a number above zero", denominator.place(), column));
+  throw Error(fmt::format("{}, column {}: a ratio needs positive numbers", denominator.place(), column));
 }
 
 Words left_out(const Selection& all, const Selection& used, std::string_view why) {

@@ -189,6 +189,16 @@ template <class Outcome, class... Values>
 /// of `near` around the expected order. Throws `Error` without slope or standard error.
 [[nodiscard]] ClaimVerdict verdict_on_order(const Row& row, double expected, double near = near_order);
 
+/// Whether a row of fitted orders has one that counts. Where finer grids contradict the range that it was fitted on,
+/// errors are not asymptotic there: such an order neither supports nor refutes a claim, whatever it is.
+[[nodiscard]] inline bool has_order(const Row& row) {
+  return row.text("verdict") == "slope" && row.text("fine_end") != "orders";
+}
+/// Why a row has no order that counts: "floor", "few grids", "unsteady", or "not asymptotic".
+[[nodiscard]] inline std::string why_without_order(const Row& row) {
+  return row.text("verdict") == "slope" ? "not asymptotic" : row.text("verdict");
+}
+
 /// The verdict on all of several: one that differs decides, then one that is undecided.
 [[nodiscard]] ClaimVerdict verdict_on_all(const std::vector<ClaimVerdict>& verdicts);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <ranges>
 #include <string_view>
 #include <system_error>
@@ -29,12 +30,13 @@ std::string evidence_in_words(const JudgedClaim& claim) {
 const Columns<JudgedClaim>& claim_columns() {
   static const Columns<JudgedClaim> all{
       {"claim", "", "problem and short name", &JudgedClaim::id, in_key},
-      {"where", "", "in the paper", &JudgedClaim::where},
-      {"figure", "", "of the paper", &JudgedClaim::figure},
-      {"whose", "", "who states it", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
+      {"where", "", "place in the paper", &JudgedClaim::where},
+      {"figure", "", "figure of the paper", &JudgedClaim::figure},
+      {"whose", "", "who makes the statement", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
       {"states", "", "the statement", &JudgedClaim::states},
       {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
-      {"verdict", "", "by the tables", [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
+      {"verdict", "", "verdict computed from the tables",
+       [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
       {"reason", "", "why it differs, or when it holds", &JudgedClaim::reason},
       {"evidence", "", "tables and figures", evidence_in_words},
       {"sure", "", "exact, or the share of replicates with the same verdict", &JudgedClaim::sure},
@@ -46,8 +48,9 @@ const Columns<JudgedClaim>& claim_columns() {
 const Columns<JudgedClaim>& finding_columns() {
   static const Columns<JudgedClaim> all{
       {"finding", "", "problem and short name", &JudgedClaim::id, in_key},
-      {"where", "", "the place in the paper that it is about", &JudgedClaim::where},
-      {"whose", "", "ours, or about an extension", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
+      {"where", "", "related place in the paper", &JudgedClaim::where},
+      {"whose", "", "ours, or an extension of the suite",
+       [](const JudgedClaim& claim) { return name_of(claim.whose); }},
       {"question", "", "what is measured", &JudgedClaim::states},
       {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
       {"condition", "", "when it holds", &JudgedClaim::reason},
@@ -78,7 +81,7 @@ struct Title {
 Title title_of(Whose whose) {
   constexpr std::array titles{
       Title{"the paper's statements and remarks", "The paper's statements and remarks"},
-      Title{"findings of ours", "Findings of ours: sharper forms, and questions that the paper leaves open"},
+      Title{"our findings", "Our findings: sharper forms, and questions that the paper leaves open"},
       Title{"misprints", "Misprints: the printed and the intended statement"},
       Title{"extensions", "Extensions of the suite"}};
   return titles[static_cast<std::size_t>(whose)];
@@ -120,6 +123,16 @@ std::string told_together(std::ptrdiff_t count, ClaimVerdict verdict) {
   return fmt::format("{} {}", count, are_several ? "differ" : name_of(verdict));
 }
 
+/// "21 reproduced, 4 differ".
+std::string counts_in_words(const std::vector<JudgedClaim>& claims) {
+  std::vector<std::string> counts;
+  for (const ClaimVerdict verdict : all_verdicts) {
+    const auto count = std::ranges::count(claims, verdict, &JudgedClaim::verdict);
+    if (count > 0) counts.push_back(told_together(count, verdict));
+  }
+  return fmt::format("{}", fmt::join(counts, ", "));
+}
+
 /// "- **orbit/fast** (section 4): reproduced. It is claimed; measured: 2.01; why".
 std::string bullet(const JudgedClaim& claim) {
   return fmt::format("- **{}** ({}), {}: {}. Measured: {}.{}{}\n", claim.id(), claim.where, name_of(claim.verdict),
@@ -128,7 +141,8 @@ std::string bullet(const JudgedClaim& claim) {
 
 /// The summary: the counts, each statement of the paper that is not reproduced, and our most important findings.
 std::string summary_markdown(const std::vector<JudgedClaim>& claims) {
-  std::string text = fmt::format("## Summary\n\n- {}\n", fmt::join(closing_lines(claims), "\n- "));
+  std::string text = fmt::format("## Summary\n\n- {}\n\nThe paper's statements by section:\n\n- {}\n",
+                                 fmt::join(closing_lines(claims), "\n- "), fmt::join(section_lines(claims), "\n- "));
   const auto append = [&](const char* heading, const auto& is_wanted) {
     std::string bullets;
     for (const JudgedClaim& claim : claims) {
@@ -139,7 +153,7 @@ std::string summary_markdown(const std::vector<JudgedClaim>& claims) {
   append("Statements and remarks of the paper that are not reproduced", [](const JudgedClaim& claim) {
     return claim.whose == Whose::paper && claim.verdict != ClaimVerdict::reproduced;
   });
-  append("Findings of ours to read first", [](const JudgedClaim& claim) { return claim.headline; });
+  append("Our main findings", [](const JudgedClaim& claim) { return claim.headline; });
   return text;
 }
 
@@ -196,10 +210,11 @@ Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
     std::string records;
     std::string columns;
   };
-  const Columns<Evidence> columns{{"claim", "", "its name", &Evidence::claim, in_key},
-                                  {"table", "", "the file that was read", &Evidence::table, in_key},
-                                  {"records", "", "of that file, 2-5 9; the header is record 1", &Evidence::records},
-                                  {"columns", "", "that were read, with spaces between them", &Evidence::columns}};
+  const Columns<Evidence> columns{
+      {"claim", "", "name of the claim", &Evidence::claim, in_key},
+      {"table", "", "the file that was read", &Evidence::table, in_key},
+      {"records", "", "records that were read, such as 2-5 9; the header is record 1", &Evidence::records},
+      {"columns", "", "columns that were read, separated by spaces", &Evidence::columns}};
   std::vector<Evidence> evidence;
   for (const JudgedClaim& claim : claims) {
     for (const ReadRows& rows : claim.rows) {
@@ -249,17 +264,28 @@ std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims) {
   for (const Whose whose : all_sources) {
     const std::vector<JudgedClaim> of_source = stated_by(claims, whose);
     if (of_source.empty()) continue;
-    std::vector<std::string> counts;
-    for (const ClaimVerdict verdict : all_verdicts) {
-      const auto count = std::ranges::count(of_source, verdict, &JudgedClaim::verdict);
-      if (count > 0) counts.push_back(told_together(count, verdict));
-    }
-    lines.push_back(fmt::format("{}: {}", title_of(whose).line, fmt::join(counts, ", ")));
+    lines.push_back(fmt::format("{}: {}", title_of(whose).line, counts_in_words(of_source)));
   }
   if (const std::vector<JudgedClaim> findings = without_verdict(claims); !findings.empty()) {
     const auto count = std::ranges::count(findings, ClaimVerdict::measured, &JudgedClaim::verdict);
     lines.push_back(fmt::format("measurements without a verdict: {} of {}", count, findings.size()));
   }
+  return lines;
+}
+
+std::string section_in(std::string_view where) {
+  const std::size_t number = where.find_first_of("0123456789");
+  if (number == std::string_view::npos) return std::string(where.substr(0, where.find(',')));
+  const std::size_t end = std::min(where.find_first_not_of("0123456789.", number), where.size());
+  return fmt::format("section {}", where.substr(number, end - number));
+}
+
+std::vector<std::string> section_lines(const std::vector<JudgedClaim>& claims) {
+  std::map<std::string, std::vector<JudgedClaim>> sections;
+  for (const JudgedClaim& claim : stated_by(claims, Whose::paper)) sections[section_in(claim.where)].push_back(claim);
+  std::vector<std::string> lines;
+  for (const auto& [section, of_section] : sections)
+    lines.push_back(fmt::format("{}: {}", section, counts_in_words(of_section)));
   return lines;
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -33,6 +34,13 @@ namespace dmocbench {
 /// How many claims have which verdict, a line for the paper's statements, its remarks, ours and the misprints:
 /// "the paper's statements: 21 reproduced, 4 differ". Groups without claims have no line.
 [[nodiscard]] std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims);
+
+/// The first section of the paper that a place names: "section 2.2" of "sections 2.2 and 3.4, equ_L_RK"; the part
+/// before the first comma where none is named.
+[[nodiscard]] std::string section_in(std::string_view where);
+
+/// How many of the paper's statements have which verdict, section by section: "section 3.4: 4 reproduced, 1 undecided".
+[[nodiscard]] std::vector<std::string> section_lines(const std::vector<JudgedClaim>& claims);
 
 /// Finds the files of each claim's evidence that are missing from a results folder.
 void mark_missing_evidence(std::vector<JudgedClaim>& claims, const std::filesystem::path& folder);

@@ -1,5 +1,6 @@
 // Cold starts: how often a method converges from the problem's guess and near it, which warm starts cannot show.
 #include <algorithm>
+#include <string_view>
 
 #include "bench/claims/claim.hpp"
 #include "bench/claims/cold_start_counts.hpp"
@@ -29,7 +30,9 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
   require(dmoc.size() == 1, "cold_start_shares.csv has {} rows of {} by dmoc and interior_point, not one", dmoc.size(),
           problem);
   const ShareCount own = count_of_cold_starts(dmoc.front(), column);
-  Finding finding = found(ClaimVerdict::measured, "{} cold starts", share_in_words("dmoc", own));
+  Finding finding =
+      found(ClaimVerdict::measured, "cold starts that are {}: {}",
+            std::string_view(column) == "best" ? "confirmed in the best minimum" : column, share_in_words("dmoc", own));
   for (const std::string method : {"hamiltonian", "tangent"}) {
     const Selection others = midpoint(rows, method).matching(dmoc.front(), {"intervals", "derivatives"});
     require(others.size() == 1, "cold_start_shares.csv has {} rows of {} by {} to compare with dmoc, not one",
@@ -38,8 +41,8 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
     const ShareInterval difference = difference_interval(own, count);
     finding.clauses.push_back(
         worded("{}, difference {:+.1f} to {:+.1f} %: {}", share_in_words(method, count),
-               Measurement{"lower end of DMOC's share less the method's", 100.0 * difference.lower, method, "", "%"},
-               Measurement{"upper end of DMOC's share less the method's", 100.0 * difference.upper, method, "", "%"},
+               Measurement{"lower end of DMOC's share minus the method's", 100.0 * difference.lower, method, "", "%"},
+               Measurement{"upper end of DMOC's share minus the method's", 100.0 * difference.upper, method, "", "%"},
                in_words(difference)));
   }
   if (tables.has("cold_start_indirect")) {
@@ -82,20 +85,23 @@ ShareCount count_of_cold_starts(const Row& row, const char* column) {
 Claims cold_start_claims() {
   const std::vector<std::string> evidence{"cold_start_shares.csv", "cold_start_indirect.csv",
                                           "figures/{}_cold_start.svg"};
-  return {{.id = "cold_starts_confirmed",
-           .where = "section 4.1, SQP Method",
-           .states = "how often DMOC and collocation are solved and confirmed from cold starts, the guess and near it",
-           .judge = how_often_in("confirmed"),
-           .condition = "by interior_point; section 3.3 names the indirect methods",
-           .evidence = evidence,
-           .has_verdict = false},
-          {.id = "cold_starts_best",
-           .where = "section 5, Global Minima",
-           .states = "how often DMOC and collocation end in the best minimum from cold starts, the guess and near it",
-           .judge = how_often_in("best"),
-           .condition = "by interior_point",
-           .evidence = evidence,
-           .has_verdict = false}};
+  return {
+      {.id = "cold_starts_confirmed",
+       .where = "section 4.1, SQP Method",
+       .states =
+           "how often DMOC and collocation are solved and confirmed from cold starts (the guess and perturbed guesses)",
+       .judge = how_often_in("confirmed"),
+       .condition = "by interior_point; section 3.3 names the indirect methods",
+       .evidence = evidence,
+       .has_verdict = false},
+      {.id = "cold_starts_best",
+       .where = "section 5, Global Minima",
+       .states =
+           "how often DMOC and collocation end in the best minimum from cold starts (the guess and perturbed guesses)",
+       .judge = how_often_in("best"),
+       .condition = "by interior_point",
+       .evidence = evidence,
+       .has_verdict = false}};
 }
 
 }  // namespace dmocbench

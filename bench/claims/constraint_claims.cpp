@@ -22,36 +22,44 @@ constexpr std::array statements{
     std::pair{"spherical_pendulum_cartesian", "spherical_pendulum"}, std::pair{"cart_pole_cartesian", "cart_pole"},
     std::pair{"two_link_maximal", "two_link_manipulator"}, std::pair{"link_chain_maximal", "link_chain"}};
 
-Finding equal_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
-  constexpr double rounding = 1e-9;
-  Selection all = tables.rows("equivalence_constrained").where("method", "hamiltonian");
-  all.append(tables.rows("equivalence_constrained_lobatto").where("method", "hamiltonian"));
+Finding equal_under_constraints(const Selection& all, double rounding) {
   const Selection rows = all.usable();
-  require(
-      rows.group_by({"tableau", "stages"}).size() > 1,
-      "equivalence_constrained.csv and equivalence_constrained_lobatto.csv have solved rows of {} tableaus; two are "
-      "needed",
-      rows.group_by({"tableau", "stages"}).size());
+  require(!rows.empty(), "DMOC and Hamiltonian collocation have no solved grid with constraints");
   double largest = 0.0;
   for (const char* column :
        {"configuration_difference", "momentum_difference", "control_difference", "objective_difference"}) {
     largest = std::max(largest, rows.max(column));
   }
   return found(largest < rounding,
-               "{} grids of {} with {} tableaus, largest relative difference of q, projected p, u and J: {:.0e}",
-               rows.size(), fmt::join(rows.distinct("problem"), ", "), rows.group_by({"tableau", "stages"}).size(),
+               "{} grids of {} with {}, largest relative difference of q, projected p, u and J: {:.0e}", rows.size(),
+               fmt::join(rows.distinct("problem"), ", "), fmt::join(rows.distinct("tableau"), " and "),
                Measurement{"largest relative difference of q, p, u and J", largest})
       .also(worded("of costates {:.0e}",
                    Measurement{"largest relative difference of the costates", rows.max("costate_difference")}))
       .also(left_out(all, rows));
 }
 
-Finding momentum_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
-  constexpr double rounding = 1e-10;
-  const Selection rows = tables.rows("consistency_constrained").usable();
+Finding equal_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
+  Selection all = tables.rows("equivalence_constrained").where("method", "hamiltonian");
+  all.append(tables.rows("equivalence_constrained_lobatto").where("method", "hamiltonian"));
+  const std::size_t tableaus = all.usable().group_by({"tableau", "stages"}).size();
+  require(tableaus > 1,
+          "equivalence_constrained.csv and equivalence_constrained_lobatto.csv have solved rows of {} tableaus; two "
+          "are needed",
+          tableaus);
+  return equal_under_constraints(all, 1e-9);
+}
+
+Finding equal_with_velocity_constraints(const ResultTables& tables, const std::string& /*problem*/) {
+  return equal_under_constraints(tables.rows("equivalence_velocity_constraints").where("method", "hamiltonian"), 1e-12);
+}
+
+Finding balance_of_momentum(const ResultTables& tables, const std::string& table) {
+  constexpr double rounding = 1e-10;  // of a solver's tolerance
+  const Selection rows = tables.rows(table).usable();
   const auto of = [&](const char* method) { return rows.where("method", method); };
   require(!of("dmoc").empty() && !of("hamiltonian").empty() && !of("tangent").empty(),
-          "consistency_constrained.csv needs solved rows of three methods");
+          "{}.csv needs solved rows of three methods", table);
   const auto largest = [&](const char* method) {
     return Measurement{"largest defect of an interval", of(method).max("momentum_defect_max"), method};
   };
@@ -64,6 +72,26 @@ Finding momentum_with_constraints(const ResultTables& tables, const std::string&
                "largest defect of an interval on {} grids of {}: dmoc {:.0e}, hamiltonian {:.0e}, tangent {:.0e}",
                of("dmoc").size(), fmt::join(rows.distinct("problem"), ", "), largest("dmoc"), largest("hamiltonian"),
                largest("tangent"));
+}
+
+Finding momentum_with_constraints(const ResultTables& tables, const std::string& /*problem*/) {
+  return balance_of_momentum(tables, "consistency_constrained");
+}
+
+Finding momentum_with_velocity_constraints(const ResultTables& tables, const std::string& /*problem*/) {
+  return balance_of_momentum(tables, "consistency_velocity_constraints");
+}
+
+Finding orders_with_velocity_constraints(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double tolerance = 0.2;
+  const Selection rows = tables.rows("convergence_velocity_constraints_slopes").where([](const Row& row) {
+    return row.text("verdict") == "slope" && row.text("quantity") != "control" && row.text("quantity") != "replay";
+  });
+  require(!rows.empty(), "convergence_velocity_constraints_slopes.csv needs fitted orders");
+  const auto deviation = [](const Row& row) { return std::abs(row.needed("slope") - 2.0); };
+  return found(rows.max(deviation) < tolerance, "{} orders of {}: at most {:.2f} away from 2", rows.size(),
+               fmt::join(rows.distinct("problem"), ", "),
+               Measurement{"largest distance of an order from 2", rows.max(deviation)});
 }
 
 /// The relative difference of the costs of both statements on a grid.
@@ -105,7 +133,7 @@ Finding costs_with_constraints(const ResultTables& tables, const std::string& /*
 /// A statement of a problem on the grid of `row`, if it was solved.
 const Row& same_grid(const Selection& rows, const std::string& problem, const Row& row) {
   const Selection same = rows.where("problem", problem).where("intervals", row.text("intervals"));
-  require(same.size() == 1, "objective_forms.csv needs one solved row of {} with N = {}, and has {}", problem,
+  require(same.size() == 1, "objective_forms.csv needs one solved row of {} with N = {}, but has {}", problem,
           row.text("intervals"), same.size());
   return same.front();
 }
@@ -146,7 +174,7 @@ Finding embedding_with_constraints(const ResultTables& tables, const std::string
 
 }  // namespace
 
-/// Holonomic constraints g(q) = 0 (DMOCC).
+/// Holonomic constraints g(q) = 0 (DMOCC), velocity constraints A(q) q̇ = 0.
 Claims constraint_claims() {
   return {{.id = "equal_solutions",
            .problems = constrained,
@@ -163,7 +191,7 @@ Claims constraint_claims() {
            .states = "with constraints g(q) = 0 the change in momentum equals the work of the forces for DMOC and "
                      "Hamiltonian collocation, not for tangent-space collocation",
            .judge = momentum_with_constraints,
-           .condition = "the force along the symmetry is the intended one off the manifold, too",
+           .condition = "the force along the symmetry is the intended one also off the manifold",
            .evidence = {"consistency_constrained.csv"}},
           {.id = "costs",
            .problems = constrained,
@@ -176,10 +204,36 @@ Claims constraint_claims() {
            .problems = constrained,
            .where = "section 1, DMOCC",
            .whose = Whose::extension,
-           .states = "an embedding q = Φ(θ) at the nodes has the optimal costs of multipliers, with fewer unknowns and "
-                     "rows, by DMOC with one Gauss stage",
+           .states = "for DMOC with one Gauss stage, an embedding q = Φ(θ) at the nodes has the same optimal costs as "
+                     "multipliers, with fewer unknowns and rows",
            .judge = embedding_with_constraints,
-           .evidence = {"objective_forms.csv", "figures/constraint_forms.svg"}}};
+           .evidence = {"objective_forms.csv", "figures/constraint_forms.svg"}},
+          {.id = "velocity_equal_solutions",
+           .problems = constrained,
+           .where = "section 1, nonholonomic constraints; th:equi",
+           .whose = Whose::extension,
+           .states = "with velocity constraints A(q) q̇ = 0 DMOC and Hamiltonian collocation have equal solutions, too",
+           .judge = equal_with_velocity_constraints,
+           .condition = "momenta are the projected ones; Gauss with one stage",
+           .evidence = {"equivalence_velocity_constraints.csv"}},
+          {.id = "velocity_momentum",
+           .problems = constrained,
+           .where = "section 1, nonholonomic constraints; eq:noether_force_d",
+           .whose = Whose::extension,
+           .states = "with velocity constraints the change in momentum equals the work of the forces and the impulses "
+                     "of the forces of constraint for DMOC and Hamiltonian collocation, not for tangent-space "
+                     "collocation",
+           .judge = momentum_with_velocity_constraints,
+           .condition = "L_vv depends on q; where it is constant, tangent-space collocation with one Gauss stage "
+                        "balances them, too",
+           .evidence = {"consistency_velocity_constraints.csv"}},
+          {.id = "velocity_orders",
+           .problems = constrained,
+           .where = "section 1, nonholonomic constraints; main_theorem",
+           .whose = Whose::extension,
+           .states = "with velocity constraints and one Gauss stage states, momenta, costates and cost have order 2",
+           .judge = orders_with_velocity_constraints,
+           .evidence = {"convergence_velocity_constraints_slopes.csv"}}};
 }
 
 }  // namespace dmocbench

@@ -43,10 +43,11 @@ Predicate has_order_of_consistency(const char* one, const char* other) {
                     Measurement{"order r", row.needed("order"), "", stages});
     };
     return found(verdict_on_all(orders, is_one_more), "slopes over h by Gauss: {}", joined(orders, ", ", words))
-        .also(beyond == 0 ? Words()
-                          : worded("{} slopes with four stages left out, which reach round-off first, in favour of the "
-                                   "claim",
-                                   beyond));
+        .also(beyond == 0
+                  ? Words()
+                  : worded(
+                        "{} slopes with four stages, which reach round-off first, are left out; this favours the claim",
+                        beyond));
   };
 }
 
@@ -77,9 +78,9 @@ Finding forced_noether(const ResultTables& tables, const std::string& /*problem*
   const double in_long_double = dmoc.max("defect_in_long_double");
   return found(dmoc.max(miss) < rounding_in_double && defect < rounding_in_double &&
                    in_long_double < rounding_in_long_double && least_work > some_work,
-               "{} simulations of 400 steps with arbitrary controls: change of momentum less the work of f_d at most "
+               "{} simulations of 400 steps with arbitrary controls: change of momentum minus the work of f_d at most "
                "{:.1e}, at any step {:.1e}, in long double {:.1e}",
-               dmoc.size(), Measurement{"change of momentum less the work", dmoc.max(miss), "dmoc"},
+               dmoc.size(), Measurement{"change of momentum minus the work", dmoc.max(miss), "dmoc"},
                Measurement{"largest defect", defect, "dmoc"},
                Measurement{"largest defect in long double", in_long_double, "dmoc"})
       .also(worded("work at least {:.1e}", Measurement{"least work", least_work, "dmoc"}))
@@ -109,7 +110,7 @@ Finding symplectic(const ResultTables& tables, const std::string& /*problem*/) {
   const Selection rows = tables.rows("invariants_symplecticity");
   constexpr double within_rounding = 100.0;
   const auto defect = [](const Row& row) {
-    require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
+    require(row.needed("rounding") > 0.0, "{}, column rounding: the value must be positive", row.place());
     return row.needed("defect") / row.needed("rounding");
   };
   const auto is_tangent = [](const Row& row) { return row.text("method") == "tangent"; };
@@ -136,15 +137,15 @@ Finding continuous_noether(const ResultTables& tables, const std::string& /*prob
       along.size(), orthogonal.size());
   const auto miss = [](const Row& row) { return std::abs(row.needed("momentum_change") - row.needed("work")); };
   const auto in_tolerances = [&](const Row& row) {
-    require(row.needed("tolerance") > 0.0, "{}, column tolerance: it has to be above zero", row.place());
+    require(row.needed("tolerance") > 0.0, "{}, column tolerance: the value must be positive", row.place());
     return miss(row) / row.needed("tolerance");
   };
   const double least_work = -along.max([](const Row& row) { return -std::abs(row.needed("work")); });
   const double change = orthogonal.max([](const Row& row) { return std::abs(row.needed("momentum_change")); });
   return found(rows.max(in_tolerances) < within_tolerance && least_work > some_work,
-               "{} trajectories under smooth controls: change of momentum less the integral of the force at most "
+               "{} trajectories under smooth controls: change of momentum minus the integral of the force at most "
                "{:.1e}, the integral at least {:.1e} along the group action",
-               rows.size(), Measurement{"largest change of momentum less the integral", rows.max(miss)},
+               rows.size(), Measurement{"largest change of momentum minus the integral", rows.max(miss)},
                Measurement{"least integral", least_work})
       .also(worded("with orthogonal forces the momentum changes by at most {:.1e}",
                    Measurement{"largest change of momentum", change}));
@@ -154,7 +155,7 @@ Finding lagrangian_form(const ResultTables& tables, const std::string& /*problem
   constexpr double within_rounding = 100.0;
   const Selection rows = tables.rows("invariants_flow_symplecticity");
   const auto defect = [](const Row& row) {
-    require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
+    require(row.needed("rounding") > 0.0, "{}, column rounding: the value must be positive", row.place());
     return row.needed("defect") / row.needed("rounding");
   };
   return found(rows.max(defect) < within_rounding,
@@ -248,11 +249,11 @@ Claims flow_claims() {
       {.id = "energy_does_not_drift",
        .problems = simulated,
        .where = "section 3.3, Conservation of a Modified Energy",
-       .states = "the energy of an unforced ellipse oscillates and does not drift by DMOC, and drifts by explicit "
-                 "Runge-Kutta methods and Radau",
+       .states = "with DMOC the energy of an unforced ellipse oscillates without drift; with explicit Runge-Kutta "
+                 "methods and Radau it drifts",
        .judge = energy_oscillates,
-       .condition = "the energy and not a modified one; in Cartesian coordinates the mass matrix is constant and the "
-                    "paper's three methods coincide, so that this does not concern collocation",
+       .condition = "the energy itself, not a modified one; in Cartesian coordinates the mass matrix is constant and "
+                    "the paper's three methods coincide, so this is not a comparison with collocation",
        .evidence = {"invariants_energy_behaviour.csv", "figures/kepler_energy.svg"}}};
 }
 

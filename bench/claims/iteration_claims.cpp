@@ -224,7 +224,7 @@ Claims iteration_claims() {
                        "DMOC needs about 1.5 times fewer minor iterations"};
   const char* const condition =
       "by an SQP method with exact second derivatives that starts at the slack basis, cold, without active "
-      "inequalities; about: the printed number and 0.1 on either side, from N = 32 on";
+      "inequalities; about means within 0.1 of the printed number, from N = 32 on";
   return {
       {.id = "minor_iteration_ratio",
        .where = section,
@@ -249,21 +249,20 @@ Claims iteration_claims() {
        .whose = Whose::paper,
        .states = stated,
        .judge = minor_iterations_by_quasi_newton,
-       .condition =
-           "that the paper's SQP methods update by quasi-Newton is our inference; limited-memory BFGS in the "
-           "suite's SQP method, from the slack basis, begun with the curvatures of the cost: the paper does not "
-           "print the scaling of its unknowns",
-       .cause = "each major iteration costs every method one minor iteration more",
+       .condition = "we infer that the paper's SQP methods use quasi-Newton updates; limited-memory BFGS in the "
+                    "suite's SQP method, from the slack basis, initialised with the curvatures of the cost, because "
+                    "the paper does not print the scaling of its unknowns",
+       .cause = "each major iteration adds one minor iteration for every method",
        .evidence = {"iterations_limited_memory_by_cost.csv", "iterations_limited_memory_by_cost_common.csv"}},
       {.id = "quasi_newton_depends_on_units",
        .where = section,
        .figure = figure,
-       .states = "how many times as many minor iterations collocation takes where quasi-Newton updates begin with the "
-                 "identity, that is in the units of the unknowns",
+       .states = "ratio of minor iterations, collocation to DMOC, if quasi-Newton updates start from the identity, "
+                 "that is, in the units of the unknowns",
        .judge = minor_iterations_by_updates_of_the_identity,
-       .condition = "the cost is flat in these units: every method takes many major iterations, each with a minor "
-                    "iteration more, and DMOC on the orbit the most of them; scaling rows, by the step or to one size, "
-                    "changes little, and scaling the control to unit curvature of the cost saves most iterations",
+       .condition = "the cost is flat in these units: every method takes many major iterations, each with an "
+                    "additional minor iteration, and DMOC takes the most on the orbit; scaling rows, by the step or to "
+                    "one size, changes little; scaling the control to unit curvature of the cost saves most iterations",
        .evidence = {"iterations_limited_memory.csv", "iterations_limited_memory_common.csv"},
        .has_verdict = false},
       {.id = "minor_iterations_saved_in_phase_1",
@@ -280,7 +279,7 @@ Claims iteration_claims() {
        .states = "minor iterations reflect the reduced number of variables also where bounds are active",
        .judge = minor_iterations_with_active_bounds,
        .condition = "cold, from the guess; other problems than the paper's, whose controls have no bounds",
-       .cause = "a step that a bound cuts short costs one minor iteration more, by collocation as by DMOC",
+       .cause = "a step that a bound cuts short costs one additional minor iteration, with collocation as with DMOC",
        .evidence = {"iterations_bounds.csv"}},
   };
 }

@@ -35,13 +35,14 @@ Finding momentum_across_impacts(const ResultTables& tables, const std::string& /
   const auto largest = [&](const char* method) {
     const Selection of_method = rows.where("method", method);
     require(!of_method.empty(), "consistency_phases.csv has no solved row of {}", method);
-    return Measurement{"momentum less work over the whole motion", of_method.max("momentum_defect_total"), method};
+    return Measurement{"momentum minus work over the whole trajectory", of_method.max("momentum_defect_total"), method};
   };
   const bool balances = largest("dmoc").value < rounding && largest("hamiltonian").value < rounding;
   const ClaimVerdict verdict = !balances                             ? ClaimVerdict::differs
                                : largest("tangent").value > rounding ? ClaimVerdict::reproduced
                                                                      : ClaimVerdict::undecided;
-  return found(verdict, "momentum less work over the whole motion: dmoc {:.0e}, hamiltonian {:.0e}, tangent {:.0e}",
+  return found(verdict,
+               "momentum minus work over the whole trajectory: dmoc {:.0e}, hamiltonian {:.0e}, tangent {:.0e}",
                largest("dmoc"), largest("hamiltonian"), largest("tangent"));
 }
 
@@ -55,6 +56,40 @@ Finding orders_with_free_times(const ResultTables& tables, const std::string& /*
   return found(rows.max(deviation) < tolerance, "{} orders of {}: at most {:.2f} away from 2s", rows.size(),
                fmt::join(rows.distinct("problem"), ", "),
                Measurement{"largest distance of an order from 2s", rows.max(deviation)});
+}
+
+/// Of the state after an impact: the method's, and without it 1 where the energies of neighbouring steps lack the work
+/// of the forces, 2 where half of their work is added.
+double order_of_impact(const Row& impact) {
+  const std::string& condition = impact.text("condition");
+  if (impact.text("force") == "none" || condition == "momenta") return 2.0 * impact.needed("stages");
+  return condition == "steps" ? 1.0 : 2.0;
+}
+
+Finding energy_at_impacts(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double rounding = 1e-12;
+  constexpr double near = 0.2;
+  const Selection orders = tables.rows("invariants_impacts_slopes").where("quantity", "state_error");
+  const Selection kept = tables.rows("invariants_impacts").where("condition", "momenta");
+  const auto in_words = [&](const char* force, const char* condition) {
+    const Selection rows = orders.where("force", force).where("condition", condition);
+    require(rows.group_by({"stages"}).size() > 1,
+            "invariants_impacts_slopes.csv needs orders of {}, force {}, of two "
+            "numbers of stages",
+            condition, force);
+    return joined(rows, ", ", [](const Row& row) {
+      return worded("{:.2f}", Measurement{"order of the state", row.needed("slope"), "dmoc", row.text("condition")});
+    });
+  };
+  const ClaimVerdict of_orders =
+      verdict_on_all(orders, [](const Row& row) { return verdict_on_order(row, order_of_impact(row), near); });
+  return found(verdict_on_all({of_orders, verdict_on(kept.max("energy_change") < rounding)}),
+               "orders under a drag, s = 1, 2: energies of the steps {}, with half of the work {}, momenta {}",
+               in_words("drag", "steps"), in_words("drag", "steps_and_work"), in_words("drag", "momenta"))
+      .also(worded("without force: energies of the steps {}, momenta {}", in_words("none", "steps"),
+                   in_words("none", "momenta")))
+      .also(worded("change of energy by momenta at most {:.0e}",
+                   Measurement{"largest change of energy at an impact", kept.max("energy_change")}));
 }
 
 }  // namespace
@@ -83,7 +118,17 @@ Claims phase_claims() {
            .whose = Whose::extension,
            .states = "with free switching times states, momenta, costates and cost keep the order 2s",
            .judge = orders_with_free_times,
-           .evidence = {"convergence_phases_slopes.csv"}}};
+           .evidence = {"convergence_phases_slopes.csv"}},
+          {.id = "energy_at_impacts",
+           .problems = phases,
+           .where = "section 1, nonsmooth integrators",
+           .whose = Whose::extension,
+           .states = "as soon as forces act, equal discrete energies of the two steps next to an elastic impact, the "
+                     "condition of variational collision integrators, have order 1, with half of the forces' work "
+                     "order 2; the impact law for the Legendre-transformed momenta has order 2s and keeps the energy",
+           .judge = energy_at_impacts,
+           .condition = "without forces the energies of the steps are a right condition, of order 2s",
+           .evidence = {"invariants_impacts.csv", "invariants_impacts_slopes.csv"}}};
 }
 
 }  // namespace dmocbench

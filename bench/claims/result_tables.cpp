@@ -146,8 +146,8 @@ std::string content_of(const std::filesystem::path& path) {
 void refuse_parts(const std::filesystem::path& folder, const std::string& table) {
   const std::string run = run_of(folder, table, ".parts");
   if (run.empty()) return;
-  throw Error(fmt::format("{0}.csv is not there, but parts of {1} are: its command with --join {2} makes the table",
-                          table, run, folder.string()));
+  throw Error(fmt::format("{0}.csv is missing, but parts of {1} exist: run its command with --join {2}", table, run,
+                          folder.string()));
 }
 
 /// The metadata of a run that ended with all its cases. Throws `Error` otherwise.
@@ -170,7 +170,7 @@ nlohmann::ordered_json metadata_of_whole_run(const std::filesystem::path& folder
 void check_run(const std::filesystem::path& folder, const std::string& name, const Table& table,
                const std::string& content) {
   const std::string run = run_of(folder, name, ".json");
-  if (run.empty()) throw Error("there is no .json next to it, which would state whether its run was completed");
+  if (run.empty()) throw Error("the .json file next to it, which states whether its run was completed, is missing");
   const std::string source = run + ".json";
   const nlohmann::ordered_json metadata = metadata_of_whole_run(folder, source);
   const std::string file = name + ".csv";

@@ -1,8 +1,10 @@
 // Momentum-force consistency "to numerical accuracy", and which methods have equal solutions.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "bench/claims/claim.hpp"
+#include "bench/tables/fitted_orders.hpp"
 #include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
@@ -16,7 +18,6 @@ constexpr double clearly_larger = 1e3;
 
 constexpr double equal_solutions_tolerance = 1e-9;
 constexpr double equal_costates_tolerance = 1e-8;
-constexpr double foreign_rows_tolerance = 1e-10;
 
 double largest_defect(const Row& row) { return row.needed("momentum_defect_max"); }
 double accumulated_defect(const Row& row) { return std::abs(row.needed("momentum_defect_total")); }
@@ -110,17 +111,9 @@ Finding momentum_consistency(const ResultTables& tables, const std::string& prob
                         .also(balance.accumulated())
                         .also(left_out(balance.all, balance.all.usable()));
   if (others.empty()) return finding;
-  return std::move(finding).because(
-      worded("the balance is an equation of the program, kept as exactly as it is solved: largest defects {}",
-             joined(others, ", ")));
-}
-
-bool is_answer_of_dmoc(const Row& row) {
-  const auto leaves_rounding = [&](const char* violation, const char* rounding) {
-    return row.needed(violation) < std::max(foreign_rows_tolerance, row.needed(rounding));
-  };
-  return leaves_rounding("violation_in_rows_of_dmoc", "rounding_in_rows_of_dmoc") &&
-         leaves_rounding("violation_of_dmoc_here", "rounding_here");
+  return std::move(finding).because(worded(
+      "the balance is an equation of the program and holds as exactly as the program is solved: largest defects {}",
+      joined(others, ", ")));
 }
 
 /// The largest differences from DMOC, relative to each quantity's largest value.
@@ -154,7 +147,7 @@ Finding equal_solutions(const ResultTables& tables, const std::string& problem) 
   const Selection all = tables.rows("equivalence", problem).where("method", "hamiltonian");
   const Selection rows = all.usable();
   require(!rows.empty(), "equivalence.csv has no solved row of {} by hamiltonian", problem);
-  const bool rows_agree = std::ranges::all_of(rows, is_answer_of_dmoc);
+  const bool rows_agree = std::ranges::all_of(rows, has_solution_of_dmoc);
   const Differences largest(rows);
   return found(largest.are_rounding() && rows_agree,
                "{} grids with {} tableaus, largest relative difference: {}, costates {:.0e}", rows.size(),
@@ -162,6 +155,28 @@ Finding equal_solutions(const ResultTables& tables, const std::string& problem) 
                Differences::of("the costates", largest.costates))
       .also(worded("each solution satisfies the other method's equations {} round-off", rows_agree ? "to" : "not to"))
       .also(left_out(all, rows));
+}
+
+/// The optimal costs of the same programs with the cost as a sum and as the last value of a further state.
+Finding bolza_is_mayer(const ResultTables& tables, const std::string& problem) {
+  constexpr double rounding_of_costs = 1e-9;
+  const Selection all = tables.rows("objective_mayer", problem);
+  const Selection bolza = tables.rows("objective", problem).usable();
+  Selection used;
+  double largest = 0.0;
+  for (const Row& row : all.usable()) {
+    const Selection same = bolza.matching(row, {"method", "tableau", "stages", "intervals"});
+    if (same.empty()) continue;
+    used.append(row);
+    largest = std::max(largest, std::abs(quotient(row, same.front(), "objective") - 1.0));
+  }
+  require(used.size() > 1, "objective.csv and objective_mayer.csv have {} programs of {} solved in both forms",
+          used.size(), problem);
+  return found(largest < rounding_of_costs,
+               "costs of {} programs by {} in both forms differ by at most {:.0e}, relative", used.size(),
+               fmt::join(used.distinct("method"), ", "),
+               Measurement{"largest relative difference of the costs", largest})
+      .also(left_out(all, used, "not solved in both forms, in favour of"));
 }
 
 /// The same where inequalities are active or the horizon is free. An answer that no Newton step could refine differs by
@@ -178,7 +193,7 @@ Finding equal_with_inequalities(const ResultTables& tables, const std::string& /
   for (const Selection& of_problem : rows.group_by({"problem"})) {
     const std::string& name = of_problem.front().text("problem");
     const Differences largest(of_problem, name);
-    const bool agree = std::ranges::all_of(of_problem, is_answer_of_dmoc);
+    const bool agree = std::ranges::all_of(of_problem, has_solution_of_dmoc);
     verdicts.push_back(verdict_on(agree && largest.are_rounding()));
     words.push_back(worded("{} on {} grids: {}, T {:.0e}, costates {:.0e}", name, of_problem.size(), largest.words,
                            Differences::of("T", of_problem.max("horizon_difference"), name),
@@ -212,7 +227,7 @@ Finding costates_keep_their_momentum(const ResultTables& tables, const std::stri
 Finding tangent_differs(const ResultTables& tables, const std::string& problem) {
   const Selection all = midpoint(tables.rows("equivalence", problem), "tangent");
   const Selection rows = all.usable();
-  require(rows.size() > 1, "equivalence.csv has less than two solved grids of {} by tangent", problem);
+  require(rows.size() > 1, "equivalence.csv has fewer than two solved grids of {} by tangent", problem);
   const double coarse = rows.front().needed("configuration_difference");
   const double fine = rows.back().needed("configuration_difference");
   const Selection slopes = tables.rows("equivalence_slopes", problem).where("tableau", "gauss");
@@ -295,10 +310,17 @@ Claims solution_claims() {
       {.id = "equal_solutions",
        .where = "section 3.4, th:equi, equ_L_RK, ex:RK",
        .whose = Whose::paper,
-       .states = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
+       .states = "DMOC and Hamiltonian collocation with the same tableau have equal solutions",
        .judge = equal_solutions,
        .condition = "fixed ends, no inequality is active, solutions are refined by Newton steps",
        .evidence = equivalence},
+      {.id = "bolza_is_mayer",
+       .where = "sections 3.1, 3.2 and 3.4, eq:gDLOCP_mayer, eq:dHOCP1_mayer",
+       .whose = Whose::paper,
+       .states = "the transformation to Mayer form yields exactly the same problem",
+       .judge = bolza_is_mayer,
+       .condition = "by the optimal costs of separate solves",
+       .evidence = {"objective.csv", "objective_mayer.csv"}},
       {.id = "equal_solutions_with_inequalities",
        .problems = examples,
        .where = "section 3.4, th:equi",
@@ -307,7 +329,7 @@ Claims solution_claims() {
                  "horizon is free",
        .judge = equal_with_inequalities,
        .condition = "odd N: on even ones the symmetric switches of robot_arm fall on nodes, no control is left between "
-                    "its bounds there, and so multipliers are not unique",
+                    "its bounds there, so multipliers are not unique",
        .evidence = {"equivalence_inequalities.csv"}},
       {.id = "costates_keep_their_momentum",
        .problems = examples,
@@ -315,8 +337,8 @@ Claims solution_claims() {
        .states = "where L, f and the cost are invariant under a group, the momentum of the costates is constant along "
                  "the discrete optima of all three methods (Noether's theorem of the optimal control problem)",
        .judge = costates_keep_their_momentum,
-       .condition = "the group acts linearly on the coordinates, so that every method here is equivariant: this keeps "
-                    "no method apart",
+       .condition = "the group acts linearly on the coordinates, so every method here is equivariant, and this does "
+                    "not distinguish the methods",
        .evidence = {"equivalence_symmetric.csv"}},
       {.id = "tangent_differs",
        .where = section,
@@ -324,19 +346,23 @@ Claims solution_claims() {
        .judge = tangent_differs,
        .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}},
       {.id = "dmoc_is_the_forced_form",
-       .where = "section 5",
+       .where = "section 3.5",
        .states = "by the midpoint rule the optimality conditions of DMOC and Hamiltonian collocation are the discrete "
                  "Euler-Lagrange equations of the control Lagrangian C + xi (L_q + f) + xi' L_v",
        .judge = dmoc_is_the_forced_form,
-       .condition = "the multiplier xi is the costate of the momentum; ends are fixed and no inequality is active",
+       .condition = "the multiplier xi is the costate of the momentum; ends are fixed and no inequality is active; "
+                    "control Lagrangians are the topic of Leyendecker et al. (arXiv 2307.13402) and Konopik et al. "
+                    "(arXiv 2502.04742, 2503.04466)",
        .evidence = {"equivalence.csv"}},
       {.id = "tangent_is_the_acceleration_form",
-       .where = "section 5",
+       .where = "section 3.5",
        .states = "the optimality conditions of tangent-space collocation are the discrete equations of another form "
                  "of it, C + xi q'' + xi' q' with q'' a function of (q, q', u)",
        .judge = tangent_is_the_acceleration_form,
-       .condition = "the multiplier xi is L_vv times the costate of the momentum; the forms are equal where L_vv and "
-                    "L_vq are constant",
+       .condition =
+           "the multiplier xi is L_vv times the costate of the momentum; the forms are equal where L_vv and "
+           "L_vq are constant; this one is the control Lagrangian of Leyendecker et al. (arXiv 2307.13402) and "
+           "Konopik et al. (arXiv 2502.04742, 2503.04466)",
        .evidence = {"equivalence.csv"}}};
 }
 

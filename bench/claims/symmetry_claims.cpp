@@ -13,7 +13,7 @@ Finding optimal_motions_keep_momentum(const ResultTables& tables, const std::str
   constexpr double beyond_rounding = 1000.0;
   const Selection rows = tables.rows("invariants_orthogonal_forces");
   const auto deviation = [](const Row& row) {
-    require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
+    require(row.needed("rounding") > 0.0, "{}, column rounding: the value must be positive", row.place());
     return row.needed("momentum_deviation") / row.needed("rounding");
   };
   const auto is_tangent = [](const Row& row) { return row.text("method") == "tangent"; };
@@ -79,12 +79,11 @@ Claims rotation_claims() {
            .problems = simulated,
            .where = "section 2.2, eq:noether_force_d",
            .whose = Whose::paper,
-           .states =
-               "the momentum about every axis changes by the work of the discrete forces, also of a group that is not "
-               "abelian",
+           .states = "the momentum about every axis changes by the work of the discrete forces, also for a group that "
+                     "is not abelian",
            .judge = balanced_about_every_axis,
-           .condition = "the discrete Lagrangian has to be invariant, as it is where rotations act linearly on the "
-                        "coordinates; in polar coordinates it is about one axis alone",
+           .condition = "the discrete Lagrangian must be invariant, which holds where rotations act linearly on the "
+                        "coordinates; in polar coordinates it is invariant only about one axis",
            .evidence = {"invariants_rotations.csv"}}};
 }
 

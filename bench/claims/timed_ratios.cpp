@@ -48,11 +48,11 @@ std::string TimedRatios::sure() const {
   const std::size_t above = resamples_above();
   switch (verdict()) {
     case ClaimVerdict::reproduced:
-      return fmt::format("{} of {} resamples", above, resamples);
+      return fmt::format("{} of {} resamples of this run's rounds", above, resamples);
     case ClaimVerdict::differs:
-      return fmt::format("{} of {} resamples", resamples - above, resamples);
+      return fmt::format("{} of {} resamples of this run's rounds", resamples - above, resamples);
     default:
-      return fmt::format("it holds in {} of {} resamples", above, resamples);
+      return fmt::format("it holds in {} of {} resamples of this run's rounds", above, resamples);
   }
 }
 

@@ -23,8 +23,8 @@ class TimedRatios {
   [[nodiscard]] ClaimVerdict verdict() const;
   /// "ipopt 1.25 (1.21 to 1.30), sparse 1.40 (1.38 to 1.41)": medians with their intervals.
   [[nodiscard]] Words in_words() const;
-  /// "993 of 1000 resamples": how often the verdict follows from resampled rounds; for "undecided" how often
-  /// the claim holds.
+  /// "993 of 1000 resamples of this run's rounds": how often the verdict follows from them; for "undecided" how often
+  /// the claim holds. Another run, on another machine, may have another verdict.
   [[nodiscard]] std::string sure() const;
   /// The smallest number of rounds of a ratio; 0 without ratios.
   [[nodiscard]] std::size_t rounds() const;

@@ -83,9 +83,9 @@ Finding ratios_of_iterations(const ResultTables& tables, const std::string& prob
   const std::vector<StepRatios> all = all_ratios(tables, problem);
   const auto in_words = [](const StepRatios& ratios) {
     return worded("{} {:.2f}", ratios.name(),
-                  Measurement{"iterations over DMOC's", ratios.iterations, ratios.method, ratios.sequence});
+                  Measurement{"ratio of iterations to DMOC's", ratios.iterations, ratios.method, ratios.sequence});
   };
-  return found(ClaimVerdict::measured, "iterations over DMOC's: {}", joined(all, ", ", in_words))
+  return found(ClaimVerdict::measured, "ratio of iterations to DMOC's: {}", joined(all, ", ", in_words))
       .also(left_out_of(all));
 }
 
@@ -93,7 +93,7 @@ Finding less_time(const ResultTables& tables, const std::string& problem) {
   const std::vector<StepRatios> all = all_ratios(tables, problem);
   TimedRatios timed(1.0);
   for (const StepRatios& ratios : all) timed.add(ratios.name(), ratios.microseconds);
-  return found_by_times(timed, "time of a step over DMOC's: ").also(left_out_of(all));
+  return found_by_times(timed, "ratio of the time of a step to DMOC's: ").also(left_out_of(all));
 }
 
 }  // namespace
@@ -102,18 +102,18 @@ Finding less_time(const ResultTables& tables, const std::string& problem) {
 Claims warm_start_claims() {
   return {{.id = "iterations_of_warm_starts",
            .where = "section 4.1, SQP Method",
-           .states = "how many times as many iterations collocation takes as DMOC, started warm from unknowns and "
-                     "multipliers of the problem before",
+           .states = "ratio of iterations, collocation to DMOC, when started warm from the unknowns and multipliers of "
+                     "the previous problem",
            .judge = ratios_of_iterations,
            .condition = "by interior_point",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"},
            .has_verdict = false},
           {.id = "warm_starts_in_less_time",
            .where = "section 3.4, rem:savings",
-           .states = "started warm, from unknowns and multipliers of the problem before, a step by DMOC takes less "
-                     "time than one by collocation",
+           .states = "started warm from the unknowns and multipliers of the previous problem, a step with DMOC takes "
+                     "less time than a step with collocation",
            .judge = less_time,
-           .condition = "by interior_point; each step's time is the smallest of its repeats",
+           .condition = "by interior_point; the time of each step is the shortest of its repeats",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"}}};
 }
 

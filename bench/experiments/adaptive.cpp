@@ -78,7 +78,7 @@ int measure_all(CommandLine& line) {
   std::string solver = "auto";
   ProblemOptions asked{.problems = all_problems};
   asked.add_to(line);
-  line.number("--rounds", rounds, 0, 10000, "number of timed repetitions of the whole refinement");
+  line.number("--rounds", rounds, 0, 10000, "number of timed repetitions of the refinement");
   line.option("--solver", solver, "solver, as `list` names them");
   line.flag("--quick", is_quick, "only the problems with short fast phases, unless --problem names others");
   line.ignored_unless(

@@ -26,7 +26,7 @@ std::pair<std::string, int> parse_route(const std::string& text) {
   const std::size_t digits = text.find_first_of("0123456789");
   if (digits == 0 || digits == std::string::npos || text.size() - digits > 2 ||
       text.find_first_not_of("0123456789", digits) != std::string::npos) {
-    throw Error(fmt::format("--routes takes tableaus with their stages like gauss3,lobatto4, not {}", text));
+    throw Error(fmt::format("--routes takes tableaus with their stages, such as gauss3,lobatto4, not {}", text));
   }
   const std::string tableau = text.substr(0, digits);
   if (text[digits] == '0') throw Error(fmt::format("--routes: {} has a leading 0; write gauss3", text));
@@ -118,7 +118,7 @@ Columns<Certificate> certificate_columns(const std::vector<std::string>& routes)
   return columns +
          Columns<Certificate>{
              {"replay_objective", "cost",
-              "cost of the solution with the smallest jumps, its intervals integrated one by one",
+              "cost of the solution with the smallest jumps when its intervals are integrated one by one",
               from(&Certificate::replay_objective)},
              {"relative_jump", "", "largest jump of its intervals, relative to the range",
               from(&Certificate::relative_jump)},
@@ -180,7 +180,7 @@ class Certify final : public ExperimentOf<Measured> {
   [[nodiscard]] Columns<Measured> columns() const override {
     return {
         replay_error_column(&Measured::replay),
-        {"replay_objective", "cost", "cost of the trajectory, its intervals integrated one by one",
+        {"replay_objective", "cost", "cost of the trajectory when its intervals are integrated one by one",
          &Measured::replay_objective},
         {"polish_steps", "", "Newton steps after the solve", &Measured::polish_steps},
         {"indirect_objective", "cost", "cost by the indirect method",
@@ -243,7 +243,7 @@ class Certify final : public ExperimentOf<Measured> {
     std::vector<Certificate> certificates;
     for (const ProblemToCertify& certified : problems_) {
       const Certificate& c = certificates.emplace_back(certificate_of(*certified.problem, table));
-      output.summary.say(fmt::format("certify: {}: {} digits agree; reference {}", c.problem,
+      output.summary.say(fmt::format("certify: {}: all routes share {} digits; reference {}", c.problem,
                                      Cell(agreeing_digits(c)).text(), reference_in_words(c.agreement.confirmed)));
     }
     output.write("_references.csv", table_of(certificate_columns(route_names_), certificates));

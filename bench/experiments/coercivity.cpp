@@ -5,7 +5,6 @@
 #include "bench/experiments/kkt_eigenvalues.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/options.hpp"
-#include "bench/run/restated_problem.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/transcription/elements/families.hpp"
@@ -23,42 +22,50 @@ struct Curvature {
 const Columns<Curvature> columns =
     scheme_columns<Curvature>() +
     Columns<Curvature>{
-        {"end", "", "final state: fixed as stated, or free with its distance in the cost, as in the paper",
+        {"end", "", "variations of the final state: none as stated, or free as in the space M of the paper",
          &Curvature::end, in_key},
-        {"status", "", "of the solve", &Curvature::status},
+        {"status", "", "status of the solve", &Curvature::status},
         {"intervals", "", "number of intervals N", &Curvature::intervals, in_key},
         {"smallest_curvature", "cost per control^2 and time",
-         "largest alpha with d^2 L >= alpha h sum b_i |dU_i|^2; 0 below 1e-9, empty where the form is indefinite",
+         "largest alpha with d^2 L >= alpha h sum b_i |dU_i|^2, below 0 where the form is indefinite; 0 within 1e-9",
          &Curvature::smallest}};
 
 class Coercivity {
  public:
   explicit Coercivity(const TableRun& run) : run_(run) {}
 
-  /// All methods and grids; solves of a restated problem start where `base` does.
-  void measure(const std::shared_ptr<const Problem>& base, const std::shared_ptr<const Problem>& problem,
-               const char* end) {
+  /// All methods and grids, at the optimum of the problem as it is stated.
+  void measure(const std::shared_ptr<const Problem>& problem) {
+    const ProblemBounds bounds = problem->bounds();
+    const bool has_fixed_end = bounds.last.all_fixed() && !bounds.horizon.is_free();
     for (const std::string& method : paper_families()) {
-      for (const long long intervals : {16, 32, 64, 128, 256, 512}) {
-        Case the_case{
-            .problem = base, .method = method, .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(intervals)};
-        Start start = starts_.start_for(the_case);
-        if (problem != base) start = Start{std::move(start.motion)};
-        the_case.problem = problem;
+      for (const long long intervals : {12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256, 512}) {
+        const Case the_case{.problem = problem,
+                            .method = method,
+                            .tableau = "gauss",
+                            .solver = "ipopt",
+                            .grid = Grid::uniform(intervals)};
+        const Start start = starts_.start_for(the_case);
         run_.show(the_case.label());
         const SolvedCase solved = solve_case(the_case, start, *solver_, options_.tolerance, 1, true);
-        Curvature row{.scheme = {problem->name(), method, "gauss", 1},
-                      .end = end,
-                      .status = std::string(name_of(solved.solution.status)),
-                      .intervals = intervals};
-        if (is_discrete_optimum(solved)) row.smallest = smallest_curvature(*solved.program, solved.solution);
-        rows_.push_back(row);
+        append(solved, "stated", EndVariation::stated);
+        // The paper's states are (q, p): with v free at T the conditions at the end would not be linear.
+        if (has_fixed_end && method != "tangent") append(solved, "free", EndVariation::free);
       }
     }
   }
   [[nodiscard]] const std::vector<Curvature>& rows() const noexcept { return rows_; }
 
  private:
+  void append(const SolvedCase& solved, const char* name_of_end, EndVariation end) {
+    Curvature row{.scheme = {solved.the_case.problem->name(), solved.the_case.method, "gauss", 1},
+                  .end = name_of_end,
+                  .status = std::string(name_of(solved.solution.status)),
+                  .intervals = static_cast<long long>(solved.the_case.intervals())};
+    if (is_discrete_optimum(solved)) row.smallest = smallest_curvature(*solved.program, solved.solution, end);
+    rows_.push_back(row);
+  }
+
   const TableRun& run_;
   SolverOptions options_ = TableRun::solver_options();
   StartProvider starts_{{}, options_};
@@ -72,14 +79,7 @@ int measure_all(CommandLine& line) {
   asked.add_to(line);
   TableRun run("coercivity", line);
   Coercivity coercivity(run);
-  for (const std::shared_ptr<const Problem>& problem : run.selected(asked)) {
-    coercivity.measure(problem, problem, "stated");
-    const ProblemBounds bounds = problem->bounds();
-    if (!bounds.last.all_fixed() || bounds.horizon.is_free()) continue;
-    // As in `smoothness`, in the units of the scaled cost.
-    const RestatedProblem::Changes changes{.final_weight = 100.0 / problem->cost_scale()};
-    coercivity.measure(problem, std::make_shared<RestatedProblem>(problem, changes), "free");
-  }
+  for (const std::shared_ptr<const Problem>& problem : run.selected(asked)) coercivity.measure(problem);
   run.add("coercivity", columns, coercivity.rows());
   return run.write();
 }
@@ -88,8 +88,8 @@ int run(int argc, char** argv) {
   return run_program("coercivity",
                      "Computes the smallest curvature of the Lagrangian along trajectories of the linearised "
                      "equations, relative to the square of the control, for each number of intervals (coercivity.csv). "
-                     "It is bounded below where the optimum is coercive. If the whole final state is fixed, the "
-                     "problem with a free final state and its distance in the cost is measured too.",
+                     "It is bounded below by a positive number where the optimum is coercive. If the whole final state "
+                     "is fixed, variations that move it, the space of the paper, are measured too.",
                      argc, argv, measure_all);
 }
 

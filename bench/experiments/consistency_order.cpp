@@ -72,7 +72,7 @@ Columns<Record> first_columns() {
           {"tableau", "", "family of Butcher tableaus", &Record::tableau, in_key},
           {"stages", "", "number of stages", &Record::stages, in_key},
           {"order", "", "the tableau's order", &Record::order, in_key},
-          {"quantity", "", "the quantity that is compared with the exact one", &Record::quantity, in_key}};
+          {"quantity", "", "quantity that is compared with the exact one", &Record::quantity, in_key}};
 }
 
 /// The error measured on one step; empty if an equation has no solution for it.
@@ -146,9 +146,11 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Re
 struct ExactTransform {
   std::string problem;
   double h = 0.0;
-  std::optional<double> left{};  ///< all three are empty if the exact motion could not be found
+  std::optional<double> left{};  ///< all are empty if the exact motion could not be found
   std::optional<double> right{};
   std::optional<double> momentum{};
+  std::optional<double> force_error{};  ///< of the midpoint rule, like its exterior derivative
+  std::optional<double> force_error_curl{};
 };
 
 const Columns<ExactTransform> transform_columns{
@@ -156,9 +158,19 @@ const Columns<ExactTransform> transform_columns{
     {"h", "", "step", &ExactTransform::h, in_key},
     {"left_defect", "", "max of |-D_1 L_d^E - f_d^{E-} - L_v(0)|", &ExactTransform::left},
     {"right_defect", "", "max of |D_2 L_d^E + f_d^{E+} - L_v(h)|", &ExactTransform::right},
-    {"largest_momentum", "", "largest entry of L_v, to compare with", &ExactTransform::momentum}};
+    {"largest_momentum", "", "largest entry of L_v, for comparison", &ExactTransform::momentum},
+    {"force_error", "", "largest entry of omega = f_d - f_d^E on Q x Q, of the midpoint rule",
+     &ExactTransform::force_error},
+    {"force_error_curl", "", "h times the largest entry of d omega, which is 0 where omega is a differential",
+     &ExactTransform::force_error_curl}};
 
-/// D_1 L_d^E and D_2 L_d^E along e_i by differences of order 4, from boundary value problems with moved ends.
+/// f'(0) by differences of order 4.
+template <class Function>
+auto derivative_at_0(const Function& f, long double e) -> decltype(f(e)) {
+  return (8.0L * (f(e) - f(-e)) - (f(2.0L * e) - f(-2.0L * e))) / (12.0L * e);
+}
+
+/// D_1 L_d^E and D_2 L_d^E along e_i, from boundary value problems with moved ends.
 std::pair<long double, long double> derivatives_of_exact_lagrangian(const ExactDiscreteLagrangian& exact,
                                                                     const ExactInterval& at, long double h,
                                                                     Eigen::Index i) {
@@ -167,16 +179,48 @@ std::pair<long double, long double> derivatives_of_exact_lagrangian(const ExactD
   const auto lagrangian = [&](long double left, long double right) {
     return exact.between(at.q_0 + left * unit, at.q_1 + right * unit, at.v_0, h).objects.lagrangian;
   };
-  const auto derivative = [&](const auto& f) {
-    return (8.0L * (f(e) - f(-e)) - (f(2.0L * e) - f(-2.0L * e))) / (12.0L * e);
-  };
-  return {derivative([&](long double x) { return lagrangian(x, 0.0L); }),
-          derivative([&](long double x) { return lagrangian(0.0L, x); })};
+  return {derivative_at_0([&](long double x) { return lagrangian(x, 0.0L); }, e),
+          derivative_at_0([&](long double x) { return lagrangian(0.0L, x); }, e)};
 }
+
+/// ω = f_d - f_d^E of the midpoint rule as a one-form on Q × Q, (left, right).
+class ErrorOfForces {
+ public:
+  ErrorOfForces(const Problem& problem, const ExactDiscreteLagrangian& exact)
+      : exact_(exact), discrete_(problem, make_tableau("gauss", 1)) {}
+
+  /// Between the ends of an exact motion, moved by `by` (2n entries).
+  [[nodiscard]] LongVector at(const ExactInterval& at, const LongVector& by, long double h) const {
+    const Eigen::Index n = at.q_0.size();
+    const LongVector left = at.q_0 + by.head(n);
+    const LongVector right = at.q_1 + by.tail(n);
+    const LongMatrix controls = exact_.control(h / 2.0L).transpose();
+    const DiscreteObjects discrete = discrete_.at(left, right, controls, h, 0.0L);
+    const DiscreteObjects exact = exact_.between(left, right, at.v_0, h).objects;
+    LongVector error(2 * n);
+    error << discrete.left_force - exact.left_force, discrete.right_force - exact.right_force;
+    return error;
+  }
+  /// The largest |∂ω_i/∂x_j - ∂ω_j/∂x_i|.
+  [[nodiscard]] long double curl(const ExactInterval& at, long double h) const {
+    const Eigen::Index size = 2 * at.q_0.size();
+    LongMatrix jacobian(size, size);
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const auto moved = [&](long double x) { return this->at(at, x * LongVector::Unit(size, j), h); };
+      jacobian.col(j) = derivative_at_0(moved, 1e-3L * h);
+    }
+    return (jacobian - jacobian.transpose()).cwiseAbs().maxCoeff();
+  }
+
+ private:
+  const ExactDiscreteLagrangian& exact_;
+  DiscreteLagrangian discrete_;
+};
 
 ExactTransform exact_transform(const Problem& problem, long long intervals) {
   ExactTransform result{.problem = problem.name(), .h = problem.horizon() / static_cast<double>(intervals)};
   const ExactDiscreteLagrangian exact(problem, smooth_control(problem));
+  const ErrorOfForces error_of_forces(problem, exact);
   const auto raise = [](std::optional<double>& largest, long double value) {
     largest = std::max(largest.value_or(0.0), static_cast<double>(std::abs(value)));
   };
@@ -184,6 +228,9 @@ ExactTransform exact_transform(const Problem& problem, long long intervals) {
     for (const BoundaryState& start : initial_conditions(problem)) {
       throw_if_interrupted();
       const ExactInterval at = exact.along(start.q.cast<long double>(), start.v.cast<long double>(), result.h);
+      const LongVector nowhere = LongVector::Zero(2 * at.q_0.size());
+      raise(result.force_error, error_of_forces.at(at, nowhere, result.h).cwiseAbs().maxCoeff());
+      raise(result.force_error_curl, result.h * error_of_forces.curl(at, result.h));
       for (Eigen::Index i = 0; i < at.q_0.size(); ++i) {
         const auto [by_left, by_right] = derivatives_of_exact_lagrangian(exact, at, result.h, i);
         raise(result.left, -by_left - at.objects.left_force[i] - at.objects.left_momentum[i]);
@@ -195,7 +242,7 @@ ExactTransform exact_transform(const Problem& problem, long long intervals) {
   } catch (const Stopped&) {
     throw;
   } catch (const Error&) {  // the errors of the same step, measured before, have the reason
-    result.left = result.right = result.momentum = std::nullopt;
+    result = {.problem = result.problem, .h = result.h};
   }
   return result;
 }
@@ -204,7 +251,7 @@ int measure_all(CommandLine& line) {
   ProblemOptions asked{.problems = {"all"}};
   std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
   asked.add_to(line);
-  line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling");
+  line.option("--intervals", intervals, "numbers N of intervals with h = T/N: a list, or a doubling range first:last");
   TableRun run("consistency_order", line);
   const std::vector<long long> steps = parse_intervals("--intervals", intervals);
   remark(remark_on_ranges("--intervals", intervals));
@@ -229,10 +276,11 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "consistency_order",
-      "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
-      "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
-      "(consistency_order_slopes.csv); and the exact discrete Legendre transforms against L's, on the coarsest "
-      "and the finest step (consistency_order_transforms.csv).",
+      "Measures orders of consistency. For steps h = T/N and every tableau, consistency_order.csv has the errors of "
+      "DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map relative to the exact ones, and "
+      "consistency_order_slopes.csv their orders. consistency_order_transforms.csv compares the exact discrete "
+      "Legendre transforms with the transforms of L for the largest and the smallest step, and has "
+      "the error of the midpoint rule's forces with its exterior derivative.",
       argc, argv, measure_all);
 }
 

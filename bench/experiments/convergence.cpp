@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "methods/error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
 #include "methods/indirect/solve_indirect.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench::convergence_program {
 
@@ -103,7 +105,7 @@ class Convergence final : public ExperimentOf<Measured> {
          "largest error of the control recomputed from state and costate at the nodes",
          &Measured::control_from_costate_error},
         {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
-        {"active", "", "what the active bounds and path constraints limit: control, state, control and state",
+        {"active", "", "quantities limited by active bounds or path constraints: control, state, or control and state",
          &Measured::active},
         {"stage_configuration_error", "", "largest error of Q_i", from(error, stages, &StageError::configuration)},
         {"stage_momentum_error", "", "largest error of P_i", from(error, stages, &StageError::momentum)},
@@ -119,7 +121,7 @@ class Convergence final : public ExperimentOf<Measured> {
         "each curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
         "kept in the output folder");
     line.flag("--polish,!--no-polish", card_.polishes,
-              "refine solutions by Newton steps, so that errors are due to the method and not to the solver");
+              "refine solutions by Newton steps, so that errors are due to the method, not to the solver");
     line.option("--fit", fit_,
                 "range a:b of N over which orders are fitted; default: the finest four or more grids above round-off "
                 "whose neighbouring orders differ by at most 0.2");
@@ -128,10 +130,19 @@ class Convergence final : public ExperimentOf<Measured> {
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     reference_ = parse_reference(reference_text_);
     if (!fit_.empty()) {
-      const std::size_t colon = std::min(fit_.find(':'), fit_.size());
+      const std::size_t colon = fit_.find(':');
+      if (colon == std::string::npos)
+        throw Error(fmt::format("--fit takes a range of N, such as 16:128, not {}", fit_));
       const long long first = parse_intervals("--fit", fit_.substr(0, colon)).front();
-      const long long last = colon == fit_.size() ? first : parse_intervals("--fit", fit_.substr(colon + 1)).back();
+      const long long last = parse_intervals("--fit", fit_.substr(colon + 1)).back();
       if (last < first) throw Error(fmt::format("--fit: the range {} ends below its start", fit_));
+      std::set<long long> grids;
+      for (const Case& the_case : chosen) grids.insert(intervals_of(the_case));
+      const auto fitted = std::ranges::count_if(grids, [&](long long n) { return first <= n && n <= last; });
+      if (fitted < fewest_in_range) {
+        throw Error(fmt::format("--fit: {} of --intervals lie{} in the range {}, but a fit needs {}",
+                                counted(fitted, "grid"), fitted == 1 ? "s" : "", fit_, fewest_in_range));
+      }
       fit_range_ = {first, last};
     }
     if (reference_ == exact_reference) {

@@ -56,10 +56,10 @@ class Derivatives final : public ExperimentOf<Measured> {
   Derivatives()
       : ExperimentOf(
             {.name = "derivatives",
-             .description = "Compares back ends of derivatives: errors of Jacobian and Hessian against long double, "
-                            "their time relative to one residual, and cost and accuracy of a solve. Column hessian: "
-                            "exact is the Hessian of the back end, limited_memory Ipopt's quasi-Newton Hessian, which "
-                            "is not combined with central differences. Dense differences run up to N = 64. Solves by "
+             .description = "Compares derivative back ends: errors of Jacobian and Hessian against long double, their "
+                            "time relative to one residual, and cost and accuracy of a solve. Column hessian: exact is "
+                            "the Hessian of the back end, limited_memory Ipopt's quasi-Newton Hessian, which is not "
+                            "combined with central differences. Dense differences run up to N = 64. Solves by "
                             "differences or without an exact Hessian end after 150 iterations.",
              .options = {.solvers = {"ipopt"}, .derivatives = derivative_back_end_names(), .intervals = "16:1024"},
              .takes_turns = true,
@@ -73,11 +73,11 @@ class Derivatives final : public ExperimentOf<Measured> {
          &Measured::hessian_error},
         {"residual_seconds", "s", "one evaluation of all constraints",
          from(&Measured::seconds, &EvaluationTimes::residual)},
-        {"gradient_over_residual", "", "time of a gradient relative to a residual",
+        {"gradient_over_residual", "", "time of a gradient divided by the time of a residual",
          over_residual(&EvaluationTimes::gradient)},
-        {"jacobian_over_residual", "", "time of a Jacobian relative to a residual",
+        {"jacobian_over_residual", "", "time of a Jacobian divided by the time of a residual",
          over_residual(&EvaluationTimes::jacobian)},
-        {"hessian_over_residual", "", "time of a Hessian relative to a residual",
+        {"hessian_over_residual", "", "time of a Hessian divided by the time of a residual",
          over_residual(&EvaluationTimes::hessian)},
         {"answer_difference", "",
          "largest difference of q from the solution with the tape, relative to its largest value",
@@ -109,8 +109,8 @@ class Derivatives final : public ExperimentOf<Measured> {
     });
     if (!cases.empty()) return cases;
     throw Error(
-        "no case is left: --hessian limited_memory is for --solver ipopt and not for finite_differences, "
-        "dense_differences for at most 64 intervals");
+        "no case is left: --hessian limited_memory needs --solver ipopt and excludes finite_differences; "
+        "dense_differences supports at most 64 intervals");
   }
 
   [[nodiscard]] SolvedCase solve(SolveTask task) override {

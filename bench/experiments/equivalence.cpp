@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "bench/run/experiment.hpp"
 #include "bench/tables/fitted_orders.hpp"
 #include "methods/diagnostics/adjoint_scheme.hpp"
@@ -14,6 +16,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/elements/galerkin_element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 
@@ -67,6 +70,8 @@ struct Measured {
   std::optional<double> plain_residual;
   std::optional<double> forced_form_residual;
   std::optional<double> acceleration_form_residual;
+  std::optional<double> galerkin_form_difference;
+  std::optional<double> straight_form_difference;
   std::optional<double> costate_momentum_spread;
   std::optional<int> polish_steps;
 };
@@ -76,6 +81,20 @@ Case by_dmoc(Case the_case) {
   return the_case;
 }
 
+/// What the compared rows of a method show; empty without rows.
+std::string finding_on(const Selection& rows) {
+  if (rows.empty()) return "";
+  const std::size_t equal = rows.where(has_solution_of_dmoc).size();
+  return fmt::format(
+      "equivalence: {} and dmoc have {} solutions: in {} of {} each satisfies the other method's equations to "
+      "round-off; largest relative difference of q {:.0e}",
+      rows.front().text("method"),
+      equal == rows.size() ? "equal"
+      : equal == 0         ? "different"
+                           : "partly equal",
+      equal, counted(rows.size(), "comparison"), rows.max("configuration_difference"));
+}
+
 class Equivalence final : public ExperimentOf<Measured> {
  public:
   Equivalence()
@@ -83,9 +102,9 @@ class Equivalence final : public ExperimentOf<Measured> {
             {.name = "equivalence",
              .description =
                  "Solves with every method separately and compares the solutions with DMOC's on the same grid: largest "
-                 "differences relative to each quantity's largest value, residuals of each solution in the other "
-                 "method's constraints and of the costates in the adjoint Runge-Kutta scheme, and fitted orders of the "
-                 "differences of tangent-space collocation (NAME_slopes.csv).",
+                 "differences, relative to the largest value of each quantity; residuals of each solution in the "
+                 "constraints of the other method; and residuals of the costates in the adjoint Runge-Kutta scheme. "
+                 "NAME_slopes.csv has the orders of the differences of tangent-space collocation.",
              .options = {.intervals = "16:1024"},
              .further_files = {"_slopes.csv"},
              .polishes = true}) {}
@@ -93,31 +112,39 @@ class Equivalence final : public ExperimentOf<Measured> {
     constexpr auto in_dmoc = &Measured::in_dmoc;
     constexpr auto of_dmoc = &Measured::of_dmoc;
     return {
-        {"configuration_difference", "", "largest difference of q from DMOC's", &Measured::configuration},
-        {"momentum_difference", "", "of p", &Measured::momentum},
-        {"control_difference", "", "of the stage controls", &Measured::control},
-        {"costate_difference", "", "of psi", &Measured::costate},
-        {"objective_difference", "", "of the cost", &Measured::objective},
-        {"violation_in_rows_of_dmoc", "", "residual of the solution in DMOC's constraints",
+        {"configuration_difference", "", "largest relative difference of q from DMOC", &Measured::configuration},
+        {"momentum_difference", "", "largest relative difference of p from DMOC", &Measured::momentum},
+        {"control_difference", "", "largest relative difference of the stage controls from DMOC", &Measured::control},
+        {"costate_difference", "", "largest relative difference of the costates from DMOC", &Measured::costate},
+        {"objective_difference", "", "relative difference of the cost from DMOC", &Measured::objective},
+        {"violation_in_rows_of_dmoc", "", "residual of this solution in DMOC's constraints",
          from(in_dmoc, &ForeignViolation::violation)},
         {"rounding_in_rows_of_dmoc", "", "bound on the round-off of this residual",
          from(in_dmoc, &ForeignViolation::rounding)},
         {"violation_of_dmoc_here", "", "residual of DMOC's solution in this method's constraints",
          from(of_dmoc, &ForeignViolation::violation)},
         {"rounding_here", "", "bound on the round-off of this residual", from(of_dmoc, &ForeignViolation::rounding)},
-        {"stage_costate_difference", "", "of Psi_i", &Measured::stage_costate},
+        {"stage_costate_difference", "", "largest relative difference of the stage costates from DMOC",
+         &Measured::stage_costate},
         {"adjoint_residual", "", "residual of the costates in the adjoint scheme", &Measured::adjoint_residual},
-        {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
+        {"adjoint_residual_by_plain_coefficients", "", "the same residual with A and its conjugate not exchanged",
          &Measured::plain_residual},
         {"costate_momentum_spread", "", "relative change of the momentum of the costates along the trajectory",
          &Measured::costate_momentum_spread},
-        {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
-        {"horizon_difference", "", "of T", &Measured::horizon},
+        {"polish_steps", "", "number of Newton steps after the solve", &Measured::polish_steps},
+        {"horizon_difference", "", "relative difference of the horizon from DMOC", &Measured::horizon},
         {"forced_form_residual", "",
          "residual in the discrete Euler-Lagrange equations of the control Lagrangian C + xi F + xi' L_v, F = L_q + f",
          &Measured::forced_form_residual},
-        {"acceleration_form_residual", "", "the same of C + xi q'' + xi' q', q'' as a function of (q, q', u)",
+        {"acceleration_form_residual", "",
+         "the same residual for C + xi q'' + xi' q', with q'' a function of (q, q', u)",
          &Measured::acceleration_form_residual},
+        {"galerkin_form_difference", "",
+         "relative difference of the program's Lagrangian, at the start and with the solution's multipliers, from the "
+         "sum of h b_i (C + xi F + xi' L_v), xi of the degree of q",
+         &Measured::galerkin_form_difference},
+        {"straight_form_difference", "", "the same with xi straight on every interval",
+         &Measured::straight_form_difference},
     };
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
@@ -133,6 +160,14 @@ class Equivalence final : public ExperimentOf<Measured> {
     if (!solved.trajectory || !is_discrete_optimum(solved)) return;  // the theorem is about these
     const Case& here = solved.the_case;
     const Trajectory& trajectory = *solved.trajectory;
+    if (has_galerkin_form(*solved.program)) {
+      const auto difference_of = [&](MultiplierPath path) {
+        return galerkin_form(*solved.program, solved.start, solved.solution.multipliers, path).difference();
+      };
+      measured.galerkin_form_difference = difference_of(MultiplierPath::polynomial);
+      measured.straight_form_difference = difference_of(MultiplierPath::straight);
+    }
+    const bool is_galerkin = here.method.starts_with(galerkin_family);
     if (trajectory.has_costates() && TracedProblem(*here.problem).has_symmetry())
       measured.costate_momentum_spread = costate_momentum(*here.problem, trajectory).spread;
     if (trajectory.has_stage_costates()) {
@@ -150,21 +185,22 @@ class Equivalence final : public ExperimentOf<Measured> {
         measured.forced_form_residual = of_form(ControlLagrangianForm::forced_euler_lagrange);
         measured.acceleration_form_residual = of_form(ControlLagrangianForm::acceleration);
       }
-    } else if (trajectory.has_costates()) {
+    } else if (trajectory.has_costates() && !is_galerkin) {
       solved.note(
-          "The adjoint scheme is not evaluated: with path constraints, integrals and first-order states the stages "
-          "have further multipliers.");
+          "The adjoint scheme is not evaluated: with path constraints, integrals or first-order states the stages have "
+          "further multipliers.");
     }
     if (here.method == "dmoc") {
       answers_.emplace_back(here, trajectory);
       return;
     }
+    if (is_galerkin) return;  // its stages are not DMOC's
     const Case partner = by_dmoc(here);
     const auto found = std::ranges::find_if(answers_, [&](const auto& answer) {
       return answer.first.same_curve(partner) && answer.first.grid.relative_times() == here.grid.relative_times();
     });
     if (found == answers_.end()) {
-      solved.note("Not compared: DMOC was not solved on this grid, or on another branch.");
+      solved.note("Not compared: DMOC was not solved on this grid, or ended on another branch.");
       return;
     }
     compare(here, trajectory, found->second, measured);
@@ -172,6 +208,10 @@ class Equivalence final : public ExperimentOf<Measured> {
 
   void finish(Table& table, FurtherOutput& output) override {
     output.write("_slopes.csv", fit_differences(table, "configuration_difference"));
+    for (const Selection& rows : Selection(table).group_by({"method"})) {
+      const std::string finding = finding_on(rows.with_number("violation_in_rows_of_dmoc"));
+      if (!finding.empty()) output.summary.say(finding);
+    }
   }
 
  private:

@@ -7,6 +7,7 @@
 #include "bench/experiments/invariants/continuous_flow.hpp"
 #include "bench/experiments/invariants/energy_tables.hpp"
 #include "bench/experiments/invariants/example_systems.hpp"
+#include "bench/experiments/invariants/impact_tables.hpp"
 #include "bench/experiments/invariants/long_time_energy.hpp"
 #include "bench/experiments/invariants/momentum_tables.hpp"
 #include "bench/experiments/invariants/simulated_tables.hpp"
@@ -99,9 +100,9 @@ struct StructureOptions {
 };
 
 void add_options(CommandLine& line, StructureOptions& options) {
-  line.number("--steps", options.steps, 1, 1000000, "steps of the forced maps of the examples");
-  line.number("--steps-per-period", options.steps_per_period, 16, 100000, "steps per period of the orbit");
-  line.number("--periods", options.periods, 3, 10000000, "periods of the orbit");
+  line.number("--steps", options.steps, 1, 1000000, "number of steps of the forced examples");
+  line.number("--steps-per-period", options.steps_per_period, 16, 100000, "number of steps per period of the orbit");
+  line.number("--periods", options.periods, 3, 10000000, "number of periods of the orbit");
   options.asked.add_to(line);
 }
 
@@ -181,6 +182,11 @@ void add_examples(TableRun& run, const StructureOptions& options) {
     run.add("invariants_modified_energy", modified.drifts);
     run.add("invariants_modified_energy_slopes", modified.orders);
   });
+  stage("impacts", [&] {
+    const ImpactTables tables = impact_tables({16, 32, 64, 128, 256});
+    run.add("invariants_impacts", tables.impacts);
+    run.add("invariants_impacts_slopes", tables.orders);
+  });
   stage("energies against the work of forces", [&] {
     std::vector<std::shared_ptr<const Problem>> problems;
     for (const std::string& name : paper_problem_names()) problems.push_back(make_problem(name));
@@ -225,16 +231,17 @@ int write_tables(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "invariants",
-      "Measures invariants of the discretisation: momentum against the work of arbitrary forces "
-      "(invariants_momentum.csv), the same for rotations about three axes (invariants_rotations.csv), the momentum "
-      "along optimal trajectories whose forces are orthogonal to the symmetry (invariants_orthogonal_forces.csv), the "
-      "symplectic form (invariants_symplecticity.csv), both along the continuous flow (invariants_flow_momentum.csv, "
-      "invariants_flow_symplecticity.csv), the energy of an eccentric orbit over many periods (invariants_energy.csv, "
-      "invariants_energy_behaviour.csv), the modified energy of the midpoint rule along free trajectories "
-      "(invariants_modified_energy.csv), and both against the work of the forces along the optimal trajectories of the "
-      "paper's problems (invariants_energy_work.csv, invariants_modified_work.csv). With --problem the examples are "
-      "replaced: for each problem the symplectic form at states of an optimal trajectory, and energy and modified "
-      "energy against work along optimal trajectories.",
+      "Measures invariants of the discrete flows on examples. Momentum compared with the work of arbitrary forces: "
+      "invariants_momentum.csv, and invariants_rotations.csv for rotations about three axes. Momentum along optimal "
+      "trajectories whose forces are orthogonal to the symmetry: invariants_orthogonal_forces.csv. Symplectic form: "
+      "invariants_symplecticity.csv. Both along the continuous flow: invariants_flow_momentum.csv and "
+      "invariants_flow_symplecticity.csv. Energy of an eccentric orbit over many periods: invariants_energy.csv and "
+      "invariants_energy_behaviour.csv. Elastic impacts by three conditions on the energy: invariants_impacts.csv. "
+      "Modified energy of the midpoint rule along free trajectories: "
+      "invariants_modified_energy.csv. Energy and modified energy compared with the work of the forces along the "
+      "optimal trajectories of the paper's problems: invariants_energy_work.csv and invariants_modified_work.csv. "
+      "--problem replaces the examples: for each problem it measures the symplectic form at states of an optimal "
+      "trajectory, and compares energy and modified energy with work along optimal trajectories.",
       argc, argv, write_tables);
 }
 

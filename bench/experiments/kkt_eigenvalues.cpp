@@ -24,7 +24,7 @@ bool is_active(double value, double lower, double upper) { return std::min(value
 /// The KKT matrix at a solution, with multiples of the controls' weights taken off.
 class ShiftedKkt {
  public:
-  ShiftedKkt(Transcription& program, const Solution& solution)
+  ShiftedKkt(Transcription& program, const Solution& solution, EndVariation end)
       : hessian_(hessian_at(program, solution.primal, solution.multipliers)),
         free_(free_variables(program)),
         counts_(equalities_of(program)),
@@ -42,6 +42,7 @@ class ShiftedKkt {
       free_[j] = free_[j] && !is_active(solution.primal[column], program.variable_lower()[column],
                                         program.variable_upper()[column]);
     }
+    if (end == EndVariation::free) free_last_node(*program.interval_structure());
   }
 
   /// Whether the form without α times the weights is positive definite on the null space of the equations.
@@ -55,6 +56,16 @@ class ShiftedKkt {
   }
 
  private:
+  void free_last_node(const IntervalStructure& structure) {
+    const auto set_last = [&](const Places& places, std::vector<bool>& flags, bool flag) {
+      for (std::size_t i = 0; i < flags.size(); ++i) {
+        const Place place = places[i];
+        if (place.kind == Place::Kind::node && place.index == structure.intervals) flags[i] = flag;
+      }
+    };
+    set_last(structure.unknowns, free_, true);
+    set_last(structure.rows, counts_, false);
+  }
   /// h b_i for the controls of stage i, in the units of the scaled cost; 0 elsewhere.
   [[nodiscard]] static Eigen::VectorXd weights_of(const Transcription& program, const Eigen::VectorXd& x) {
     const Tableau& controls = program.functions().controls;
@@ -81,21 +92,25 @@ class ShiftedKkt {
 
 }  // namespace
 
-std::optional<double> smallest_curvature(Transcription& program, const Solution& solution) {
+std::optional<double> smallest_curvature(Transcription& program, const Solution& solution, EndVariation end) {
   constexpr double smallest = 1e-9;
   constexpr double largest = 1e12;
   constexpr double digits = 1e-6;
-  ShiftedKkt kkt(program, solution);
-  if (!kkt.is_positive_beyond(-smallest)) return std::nullopt;
-  if (!kkt.is_positive_beyond(smallest)) return 0.0;
+  ShiftedKkt kkt(program, solution, end);
+  const bool is_nonnegative = kkt.is_positive_beyond(-smallest);
+  if (is_nonnegative && !kkt.is_positive_beyond(smallest)) return 0.0;
+  // |α| lies between two numbers, of which the form without α times the weights is definite at one alone.
+  const double sign = is_nonnegative ? 1.0 : -1.0;
+  const auto is_below = [&](double size) { return kkt.is_positive_beyond(sign * size) == is_nonnegative; };
   double low = smallest;
-  while (low < largest && kkt.is_positive_beyond(10.0 * low)) low *= 10.0;
+  while (low < largest && is_below(10.0 * low)) low *= 10.0;
+  if (!is_nonnegative && low >= largest) return std::nullopt;
   double high = 10.0 * low;
   while (high > low * (1.0 + digits)) {
     const double middle = std::sqrt(low * high);
-    (kkt.is_positive_beyond(middle) ? low : high) = middle;
+    (is_below(middle) ? low : high) = middle;
   }
-  return low;
+  return sign * low;
 }
 
 namespace {

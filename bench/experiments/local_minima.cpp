@@ -84,7 +84,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
   /// All methods and grids start from the same curves.
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     for (const Case& the_case : chosen) {
-      varied_[the_case.problem->name()] = plane_ > 0 ? "starts vary q and v alone" : varied_in_words(*the_case.problem);
+      varied_[the_case.problem->name()] = plane_ > 0 ? "starts vary only q and v" : varied_in_words(*the_case.problem);
     }
     return from_starts(
         chosen, [this](const Case& /*the_case*/) { return plane_ > 0 ? plane_ * plane_ : starts_; },

@@ -1,5 +1,8 @@
 // The misprints of the paper, each formula evaluated as printed and as corrected.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -12,7 +15,10 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::misprints_program {
@@ -144,13 +150,16 @@ Misprint saddle_point() {
           .required = std::copysign(1.0, difference)};
 }
 
-/// The Lemma's proof on an interval of the orbit: -D_1 L_d^E - f_d^{E-} = -∫ [L_q - d/dt L_v + f]·∂q/∂q_0 dt + L_v(0),
-/// where the bracket vanishes. As printed, with -f in it, the integral would be 2 f_d^{E-}.
-Misprint force_in_lemma(const Problem& problem) {
+/// The Lemma and its proof on an interval of the orbit: -D_1 L_d^E - f_d^{E-} = -∫ [L_q - d/dt L_v + f]·∂q/∂q_0 dt +
+/// L_v(0), where the bracket vanishes. As printed, with -f in it, the integral would be 2 f_d^{E-}; and along the
+/// solution of the Euler-Lagrange equations without force between the same ends L_v(0) is another one.
+std::array<Misprint, 2> misprints_of_the_lemma(const Problem& problem) {
   constexpr long double h = 0.5L;
   constexpr long double e = 1e-5L;
   const ExactDiscreteLagrangian exact(
       problem, [](const Expression& t) { return ExpressionVector::Constant(1, 0.1 + 0.1 * sin(t)); });
+  const ExactDiscreteLagrangian unforced(problem,
+                                         [](const Expression& /*t*/) { return ExpressionVector::Constant(1, 0.0); });
   const BoundaryState first = problem.initial_state();
   const LongVector q_0 = first.q.cast<long double>();
   const LongVector v_start = first.v.cast<long double>();
@@ -161,17 +170,28 @@ Misprint force_in_lemma(const Problem& problem) {
   };
   const long double slope = (lagrangian(q_0 + moved) - lagrangian(q_0 - moved)) / (2.0L * e);
   LegendreTransform legendre{TracedProblem(problem)};
-  const double required = legendre.momentum(first.q, first.v, 0.0)[1];
+  const double momentum = legendre.momentum(first.q, first.v, 0.0)[1];
+  const Eigen::VectorXd unforced_v = unforced.between(q_0, interval.q_1, v_start, h).v_0.cast<double>();
   const auto force = static_cast<double>(interval.objects.left_force[1]);
-  return {.problem = problem.name(),
-          .name = "force_in_lemma",
-          .where = "section 2.3, proof of the Lemma",
-          .printed = "-int [L_q - d/dt L_q' - f] dq/dq_0 dt",
-          .meant = "+f in the bracket, which then vanishes",
-          .quantity = "p_phi at the left end of an exact interval",
-          .as_printed = required + 2.0 * force,
-          .as_meant = static_cast<double>(-slope) - force,
-          .required = required};
+  const double transform = static_cast<double>(-slope) - force;
+  return {Misprint{.problem = problem.name(),
+                   .name = "force_in_lemma",
+                   .where = "section 2.3, proof of the Lemma",
+                   .printed = "-int [L_q - d/dt L_q' - f] dq/dq_0 dt",
+                   .meant = "+f in the bracket, which then vanishes",
+                   .quantity = "p_phi at the left end of an exact interval",
+                   .as_printed = momentum + 2.0 * force,
+                   .as_meant = transform,
+                   .required = momentum},
+          Misprint{.problem = problem.name(),
+                   .name = "equations_in_lemma",
+                   .where = "section 2.3, the Lemma",
+                   .printed = "q_0,1 denotes the solution of the corresponding Euler-Lagrange equations",
+                   .meant = "of the forced Euler-Lagrange equations",
+                   .quantity = "L_v(0) of q_0,1 along phi, and -D_1 L_d^E - f_d^E-",
+                   .as_printed = legendre.momentum(first.q, unforced_v, 0.0)[1],
+                   .as_meant = momentum,
+                   .required = transform}};
 }
 
 /// (q^T, p^T) = 𝔽L(q^N, q̇^N) in a statement about continuous motions, which have no N. Read as the state of the last
@@ -184,7 +204,7 @@ Misprint final_momentum(const Problem& problem, const Trajectory& motion) {
   const Eigen::VectorXd v = (motion.q.row(last) - motion.q.row(last - 1)).transpose() / motion.step(last - 1);
   return {.problem = problem.name(),
           .name = "final_momentum",
-          .where = "section 3.2, the Proposition",
+          .where = "section 3.2, the Proposition (editorial)",
           .printed = "(q^T, p^T) = FL(q^N, q'^N)",
           .meant = "(q^T, p^T) = FL(q^T, q'^T)",
           .quantity = "angular momentum at t = T on the optimal transfer, q'^N read as (q_N - q_N-1)/h",
@@ -204,7 +224,7 @@ Misprint figure_of_iterations() {
   };
   return {.problem = "two_link_manipulator",
           .name = "figure_of_iterations",
-          .where = "section 4.2.2, last paragraph, and caption of fig:twolink_iterations",
+          .where = "section 4.2.2, last paragraph, and caption of fig:twolink_iterations (editorial)",
           .printed = "the two-link's minor iterations are in fig:kepler_iterations",
           .meant = "fig:twolink_iterations, whose caption reads low thrust orbital transfer",
           .quantity = "ratio of variables on the problem of that figure",
@@ -228,16 +248,122 @@ Misprint lagrangian_form(const std::shared_ptr<const Problem>& problem) {
           .required = 0.0};
 }
 
+/// Circles of 30 km and 330 km around the centre of the Earth lie inside of it.
+Misprint altitudes(const Problem& problem) {
+  const double earth = problem.parameter("earth_radius");
+  const auto outside = [&](double centre) {
+    double count = 0.0;
+    for (const char* const altitude : {"initial_altitude", "target_altitude"})
+      count += centre + problem.parameter(altitude) > earth ? 1.0 : 0.0;
+    return count;
+  };
+  return {.problem = problem.name(),
+          .name = "altitudes",
+          .where = "section 4.2.1, Results",
+          .printed = "r^0 = 30 km and r^T = 330 km are radii",
+          .meant = "altitudes: the radii are greater by the radius of the Earth",
+          .quantity = "number of orbits outside of the Earth",
+          .as_printed = outside(0.0),
+          .as_meant = outside(earth),
+          .required = 2.0};
+}
+
+/// φ is a coordinate of the trajectory, from φ(0) = 0 on; T is d periods of the ellipse that touches both circles.
+Misprint final_angle(const Problem& problem) {
+  const double turn = 2.0 * std::numbers::pi;
+  const BoundaryState end = problem.final_state();
+  const double half_axis = 0.5 * (problem.initial_state().q[0] + end.q[0]);
+  constexpr double printed_angle = 0.0;
+  return {.problem = problem.name(),
+          .name = "final_angle",
+          .where = "section 4.2.1, Boundary Conditions",
+          .printed = "(r(T), phi(T)) = (r^T, 0)",
+          .meant = "(r^T, 2 pi d) after d revolutions, which T contains",
+          .quantity = "revolutions from phi(0) to phi(T), and T over the period of the ellipse between both circles",
+          .as_printed = printed_angle / turn,
+          .as_meant = end.q[1] / turn,
+          .required = problem.horizon() / (turn * std::pow(half_axis, 1.5))};
+}
+
+/// Ω_L(∂/∂r, ∂/∂ṙ) = ∓L_ṙṙ for Ω_L = ±dΘ_L, and 𝔽L*Ω of the same vectors is ∂p_r/∂ṙ for Ω = -dΘ = dq∧dp.
+Misprint signs_of_forms(const Problem& problem) {
+  const BoundaryState first = problem.initial_state();
+  LegendreTransform legendre{TracedProblem(problem)};
+  const auto momentum = [&](double more) {
+    return legendre.momentum(first.q, first.v + more * Eigen::Vector2d::Unit(0), 0.0)[0];
+  };
+  const ExpressionVector q = first.q.cast<Expression>();
+  const ExpressionVector v = input_vector(0, 2);
+  const Expression lagrangian = problem.lagrangian({q, v, 0.0, {}});
+  const double second_derivative =
+      replay<double>(Schedule(gradient(gradient(lagrangian, v)[0], v)), std::span<const double>(first.v.data(), 2))
+          .front();
+  return {.problem = problem.name(),
+          .name = "signs_of_forms",
+          .where = "section 2.1, Omega_L and Omega",
+          .printed = "Omega_L = d Theta_L and Omega = -d Theta",
+          .meant = "both with the same sign, so that FL^* Omega = Omega_L",
+          .quantity = "Omega_L(d/dr, d/dr'), and FL^* Omega of these vectors",
+          .as_printed = -second_derivative,
+          .as_meant = second_derivative,
+          .required = momentum(1.0) - momentum(0.0)};
+}
+
+/// max_u H(x(t), u, λ(t)) - H(x*(t), u*(t), λ(t)) of the double integrator, H = -½u² + λ_q v + λ_p u, where x(t) is
+/// another trajectory.
+Misprint trajectory_of_the_maximum() {
+  const auto problem = make_problem("double_integrator");
+  const std::optional<OptimalPoint> at = problem->optimum(0.25);
+  if (!at) throw Error("the double integrator has no closed form with these parameters");
+  const double lambda_q = -at->psi_q[0];
+  const double lambda_p = -at->psi_p[0];
+  const auto hamiltonian = [&](double v, double u) { return -0.5 * u * u + lambda_q * v + lambda_p * u; };
+  const double v = at->motion.v[0];
+  const double optimal = hamiltonian(v, at->motion.u[0]);
+  constexpr double moved = 1.0;
+  return {.problem = problem->name(),
+          .name = "trajectory_of_the_maximum",
+          .where = "th:pontryagin",
+          .printed = "H(x*, u*, lambda) = max_u H(x(t), u, lambda), and lambda solves an initial value problem",
+          .meant = "the maximum is taken at x*(t), and lambda, given at T, solves a final value problem",
+          .quantity = "max_u H - H(x*, u*, lambda) where another trajectory is faster by 1",
+          .as_printed = hamiltonian(v + moved, lambda_p) - optimal,
+          .as_meant = hamiltonian(v, lambda_p) - optimal,
+          .required = 0.0};
+}
+
+/// q_k^ν, ν = 0 .. s, of N intervals, less those that q_k^s = q_{k+1}^0 identifies, where both are among them.
+Misprint index_of_shared_configurations(const Problem& problem) {
+  constexpr Eigen::Index intervals = 16;
+  const Tableau tableau = make_tableau("gauss", 1);
+  const Transcription program(problem, *make_element("dmoc"), tableau, Grid::uniform(intervals));
+  const auto unknowns = [&](Eigen::Index first, Eigen::Index last) {
+    Eigen::Index count = intervals * (tableau.stages() + 1);
+    for (Eigen::Index k = first; k <= last; ++k) count -= k + 1 < intervals ? 1 : 0;
+    return static_cast<double>(count * problem.configuration_size());
+  };
+  return {.problem = problem.name(),
+          .name = "index_of_shared_configurations",
+          .where = "rem:savings, 1",
+          .printed = "q_k^s = q_k+1^0, k = 1 .. N - 1",
+          .meant = "k = 0 .. N - 2",
+          .quantity = "unknown configurations of DMOC's program, N = 16, s = 1",
+          .as_printed = unknowns(1, intervals - 1),
+          .as_meant = unknowns(0, intervals - 2),
+          .required = static_cast<double>(program.variable_count()) -
+                      static_cast<double>(intervals * tableau.stages() * problem.control_size())};
+}
+
 const Columns<Misprint> columns{
     {"problem", "", "name of the problem", &Misprint::problem, in_key},
     {"misprint", "", "short name of the statement", &Misprint::name, in_key},
-    {"where", "", "in the paper", &Misprint::where},
+    {"where", "", "place in the paper", &Misprint::where},
     {"printed", "", "the printed statement", &Misprint::printed},
     {"meant", "", "the intended statement", &Misprint::meant},
-    {"quantity", "", "quantity that distinguishes both", &Misprint::quantity},
-    {"value_as_printed", "", "its value as printed", &Misprint::as_printed},
-    {"value_as_meant", "", "its value as meant", &Misprint::as_meant},
-    {"required_value", "", "its value as it has to be", &Misprint::required},
+    {"quantity", "", "quantity that distinguishes the two", &Misprint::quantity},
+    {"value_as_printed", "", "its value for the printed statement", &Misprint::as_printed},
+    {"value_as_meant", "", "its value for the intended statement", &Misprint::as_meant},
+    {"required_value", "", "the value that is required", &Misprint::required},
 };
 
 int evaluate_misprints(CommandLine& line) {
@@ -246,10 +372,20 @@ int evaluate_misprints(CommandLine& line) {
   StartProvider starts({}, TableRun::solver_options());
   const Trajectory motion = starts.solve(
       {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
-  const std::vector<Misprint> misprints{
-      potential_without_sine(),       swapped_momenta(*orbit, motion), mayer_gradient(*orbit, motion),
-      force_in_lemma(*orbit),         transversality(starts),          saddle_point(),
-      final_momentum(*orbit, motion), figure_of_iterations(),          lagrangian_form(orbit)};
+  std::vector<Misprint> misprints{potential_without_sine(),
+                                  swapped_momenta(*orbit, motion),
+                                  mayer_gradient(*orbit, motion),
+                                  transversality(starts),
+                                  saddle_point(),
+                                  trajectory_of_the_maximum(),
+                                  final_momentum(*orbit, motion),
+                                  figure_of_iterations(),
+                                  lagrangian_form(orbit),
+                                  signs_of_forms(*orbit),
+                                  index_of_shared_configurations(*orbit),
+                                  altitudes(*orbit),
+                                  final_angle(*orbit)};
+  std::ranges::copy(misprints_of_the_lemma(*orbit), std::back_inserter(misprints));
   run.add("misprints", columns, misprints);
   return run.write();
 }

@@ -54,14 +54,14 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
   [[nodiscard]] Columns<Measured> columns() const override {
     return {
         {"factorisation", "", "how interior_point solves its linear systems", &Measured::factorisation, in_key},
-        {"linear_systems", "", "linear systems of the solve", &Measured::linear_systems},
+        {"linear_systems", "", "number of linear systems solved", &Measured::linear_systems},
         {"seconds_per_iteration", "s", "wall clock time of the solve divided by its iterations",
          &Measured::per_iteration},
         {"linear_algebra_per_iteration", "s", "the same without evaluations", &Measured::linear_algebra_per_iteration},
         {"seconds_per_linear_system", "s", "factorisation and substitution", &Measured::per_linear_system},
-        {"objective_error", "", "of the objective, relative, against the indirect solution",
+        {"objective_error", "", "relative error of the objective, compared with the indirect solution",
          &Measured::objective_error},
-        {"round_linear_seconds", "s", "spent in linear systems in each round, with spaces between them",
+        {"round_linear_seconds", "s", "time spent in linear systems in each round, separated by spaces",
          &Measured::linear_rounds},
     };
   }

@@ -82,6 +82,13 @@ std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std:
                             problem->name()));
   }
   const std::optional<SweptQuantity> quantity = homotopy_of(options, *problem);
+  const bool has_phases = problem->phased() != nullptr;
+  if (has_phases && !quantity) {
+    throw Error(
+        fmt::format("{} has phases, which a receding horizon would move on together; give a quantity --over "
+                    "NAME=LOWER:UPPER, or choose another problem",
+                    problem->name()));
+  }
   std::vector<SequenceStep> steps;
   const std::vector<SolvedCase> answers = first_answers(options, problem, starts, solver_options);
   // NOLINTNEXTLINE(bugprone-unchecked-optional-access): every one of them is solved
@@ -90,8 +97,10 @@ std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std:
   std::vector<SequenceRun> receding;
   std::vector<SequenceRun> continued;
   for (const SolvedCase& answer : answers) {
-    receding.emplace_back(answer, receding_horizon(problem, motion, disturbance, options.seed), solver_options,
-                          options.repeats);
+    if (!has_phases) {
+      receding.emplace_back(answer, receding_horizon(problem, motion, disturbance, options.seed), solver_options,
+                            options.repeats);
+    }
     if (!quantity) continue;
     continued.emplace_back(answer, homotopy(problem, options.problems.settings, *quantity, options.steps),
                            solver_options, options.repeats);
@@ -105,8 +114,8 @@ void add_options(CommandLine& line, SequenceOptions& options) {
   options.problems.add_to(line);
   line.list("--method", options.methods, fmt::format("methods: {}", fmt::join(paper_families(), ", ")));
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
-  line.number("--steps", options.steps, 1, 100000, "problems in a sequence");
-  line.number("--repeats", options.repeats, 1, 1000, "solves of every step; the shortest time counts");
+  line.number("--steps", options.steps, 1, 100000, "number of problems in a sequence");
+  line.number("--repeats", options.repeats, 1, 1000, "number of solves per step; the shortest time is used");
   line.number("--seed", options.seed, 0, 0xffffffffU, "seed of the disturbances");
   line.option("--over", options.over, "NAME=LOWER:UPPER: the parameter or end state that a homotopy changes");
 }

@@ -31,7 +31,7 @@ struct Measured {
 const Columns<Measured> columns =
     scheme_columns<Measured>() +
     Columns<Measured>{
-        {"status", "", "of the solve", &Measured::status},
+        {"status", "", "status of the solve", &Measured::status},
         {"intervals", "", "number of intervals N", &Measured::intervals, in_key},
         {"unknowns", "", "variables whose bounds differ", &Measured::unknowns},
         {"equations", "", "constraints whose bounds are equal", &Measured::equations},

@@ -41,7 +41,8 @@ struct MeasuredOrder {
 template <class Record>
 Columns<Record> situation_columns() {
   return Columns<Record>{
-             {"situation", "", "problem with its bounds and end", from(&Record::situation, &Situation::name), in_key},
+             {"situation", "", "problem, with its bounds and its final state",
+              from(&Record::situation, &Situation::name), in_key},
              {"active", "", "which bounds are active along the optimum", from(&Record::situation, &Situation::active)},
              {"end", "", "fixed or free final state", from(&Record::situation, &Situation::end)}} +
          scheme_columns<Record>();
@@ -50,23 +51,27 @@ Columns<Record> situation_columns() {
 const Columns<Measured> error_columns =
     situation_columns<Measured>() +
     Columns<Measured>{
-        {"status", "", "of the solve", &Measured::status},
+        {"status", "", "status of the solve", &Measured::status},
         {"reference", "", "closed form, or a finer grid",
          [](const Measured& m) { return m.is_exact ? "closed form" : "finer grid"; }},
         {"intervals", "", "number of intervals N", &Measured::intervals, in_key},
         {"h", "", "step", &Measured::h},
         {"state_error", "", "largest error of (q, p) over the nodes", from(&Measured::error, &OptimumError::state)},
-        {"costate_q_error", "", "of psi^q over the nodes", from(&Measured::error, &OptimumError::costate_q)},
-        {"costate_p_error", "", "of psi^p over the nodes", from(&Measured::error, &OptimumError::costate_p)},
-        {"node_control_error", "", "of u(x_k, psi_k)", from(&Measured::error, &OptimumError::node_control)},
-        {"control_error", "", "of u over the stages", from(&Measured::error, &OptimumError::control)},
-        {"objective_error", "", "of the cost", from(&Measured::error, &OptimumError::objective)}};
+        {"costate_q_error", "", "largest error of psi^q over the nodes",
+         from(&Measured::error, &OptimumError::costate_q)},
+        {"costate_p_error", "", "largest error of psi^p over the nodes",
+         from(&Measured::error, &OptimumError::costate_p)},
+        {"node_control_error", "", "largest error of u(x_k, psi_k) over the nodes",
+         from(&Measured::error, &OptimumError::node_control)},
+        {"control_error", "", "largest error of u over the stages", from(&Measured::error, &OptimumError::control)},
+        {"objective_error", "", "error of the cost", from(&Measured::error, &OptimumError::objective)}};
 
 const Columns<MeasuredOrder> order_columns =
     situation_columns<MeasuredOrder>() +
     Columns<MeasuredOrder>{
         {"order", "", "the tableau's order", &MeasuredOrder::order},
-        {"quantity", "", "whose error is fitted; where bounds are active the largest on a grid and all finer ones",
+        {"quantity", "",
+         "quantity whose error is fitted; where bounds are active, the largest error on a grid and all finer ones",
          &MeasuredOrder::quantity, in_key}} +
     fitted_order_columns(&MeasuredOrder::fit);
 

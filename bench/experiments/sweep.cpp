@@ -25,11 +25,11 @@ class Sweep final : public ExperimentOf<Instance> {
       : ExperimentOf(
             {.name = "sweep",
              .description =
-                 "Solves a problem for many values of its parameters and end states, one row per instance. The values "
-                 "are a grid, every combination of all --over, or random samples (--samples). All instances start from "
-                 "one trajectory of the unchanged problem (--start common), so that neighbouring instances tend to "
-                 "share a local minimum, or each from its own guess (--start guess), as solve_batch in Python does. "
-                 "The two ways may end in different minima. Instances that are not solved keep their rows.",
+                 "Solves a problem for many values of its parameters and end states, one row per instance. --over "
+                 "gives the values: a grid of all combinations, or random samples (--samples). With --start common all "
+                 "instances start from one trajectory of the unchanged problem, so that neighbouring instances tend to "
+                 "share a local minimum. With --start guess each instance starts from its own guess, as in Python's "
+                 "solve_batch. The two choices may lead to different minima. Failed instances keep their rows.",
              .options = {.problems = {"two_link_manipulator"},
                          .methods = {"dmoc"},
                          .solvers = {"auto"},
@@ -45,10 +45,10 @@ class Sweep final : public ExperimentOf<Instance> {
                 "an entry of an end state (initial_q1, initial_v1, final_q1, final_v2, ...); may be repeated for every "
                 "combination");
     line.number("--samples", samples_, 0, most_instances,
-                "number of instances drawn at random, uniformly from each NAME=LOWER:UPPER; 0: a grid");
+                "number of random instances, uniformly distributed over each NAME=LOWER:UPPER; 0: a grid");
     line.number("--seed", seed_, 0, 0xffffffffU, "seed of the samples; the same seed gives the same instances");
     line.ignored_unless(
-        "--seed", [this] { return samples_ > 0; }, "only --samples draws instances");
+        "--seed", [this] { return samples_ > 0; }, "only --samples draws random instances");
   }
   [[nodiscard]] Columns<Instance> columns() const override {
     Columns<Instance> columns{{"instance", "", "number of the instance", &Instance::number, in_key}};
@@ -97,11 +97,11 @@ class Sweep final : public ExperimentOf<Instance> {
     output.summary.say(fmt::format("sweep: cost from {:.7g} (instance {}) to {:.7g} (instance {})",
                                    solved.front().needed("objective"), solved.front().text("instance"),
                                    solved.back().needed("objective"), solved.back().text("instance")));
-    output.summary.say(options().start == "guess"
-                           ? "sweep: each instance started from its own guess; from one trajectory (--start common) "
-                             "instances may end in other minima"
-                           : "sweep: all instances started from one trajectory; from their own guesses (--start "
-                             "guess), as by solve_batch in Python, they may end in other minima");
+    output.summary.say(
+        options().start == "guess"
+            ? "sweep: each instance started from its own guess; with --start common, instances may end in other minima"
+            : "sweep: all instances started from one trajectory; with --start guess, as in Python's solve_batch, they "
+              "may end in other minima");
   }
 
  private:

@@ -77,7 +77,7 @@ void bind_class(py::module_& module) {
   constexpr const char* no_steps = "rounding has jumps, which solvers cannot follow";
   py::class_<Expression> expression(
       module, "Expression",
-      "A traced number: arithmetic on it builds a formula, of which dmocbench has exact derivatives.");
+      "A traced number: arithmetic on it builds a formula, which dmocbench differentiates exactly.");
   expression.def(py::init<double>(), py::arg("value"))
       .def("__add__", binary([](const auto& a, const auto& b) { return a + b; }))
       .def("__radd__", binary([](const auto& a, const auto& b) { return b + a; }))
@@ -97,7 +97,7 @@ void bind_class(py::module_& module) {
              throw py::type_error(no_number);
            })
       .def(
-          "conjugate", [](const Expression& x) { return x; }, "The number itself, which is real.")
+          "conjugate", [](const Expression& x) { return x; }, "The number itself, because it is real.")
       .def("__repr__", text_of);
   for (const char* name : {"__int__", "__index__"}) expression.def(name, refusing(no_number));
   for (const char* name : {"__floor__", "__ceil__", "__trunc__"}) expression.def(name, refusing(no_steps));
@@ -185,25 +185,27 @@ void bind_smooth(py::module_& module) {
   module.def(
       "smooth_abs", [](const py::object& x, double eps) { return smooth_abs(required(x, "smooth_abs"), eps); },
       py::arg("x"), py::arg("eps"),
-      "sqrt(x**2 + eps**2): above |x| by at most eps, which has the unit of x, at x = 0.");
+      "sqrt(x**2 + eps**2), which exceeds |x| by at most eps (at x = 0); eps has the unit of x.");
   module.def(
       "smooth_sign", [](const py::object& x, double eps) { return smooth_sign(required(x, "smooth_sign"), eps); },
       py::arg("x"), py::arg("eps"),
-      "x/sqrt(x**2 + eps**2): from -1 to 1; half of the step is made between x = -0.6 eps and 0.6 eps.");
+      "x/sqrt(x**2 + eps**2), a step from -1 to 1; half of it lies between x = -0.6 eps and 0.6 eps.");
   module.def(
       "smooth_max",
       [](const py::object& x, const py::object& y, double eps) {
         return smooth_max(required(x, "smooth_max"), required(y, "smooth_max"), eps);
       },
       py::arg("x"), py::arg("y"), py::arg("eps"),
-      "Above the larger of both by at most eps/2, where they are equal; eps has their unit.");
+      "A smooth maximum, which exceeds the larger argument by at most eps/2 (where both are equal); eps has their "
+      "unit.");
   module.def(
       "smooth_min",
       [](const py::object& x, const py::object& y, double eps) {
         return smooth_min(required(x, "smooth_min"), required(y, "smooth_min"), eps);
       },
       py::arg("x"), py::arg("y"), py::arg("eps"),
-      "Below the smaller of both by at most eps/2, where they are equal; eps has their unit.");
+      "A smooth minimum, which is below the smaller argument by at most eps/2 (where both are equal); eps has their "
+      "unit.");
   module.def(
       "smooth_if_else",
       [](const py::object& x, const py::object& a, const py::object& b, double eps) {

@@ -5,6 +5,7 @@
 #include "bench/programs.hpp"
 #include "bench/python/bindings.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/first_order_problem.hpp"
 #include "methods/runtime/environment.hpp"
 
 namespace {
@@ -21,6 +22,7 @@ void register_errors(py::module_& module) {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The C++ part of dmocbench; import the package dmocbench instead.";
   module.attr("__version__") = DMOCBENCH_VERSION;
+  module.attr("no_configuration") = dmocbench::no_configuration;
   module.attr("tag_of_python_code") = DMOCBENCH_TAG_OF_PYTHON_CODE;
   register_errors(module);
   dmocbench::check_environment();

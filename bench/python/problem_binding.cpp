@@ -74,7 +74,7 @@ std::size_t operation_count(const ProblemHandle& handle) {
 
 void bind_problems(py::module_& module) {
   py::class_<ParameterReader>(module, "ParameterReader").def("read", &ParameterReader::read);
-  py::class_<ProblemHandle>(module, "ProblemHandle", "A problem as C++ sees it.")
+  py::class_<ProblemHandle>(module, "ProblemHandle", "The C++ handle of a problem.")
       .def(py::init(&of_python), py::arg("problem"))
       .def_static("named", &named, py::arg("name"), py::arg("values") = std::map<std::string, double>())
       .def_readonly("original", &ProblemHandle::original)
@@ -103,7 +103,7 @@ void bind_problems(py::module_& module) {
         refused.erase(refused.begin(), refused.begin() + static_cast<std::ptrdiff_t>(refused_before));
         return refused;
       },
-      py::arg("files"), "Sentences about problems of the libraries that cannot be used.");
+      py::arg("files"), "The reasons why problems of the libraries cannot be used.");
   module.def(
       "check_parameter",
       [](const std::string& name, double value, double lower, double upper, bool whole) {

@@ -48,7 +48,7 @@ std::string type_of(py::handle object) { return Py_TYPE(object.ptr())->tp_name; 
 
 py::object ParameterReader::read(const std::string& name) const {
   if (problem_ == nullptr)
-    throw Error("parameter " + name + ": the solve that this copy of the problem was for is over");
+    throw Error("parameter " + name + ": the solve to which this copy of the problem belongs has ended");
   const std::vector<Parameter>& parameters = problem_->parameters();
   const bool is_whole = parameters[parameter_number(*problem_, name)].whole;
   if (is_whole) return py::int_(static_cast<long long>(problem_->parameter(name)));
@@ -117,7 +117,7 @@ ExpressionVector formulas_in(const py::object& returned) {
   for (const py::handle entry : returned) {
     const auto traced = as_expression(entry);
     if (!traced) {
-      throw Error(fmt::format("entry {} of what it returns is {}, expected a formula or a number", entries.size(),
+      throw Error(fmt::format("entry {} of the returned value is {}, expected a formula or a number", entries.size(),
                               entry.is_none() ? "None" : type_of(entry)));
     }
     entries.push_back(*traced);

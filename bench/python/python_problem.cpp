@@ -12,7 +12,9 @@
 #include "bench/python/calls.hpp"
 #include "bench/python/formula_text.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/first_order_problem.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench::python {
@@ -74,7 +76,8 @@ template <class Arguments>
 Expression PythonProblem::single_formula(const char* member, const Arguments& arguments) const {
   const ExpressionVector entries = python_.formula(member, arguments);
   if (entries.size() != 1) {
-    throw Error(fmt::format("{}: {} returns {} entries, expected one formula", name(), member, entries.size()));
+    throw Error(fmt::format("{}: {} returns {}, expected one formula", name(), member,
+                            counted(entries.size(), "entry", "entries")));
   }
   return entries[0];
 }
@@ -85,6 +88,7 @@ ExpressionVector PythonProblem::optional_formula(const char* member, const Argum
 }
 
 Expression PythonProblem::lagrangian(const State& x) const {
+  if (has_no_configuration(*this)) return 0.5 * x.v[0] * x.v[0];
   return single_formula("lagrangian", [&] { return py::make_tuple(point(x)); });
 }
 
@@ -113,6 +117,13 @@ ExpressionVector PythonProblem::path_constraints(const ControlledState& x) const
 ExpressionVector PythonProblem::constraints(const ExpressionVector& q) const {
   return optional_formula("constraints",
                           [&] { return py::make_tuple(python_.object().attr("_coordinates_at")(list_of(q))); });
+}
+
+ExpressionVector PythonProblem::velocity_constraints(const ExpressionVector& q, const ExpressionVector& v) const {
+  return optional_formula("velocity_constraints", [&] {
+    const py::object named = python_.object().attr("_coordinates_at");
+    return py::make_tuple(named(list_of(q)), named(list_of(v), "v"));
+  });
 }
 
 ExpressionVector PythonProblem::boundary_conditions(const State& first, const State& last) const {
@@ -168,7 +179,7 @@ ProblemCard PythonProblem::card() const {
         for (const py::handle quantity : python_.object().attr("_picture")(point(x))) {
           const auto [name, quantity_unit, value] = quantity.cast<std::tuple<std::string, std::string, py::object>>();
           const auto traced = as_expression(value);
-          if (!traced) throw Error(fmt::format("the quantity {} is {}, no formula", name, type_of(value)));
+          if (!traced) throw Error(fmt::format("the quantity {} is {}, not a formula", name, type_of(value)));
           picture.push_back({name, quantity_unit, *traced});
         }
         return picture;

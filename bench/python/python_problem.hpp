@@ -39,6 +39,8 @@ class PythonProblem final : public Problem {
   [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override;
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override;
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override;
+  [[nodiscard]] ExpressionVector velocity_constraints(const ExpressionVector& q,
+                                                      const ExpressionVector& v) const override;
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override;
   [[nodiscard]] Expression final_cost(const State& last) const override;
   [[nodiscard]] double cost_scale() const override;

@@ -20,6 +20,7 @@
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/adaptive/error_estimate.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/iteration_scope.hpp"
 #include "methods/solvers/solver.hpp"
@@ -68,10 +69,10 @@ Start start_from(const Trajectory& trajectory, const Problem& problem) {
                     trajectory.stage_u.cols() == problem.control_size() &&
                     trajectory.y.cols() == problem.first_order_size();
   if (!fits) {
-    throw Error(
-        fmt::format("start= has {} coordinates, {} controls and {} first-order states, but the problem {}, {} and {}",
-                    trajectory.q.cols(), trajectory.stage_u.cols(), trajectory.y.cols(), problem.configuration_size(),
-                    problem.control_size(), problem.first_order_size()));
+    throw Error(fmt::format(
+        "start= has {} coordinates, {} controls and {} first-order states, but the problem has {}, {} and {}",
+        trajectory.q.cols(), trajectory.stage_u.cols(), trajectory.y.cols(), problem.configuration_size(),
+        problem.control_size(), problem.first_order_size()));
   }
   Start start{.motion = moved_to_ends(smooth_motion(trajectory), problem.bounds())};
   if (trajectory.has_costates()) start.with_costates = trajectory;
@@ -116,8 +117,8 @@ class Watch {
     in_python([&] {
       const std::string error = is_solved(grid.status) ? fmt::format("estimated error {:.1e}", grid.relative)
                                                        : std::string(name_of(grid.status));
-      py::print(fmt::format("grid of {} intervals, {} stage{}: {}, {} iterations, {:.2g} s", grid.intervals,
-                            grid.stages, grid.stages == 1 ? "" : "s", error, grid.iterations, grid.seconds),
+      py::print(fmt::format("grid of {}, {}: {}, {}, {:.2g} s", counted(grid.intervals, "interval"),
+                            counted(grid.stages, "stage"), error, counted(grid.iterations, "iteration"), grid.seconds),
                 py::arg("flush") = true);
     });
   }

@@ -250,7 +250,7 @@ Json structure(const ResultsFolder& results) {
           {"answer", by_verdict(results, "momentum_consistency",
                                 "DMOC and Hamiltonian collocation balance momentum and force to round-off, "
                                 "tangent-space collocation does not.",
-                                "Not both DMOC and Hamiltonian collocation balance momentum and force to round-off.",
+                                "DMOC and Hamiltonian collocation do not both balance momentum and force to round-off.",
                                 "It is undecided whether only DMOC and Hamiltonian collocation balance momentum and "
                                 "force to round-off.")},
           {"but", replay_in_words(replays)},
@@ -394,11 +394,11 @@ Json cost(const ResultsFolder& results) {
   for (const IntervalLine& line : all) of_hamiltonian.add(line.intervals.front().value);
   const std::string finest = rows.sorted_by("intervals").back().text("intervals");
   return {{"question", "Which is faster?"},
-          {"answer", faster(all, common_verdict(claims_of(results, {"collocation_more_expensive"})))},
+          {"answer", faster(all, common_verdict(claims_of(results, {"collocation_takes_longer"})))},
           {"but", iterations_in_words(results)},
           {"number", of_hamiltonian.text(1) + " ×"},
           {"unit", fmt::format("the time per iteration with Hamiltonian collocation, N = {}", finest)},
-          {"verdicts", verdicts_of(claims_of(results, {"collocation_more_expensive", "minor_iteration_ratio"}))},
+          {"verdicts", verdicts_of(claims_of(results, {"collocation_takes_longer", "minor_iteration_ratio"}))},
           {"cells", pictures_of([&](const std::string& problem, const AxisUnits&) {
              return intervals_picture(fmt::format("time of an iteration, N = {}", finest), by_problem[problem]);
            })}};

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "bench/claims/claim.hpp"
+#include "bench/claims/claims_table.hpp"
 #include "bench/claims/result_tables.hpp"
 #include "bench/report/model.hpp"
 #include "bench/report/words.hpp"
@@ -192,7 +193,7 @@ std::string title_of_section(const std::string& number) {
 /// The place of a claim on the page: the paper's by sections, then findings, misprints, extensions.
 std::pair<std::size_t, std::string> group_of(const Json& claim) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 3> others{
-      {{"ours", "Findings of ours"}, {"misprint", "Misprints"}, {"extension", "Extensions of the suite"}}};
+      {{"ours", "Our findings"}, {"misprint", "Misprints"}, {"extension", "Extensions of the suite"}}};
   const std::string whose = text(claim, "whose");
   if (whose == "paper") return {0, section_of(claim)};
   const auto* const found = std::ranges::find(others, whose, [](const auto& other) { return other.first; });
@@ -240,11 +241,6 @@ PageModel claims_model(const ResultsFolder& results) {
   return model;
 }
 
-std::string section_of(const Json& claim) {
-  const std::string where = text(claim, "where");
-  const std::size_t number = where.find_first_of("0123456789");
-  if (number == std::string::npos) return where.substr(0, where.find(','));
-  return "section " + where.substr(number, where.find_first_not_of("0123456789.", number) - number);
-}
+std::string section_of(const Json& claim) { return section_in(text(claim, "where")); }
 
 }  // namespace dmocbench

@@ -16,6 +16,7 @@
 #include "bench/report/model.hpp"
 #include "bench/report/words.hpp"
 #include "methods/program/status.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {
@@ -166,8 +167,8 @@ PageModel tables_model(const ResultsFolder& results, const std::string& folder) 
     const auto unsolved = rows_with(is_unsolved) - coarse;
     by_run[reported.run].push_back({{"table", reported.file},
                                     {"file", link_to_file(folder + reported.file)},
-                                    {"rows", table.rows().size()},
-                                    {"columns", table.columns().size()},
+                                    {"rows", counted(table.rows().size(), "row")},
+                                    {"columns", counted(table.columns().size(), "column")},
                                     {"unsolved", unsolved > 0 ? Json(unsolved) : Json()},
                                     {"coarse", coarse > 0 ? Json(coarse) : Json()},
                                     {"cut", table.rows().size() > most_rows ? Json(most_rows) : Json()},
@@ -257,7 +258,7 @@ PageModel measured_model(const ResultsFolder& results) {
         line = {{"problem", in_words(row.text("problem"))},
                 {"method", method_in_words(row.text("method"))},
                 {"tableau", row.text("tableau")},
-                {"stages", row.text("stages")},
+                {"stages", row.text("stages") + (row.text("stages") == "1" ? " stage" : " stages")},
                 {"orders", Json::array()},
                 {"rows", 0},
                 {"solved", 0},
@@ -283,6 +284,7 @@ PageModel measured_model(const ResultsFolder& results) {
     line["solves"] = line["rows"] > 0 ? fmt::format("{} of {}", line["solved"].dump(), line["rows"].dump()) : "";
     std::ranges::stable_sort(line["orders"].get_ref<Json::array_t&>(), {},
                              [](const Json& order) { return order.at("rank").get<std::size_t>(); });
+    for (Json& order : line["orders"]) order["comma"] = &order == &line["orders"].front() ? "" : ", ";
     model.push_back(std::move(line));
   }
   std::ranges::stable_sort(model.get_ref<Json::array_t&>(), {}, rank_of_line);

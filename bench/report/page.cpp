@@ -13,6 +13,7 @@
 #include "bench/run/embedded_file.hpp"
 #include "bench/run/json_place.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 DMOCBENCH_EMBEDDED_FILE(page, "plots/report/page.mustache");
 DMOCBENCH_EMBEDDED_FILE(first_screen, "plots/report/first_screen.mustache");
@@ -115,9 +116,9 @@ std::string report_page(const ResultsFolder& results, const std::string& folder)
                    {"recommendations", results.claims.empty() ? recommendations_model(results) : Json()},
                    {"gallery", gallery_model(results)},
                    {"figures", figures_model(results, folder)},
-                   {"figure_count", results.figures.size()},
+                   {"figure_count", counted(results.figures.size(), "figure")},
                    {"tables", tables_model(results, folder)},
-                   {"table_count", results.tables.size()},
+                   {"table_count", counted(results.tables.size(), "table")},
                    {"folder", folder},
                    {"run", run_model(results)}};
   mustache::data page = data_of(json_in(dumped(model), "the report"));

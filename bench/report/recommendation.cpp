@@ -62,7 +62,7 @@ std::string recommended(const Selection& costs, const Selection& solves) {
   const Selection replay = at_smallest_error(costs, "replay");
   std::string words;
   if (state.size() == 1) {
-    words = fmt::format("One method alone was run for {}.", problem);
+    words = fmt::format("Only one method was run for {}.", problem);
   } else if (state.empty()) {
     words = fmt::format("No method is recommended for {}: no state error is reached by all methods.", problem);
   } else if (!is_decided(state)) {

@@ -24,7 +24,7 @@ struct StatedProblem {
   std::vector<Letter> letters;
   /// Names of the inputs of `along`, as MathML: the letters, q, q̇, u and t.
   std::vector<std::string> inputs;
-  /// C, L, the components of f, of the holonomic constraints g, then of h.
+  /// C, L, the components of f, of the constraints g and of the velocity constraints a, then of h.
   std::vector<StatedFormula> along;
   /// Names of the inputs of `at_ends`: the letters, q(0), q̇(0), q(T), q̇(T) and T.
   std::vector<std::string> end_inputs;

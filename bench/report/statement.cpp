@@ -138,6 +138,8 @@ void trace_along(const Problem& problem, const ProblemBounds& bounds, StatedProb
   add(result.along, forces, problem.force(x));
   const ExpressionVector holonomic = problem.constraints(x.q);
   add(result.along, "g", holonomic, zeros(holonomic));
+  const ExpressionVector rates = problem.velocity_constraints(x.q, x.v);
+  add(result.along, "a", rates, zeros(rates));
   const ExpressionVector path = problem.path_constraints(x);
   add(result.along, "h", path, bounds.of_path(path.size()));
   add(result.along, in_mathml(problem.first_order_names(), mathml_of_rate), problem.first_order_rates(x));

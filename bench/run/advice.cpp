@@ -13,6 +13,7 @@
 
 #include "methods/judgement/confirm.hpp"
 #include "methods/mechanics/member_name.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {
@@ -77,6 +78,13 @@ std::optional<Advice> units_apart(const Problem& problem) {
                 .size = sizes[largest],
                 .smallest = names[static_cast<std::size_t>(smallest)],
                 .smallest_size = least};
+}
+
+/// Whether the problem states how long the motion takes, in every phase.
+bool has_given_duration(const Problem& problem) {
+  const PhasedProblem* const phased = problem.phased();
+  return !problem.bounds().horizon.is_free() &&
+         (!phased || std::ranges::none_of(phased->parts(), &PhasedProblem::Part::is_free));
 }
 
 /// Whether a formula of the problem is not a number where the solve went.
@@ -148,8 +156,9 @@ Advice next_to_try(const SolvedCase& solved, const std::string& start) {
   };
   if (auto degrees = angle_in_degrees(problem, may_be_angle)) return *degrees;
   if (auto units = units_apart(problem)) return *units;
-  if (status == Status::infeasible && !problem.bounds().horizon.is_free())
-    return {.remedy = Remedy::longer_horizon, .size = problem.horizon()};
+  if (status == Status::infeasible && has_given_duration(problem)) {
+    return {.remedy = problem.phased() ? Remedy::longer_phases : Remedy::longer_horizon, .size = problem.horizon()};
+  }
   if (status == Status::too_large || status == Status::invalid_program || the_case.solver == "nlopt")
     return {.remedy = Remedy::solver_auto};
   if (the_case.solver != "auto") return {.remedy = Remedy::several_solvers};
@@ -177,12 +186,14 @@ std::string in_words(const Advice& advice) {
     case Remedy::longer_horizon:
       return fmt::format("Try a longer horizon than T = {:g}, or wider bounds: the ends may be out of reach.",
                          advice.size);
+    case Remedy::longer_phases:
+      return "Try longer phases, or wider bounds: the ends may be out of reach.";
     case Remedy::solver_auto:
       return "Try --solver auto.";
     case Remedy::several_solvers:
       return "Try --solver auto: interior_point, then ipopt, then a feasible trajectory as the start.";
     case Remedy::common_start:
-      return "Try --start common, a trajectory that other methods find first.";
+      return "Try --start common, which first searches for a trajectory with other methods.";
     case Remedy::another_guess:
       return fmt::format("Try another guess ({}), or --start FILE with a trajectory near the one you want.",
                          member_name("Problem::guess"));
@@ -201,9 +212,9 @@ std::string in_words(const Advice& advice) {
 }
 
 std::string_view name_of(Remedy remedy) noexcept {
-  constexpr std::array names{"none",         "more_time",      "finite_formula", "radians",
-                             "other_units",  "longer_horizon", "solver_auto",    "several_solvers",
-                             "common_start", "another_guess",  "finer_grid",     "feedback"};
+  constexpr std::array names{"none",           "more_time",     "finite_formula", "radians",         "other_units",
+                             "longer_horizon", "longer_phases", "solver_auto",    "several_solvers", "common_start",
+                             "another_guess",  "finer_grid",    "feedback"};
   return names[static_cast<std::size_t>(remedy)];
 }
 

@@ -17,6 +17,7 @@ enum class Remedy : std::uint8_t {
   radians,          ///< a coordinate looks like an angle in degrees
   other_units,      ///< the sizes of two coordinates are far apart
   longer_horizon,   ///< or wider bounds
+  longer_phases,    ///< the same for the durations of phases
   solver_auto,      ///< the solver that tries several, for a program that this solver rejects
   several_solvers,  ///< the same, for a program that this solver does not solve
   common_start,     ///< a motion that other methods find first

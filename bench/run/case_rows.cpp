@@ -192,7 +192,7 @@ void CaseRows::require_all(const RunPlan& plan, std::size_t parts) const {
   const std::vector<std::size_t> missing(numbers.begin(), numbers.end());
   const auto lost = std::ranges::count(rows_, false, &std::optional<Row>::has_value);
   throw Error(
-      fmt::format("{} of {} cases have no row: part{} {} of {} {} missing or not complete; run {} with --part {}/{}",
+      fmt::format("{} of {} cases have no row: part{} {} of {} {} missing or incomplete; run {} with --part {}/{}",
                   lost, rows_.size(), missing.size() > 1 ? "s" : "", in_ranges(missing), parts,
                   missing.size() > 1 ? "are" : "is", missing.size() > 1 ? "each" : "it", missing.front(), parts));
 }

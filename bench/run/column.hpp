@@ -243,7 +243,7 @@ template <class Record>
 template <class Record>
 [[nodiscard]] Columns<Record> fitted_order_columns(FittedOrder Record::*fit) {
   return {{"slope", "", "fitted order", from(fit, &FittedOrder::order)},
-          {"standard_error", "", "of the order; empty with two points", from(fit, standard_error_of)},
+          {"standard_error", "", "standard error of the order; empty with two points", from(fit, standard_error_of)},
           {"finest", "", "smallest step used", from(fit, &FittedOrder::first_abscissa)},
           {"coarsest", "", "largest step used", from(fit, &FittedOrder::last_abscissa)},
           {"points", "", "number of steps used", from(fit, &FittedOrder::points)}};

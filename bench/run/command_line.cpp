@@ -189,7 +189,7 @@ void CommandLine::refuse_empty_entries() const {
     const std::string argument = argv_[i];
     const std::size_t equals = std::min(argument.find('='), argument.size());
     if (argument.starts_with("--") && equals + 1 == argument.size()) {  // CLI11 takes the next argument for its value
-      throw CLI::ValidationError(argument.substr(0, equals), "no value is given after =");
+      throw CLI::ValidationError(argument.substr(0, equals), "there is no value after =");
     }
     if (std::ranges::find(lists_, argument.substr(0, equals)) == lists_.end()) continue;
     if (equals == argument.size() && i + 1 == argc_) continue;  // CLI11 misses the value
@@ -216,10 +216,10 @@ void CommandLine::note(const CLI::Option* option, OptionRole role) {
 std::string CommandLine::end_of_help() const {
   const std::string blank = footer_.empty() ? "" : "\n\n";
   const std::string code_1 = meaning_of_1_.empty() ? "" : fmt::format(" 1 {};", meaning_of_1_);
+  const std::string example = example_.empty() ? app_.get_name() : app_.get_name() + " " + example_;
   return fmt::format(
-      "{}{}Example:\n  {} {}\n\nExit codes: 0 done;{} 2 bad input, or a file cannot be read or written; 130 "
-      "interrupted",
-      footer_, blank, app_.get_name(), example_, code_1);
+      "{}{}Example:\n  {}\n\nExit codes: 0 done;{} 2 bad input, or a file cannot be read or written; 130 interrupted",
+      footer_, blank, example, code_1);
 }
 
 std::vector<std::string> CommandLine::parse() {
@@ -277,6 +277,8 @@ std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& 
   }
   if (!option.starts_with('-') && std::ranges::find(names, "--problem") != names.end())
     return fmt::format("{} is not an option; name a problem with --problem {}", as_shown(option), as_shown(option));
+  if (!option.starts_with('-') && std::ranges::find(names, "--from") != names.end())
+    return fmt::format("{} is not an option; name a results folder with --from {}", as_shown(option), as_shown(option));
   // The letters of formulas, which no option resembles.
   constexpr std::array letters{std::pair("N", "--intervals"), std::pair("n", "--intervals"), std::pair("s", "--stages"),
                                std::pair("T", "--set")};
@@ -286,6 +288,13 @@ std::string sentence_of_parse_error(const CLI::App& app, const CLI::ParseError& 
     if (is_letter && std::ranges::find(names, name) != names.end()) meant = name;
   }
   if (!meant.empty()) return fmt::format("there is no option {} (did you mean {}?)", option, meant);
+  const bool has_parameters = option.starts_with("--") && std::ranges::find(names, "--set") != names.end();
+  if (has_parameters) {
+    const bool is_next = unknown.front() == option && unknown.size() > 1 && !unknown[1].starts_with("--");
+    const std::string value = is_next ? unknown[1] : unknown.front().substr(option.size());
+    return fmt::format("there is no option {}; to set a parameter of the problem, write --set {}={}", option,
+                       option.substr(2), value.empty() ? "VALUE" : value.substr(value.starts_with('=') ? 1 : 0));
+  }
   return option.starts_with('-') ? fmt::format("there is no option {}", option)
                                  : fmt::format("{} is not an option", as_shown(option));
 }
@@ -296,8 +305,8 @@ int run_program(const std::string& name, const std::string& description, int arg
                 const std::function<int(CommandLine&)>& body) {
   CLI::App app(description, name_in_usage(name, argc > 0 ? argv[0] : ""));
   app.formatter(std::make_shared<HelpFormatter>());
-  app.set_version_flag("-v,--version", "dmocbench " + version())->group("Help");
-  app.set_help_flag("-h,--help", "show this and exit")->group("Help");
+  app.set_version_flag("-v,--version", "dmocbench " + version(), "show the version and exit")->group("Help");
+  app.set_help_flag("-h,--help", "show this help and exit")->group("Help");
   occupy_closed_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe without a reader: locks and parts are removed

@@ -80,7 +80,7 @@ bool is_near(const IndirectSolution& solution, const Trajectory& direct) {
 void require_near(const Problem& problem, const IndirectSolution& solution, const Trajectory& direct) {
   if (is_near(solution, direct)) return;
   throw Error("the indirect solution of " + problem.name() +
-              " is on another branch than this row, so this row has no errors; run its method alone, on finer grids");
+              " is on another branch than this row, so this row has no errors; run only this method, on finer grids");
 }
 
 /// The solution in a file; empty if there is no such file or it is not a solution of this problem on this branch.
@@ -126,9 +126,12 @@ const Columns<Entry> reference_columns{
      from(solution_of, &IndirectSolution::certified_digits)},
     {"state_agreement", "", "relative difference of their states",
      from(solution_of, agreement_of, &IndirectAgreement::state)},
-    {"costate_agreement", "", "of their costates", from(solution_of, agreement_of, &IndirectAgreement::costate)},
-    {"control_agreement", "", "of their controls", from(solution_of, agreement_of, &IndirectAgreement::control)},
-    {"cost_agreement", "", "of their costs", from(solution_of, agreement_of, &IndirectAgreement::cost)},
+    {"costate_agreement", "", "relative difference of their costates",
+     from(solution_of, agreement_of, &IndirectAgreement::costate)},
+    {"control_agreement", "", "relative difference of their controls",
+     from(solution_of, agreement_of, &IndirectAgreement::control)},
+    {"cost_agreement", "", "relative difference of their costs",
+     from(solution_of, agreement_of, &IndirectAgreement::cost)},
     {"hamiltonian_drift", "", "max - min of the Hamiltonian, relative; empty if the problem depends on time",
      from(solution_of, &IndirectSolution::hamiltonian_drift)},
     {"shooting_defect", "", "largest relative distance from a node when an integrator starts at the preceding one",
@@ -136,7 +139,7 @@ const Columns<Entry> reference_columns{
     {"replay_error", "", "distance from the final state when the control is replayed", from(&Entry::replay_error)},
     {"stages", "", "Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
     {"intervals", "", "number of intervals", from(solution_of, extremal_of, &CollocatedExtremal::intervals)},
-    {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
+    {"seconds", "s", "time of the solve; empty if the solution was read from a file", from(&Entry::seconds)},
 };
 
 /// The entry of a solution in table and metadata.

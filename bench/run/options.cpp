@@ -35,8 +35,12 @@ namespace {
 long long parse_count(std::string_view option, std::string_view text) {
   const auto count = parsed<long long>(text);
   if (!count || *count < 1 || *count > Grid::most_intervals) {
+    const std::size_t dash = text.find('-');
+    const bool is_range = dash != std::string_view::npos && parsed<long long>(text.substr(0, dash)) &&
+                          parsed<long long>(text.substr(dash + 1));
     throw Error(
-        fmt::format("{}: {} is not a whole number between 1 and {}", option, as_shown(text), Grid::most_intervals));
+        fmt::format("{}: {} is not a whole number between 1 and {}{}", option, as_shown(text), Grid::most_intervals,
+                    is_range ? fmt::format("; a range is {}:{}", text.substr(0, dash), text.substr(dash + 1)) : ""));
   }
   return *count;
 }
@@ -266,8 +270,9 @@ bool is_of_paper(const std::string& problem) {
 
 void add_options(CommandLine& line, ExperimentOptions& options) {
   line.group(group_of_problem);
-  line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
-  line.option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
+  line.list("--problem", options.problems, "names of problems, see `dmocbench list`; all: every problem");
+  line.option("--set", options.settings,
+              "parameter=value of a problem, see `dmocbench list --problem NAME`; may be repeated");
   line.option("--form", options.form,
               "form of the cost: bolza (a sum), or mayer (the cost up to each node is an additional unknown)");
   line.list("--constraints", options.constraints,
@@ -278,14 +283,14 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--method", options.methods,
             fmt::format("methods: {}", fmt::join(all_families(), ", ")) +
                 (options.methods.empty() ? fmt::format("; default: {}", fmt::join(paper_families(), ", ")) : ""));
-  line.list("--tableau", options.tableaus, "families of Butcher tableaus");
+  line.list("--tableau", options.tableaus, "names of the families of Butcher tableaus");
   line.list("--stages", options.stages, "numbers of stages s; each tableau uses the ones that it supports");
   line.option("--controls", options.controls,
               "stage: every stage has its own control; shared: neighbouring intervals share the control at their node, "
               "requires --tableau lobatto; tables name it lobatto_shared");
-  line.list(
-      "--quadrature", options.quadratures,
-      "quadrature of galerkin: gauss or lobatto; its number of stages s is the degree of q; default: the tableaus");
+  line.list("--quadrature", options.quadratures,
+            "quadrature of galerkin: gauss or lobatto; its number of stages s is the degree of q; default: the "
+            "tableaus of --tableau");
   line.list("--points", options.points, "points of this quadrature, at least s; default: s, for lobatto s + 1");
   line.list(
       "--control-nodes", options.control_nodes,
@@ -315,7 +320,7 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.option("--tolerance", options.tolerance, "tolerance for the KKT residual of the scaled program");
   line.option("--iterations", options.most_iterations, "maximum number of solver iterations");
   line.number("--seconds", options.most_seconds, 0.0, 1e6,
-              "time limit of a case, its set-up and all of its grids; 0: no limit");
+              "time limit per case, including set-up and all grids; 0: no limit");
   line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
   line.option("--repeats", options.repeats, "solves per row; times are medians");
   line.flag("--verbose", options.verbose, "show the solver's own output", OptionRole::machine);
@@ -349,7 +354,7 @@ void add_batch_option(CommandLine& line, ExperimentOptions& options) {
         const auto is_ours = [](const std::string& name) { return name == "interior_point" || name == "auto"; };
         return !options.batch || (is_plain && std::ranges::any_of(options.solvers, is_ours));
       },
-      "batches take interior_point and auto, without --seconds, --option, --verbose, --repeats and --derivatives");
+      "batches support interior_point and auto, without --seconds, --option, --verbose, --repeats and --derivatives");
 }
 
 void add_part_options(CommandLine& line, ExperimentOptions& options) {
@@ -360,7 +365,7 @@ void add_part_options(CommandLine& line, ExperimentOptions& options) {
               OptionRole::place);
   line.option(
       "--join", options.join,
-      "results folder with parts of the same command; joins them to one table instead of solving; may be repeated",
+      "results folder with parts of the same command; joins them into one table instead of solving; may be repeated",
       OptionRole::place);
 }
 
@@ -435,8 +440,8 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
 
 void ProblemOptions::add_to(CommandLine& line) {
   line.group(group_of_problem);
-  line.list("--problem", problems, "problems, as `list` names them; all: every one");
-  line.option("--set", settings, "parameter=value of a problem, as `list` shows them; may be repeated");
+  line.list("--problem", problems, "names of problems, see `dmocbench list`; all: every problem");
+  line.option("--set", settings, "parameter=value of a problem, see `dmocbench list --problem NAME`; may be repeated");
   add_library_option(line, libraries);
   line.group("Options");
 }
@@ -450,7 +455,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const std::vector<ChosenScheme> schemes = chosen_schemes(options);
   if (!options.solvers.empty()) static_cast<void>(in_order("solver", options.solvers, solver_names()));
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
-  const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());
+  const auto back_ends = in_order("derivative back end", options.derivatives, derivative_back_end_names());
   require_name_of_table(options.name);
   if (options.repeats < 1) throw Error(fmt::format("--repeats must be at least 1, got {}", options.repeats));
   const std::vector<Grid> grids = make_grids(options);
@@ -464,7 +469,8 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   }
   for (const auto& problem : problems) {
     const std::vector<std::string> solvers = solvers_for(*problem, options.solvers);
-    // Of all problems those with holonomic constraints are left out where a method lacks them; alone they are refused.
+    // Of all problems those with constraints of the motion are left out where a method lacks them; alone they are
+    // refused.
     const TracedProblem traced(*problem);
     const auto is_offered = [&](const ChosenScheme& scheme) {
       return !all ||
@@ -502,7 +508,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
     }
   }
   if (!left_out.empty())
-    remark(fmt::format("--problem all leaves out, for their holonomic constraints: {}", fmt::join(left_out, ", ")));
+    remark(fmt::format("--problem all leaves out problems with constraints on q or v: {}", fmt::join(left_out, ", ")));
   return cases;
 }
 
@@ -520,7 +526,7 @@ std::vector<long long> parse_intervals(std::string_view option, std::string_view
     const long long last = is_range ? parse_count(option, entry) : first;
     if (last < first) throw Error(fmt::format("{}: the range {} ends below its start", option, whole));
     if (last > first && last < 2 * first)
-      throw Error(fmt::format("{}: the range {} doubles to {} alone; write {},{}", option, whole, first, first, last));
+      throw Error(fmt::format("{}: the range {} contains only {}; write {},{}", option, whole, first, first, last));
     for (long long count = first; count <= last; count *= 2) counts.insert(count);
     if (counts.size() > most_counts) {  // all grids are in memory at the same time
       throw Error(fmt::format("{} takes at most {} numbers; run the rest under another --name", option, most_counts));
@@ -539,7 +545,7 @@ std::string remark_on_ranges(std::string_view option, std::string_view text) {
     if (counts.back() == parse_count(option, entry.substr(colon + 1))) continue;
     remarks.push_back(fmt::format("{} {} takes {}", option, entry, fmt::join(counts, ", ")));
   }
-  return remarks.empty() ? "" : fmt::format("{}: a range doubles its start", fmt::join(remarks, "; "));
+  return remarks.empty() ? "" : fmt::format("{}: a range contains its start and its doubles", fmt::join(remarks, "; "));
 }
 
 std::vector<double> parse_node_times(std::string_view text) {

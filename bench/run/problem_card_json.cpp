@@ -92,6 +92,7 @@ nlohmann::ordered_json problem_card_json(const Problem& problem) {
           {"end", end(problem.final_state(), bounds.last)},
           {"bounds", {{"q", bounds_of(bounds.q)}, {"v", bounds_of(bounds.v)}, {"u", bounds_of(bounds.u)}}},
           {"holonomic_constraints", traced.holonomic_count()},
+          {"velocity_constraints", traced.velocity_constraint_count()},
           {"path_constraints", traced.path_constraint_count()},
           {"boundary_conditions", traced.boundary_condition_count()},
           {"integral_constraints", traced.integral_count()},

@@ -108,7 +108,7 @@ OutputFolder::OutputFolder(const std::filesystem::path& folder, bool leftovers_s
   error.clear();
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) {
-    throw Error(fmt::format("cannot make the output folder {}: {}", folder.string(),
+    throw Error(fmt::format("cannot create the output folder {}: {}", folder.string(),
                             error ? error.message() : "a file with this name exists"));
   }
   if (::access(folder.c_str(), W_OK) != 0) {
@@ -126,10 +126,9 @@ void require_name_of_table(const std::string& name) {
   constexpr std::size_t longest = 100;  // since names of files begin with it
   const auto does_not_fit = [](unsigned char letter) { return letter == '/' || std::iscntrl(letter) != 0; };
   if (name.empty() || name.starts_with('.') || name.starts_with('-') || std::ranges::any_of(name, does_not_fit)) {
-    throw Error(
-        fmt::format("--name \"{}\" must be a file name without a folder that does not begin with a dot or a dash; "
-                    "--out names the folder",
-                    name));
+    throw Error(fmt::format(
+        "--name \"{}\" must be a plain file name that does not begin with a dot or a dash; --out names the folder",
+        name));
   }
   if (name.size() > longest) {
     throw Error(fmt::format("--name takes at most {} letters, not {}", longest, name.size()));

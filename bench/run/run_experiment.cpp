@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "bench/run/run_plan.hpp"
 #include "bench/run/run_summary.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/first_order_problem.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 #include "methods/tables/motion_file.hpp"
 
@@ -197,12 +199,25 @@ class Run {
     kept_.describe_runs(metadata_);
   }
 
+  /// Of problems that are solved by several methods although all have the same solution.
+  void say_where_methods_coincide() const {
+    std::map<std::string, std::set<std::string>> methods;
+    for (const Case& one : plan_.cases()) {
+      if (has_no_configuration(*one.problem)) methods[one.problem->name()].insert(one.method);
+    }
+    for (const auto& [problem, all] : methods) {
+      if (all.size() == 1) continue;
+      summary_.say(problem + " has first-order states alone: all methods coincide, there is nothing to compare");
+    }
+  }
+
   /// Writes the files of the run, in the order in which old and new ones are never mixed: first the metadata call the
   /// run incomplete.
   void write(Table& own, bool complete) {
     replace_earlier_files();
     FurtherOutput output{.prefix = plan_.prefix(), .metadata = metadata_, .kept = kept_, .summary = summary_};
     if (complete || wants_motions()) experiment_.finish(own, output);
+    say_where_methods_coincide();
     const Table table = kept_.joined(table_file(), own);
     if (!own.rows().empty()) write_file(table_file(), table.csv());
     metadata_["cases"] = plan_.cases().size() + kept_.count(table_file());
@@ -261,14 +276,14 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
           const std::string& start = card.options.start;
           return start == "common" || (start == "guess" && card.branches == BranchReport::of_any_start);
         },
-        "only --start common is searched for");
+        "only --start common needs a search");
     RunSummary summary;
     summary.add_to(line);
     line.group("Work");
     if (card.problems_are_independent) add_jobs_option(line, experiment.options());
     if (card.compares_tolerances) add_tolerances_option(line, experiment.options());
     if (card.takes_batches) add_batch_option(line, experiment.options());
-    line.group("Of this experiment");
+    line.group("Options of this experiment");
     experiment.add_options(line);
     if (!wants_motions) add_part_options(line, experiment.options());
     const std::vector<std::string> command_line = parse_with_libraries(line);

@@ -16,6 +16,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/polish.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "methods/numerics/quantile.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -97,8 +98,7 @@ void judge_between_stages(SolvedCase& solved, const Trajectory& motion) {
   solved.between_stages = found;
   if (!is_solved(solved.solution.status) || found.is_motion()) return;
   solved.solution.status = Status::violates_between_stages;
-  solved.solution.message =
-      std::string(sentence_of(solved.solution.status)) + found.words(motion, problem.card().time_unit.factor);
+  solved.solution.message = std::string(sentence_of(solved.solution.status)) + found.words(problem, motion);
 }
 
 /// A sentence with the estimated error of an answer; empty where there is no estimate.
@@ -131,36 +131,41 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   solved.solution.status = Status::too_coarse;
   if (found.relative_jump <= largest_jump_of_a_motion &&
       found.accumulated_jump <= largest_accumulated_jump_of_a_motion) {
+    const bool misses_cost = found.cost_error > largest_cost_error_of_a_motion;
     solved.solution.message = fmt::format(
-        "{} The quadrature of the program misses {:.2g} of the running cost along its own trajectory: the cost "
-        "varies too fast within the intervals.",
-        sentence_of(Status::too_coarse), found.cost_error);
+        "{} {}", sentence_of(Status::too_coarse),
+        misses_cost
+            ? fmt::format("The quadrature of the program misses {:.2g} of the running cost along its own "
+                          "trajectory: the cost varies too fast within the intervals.",
+                          found.cost_error)
+            : fmt::format("Its intervals, integrated alone, change the cost by {:.2g} of it: the forces vary too "
+                          "fast within the intervals.",
+                          found.cost_miss));
     return;
   }
   if (found.relative_jump <= largest_jump_of_a_motion) {
     solved.solution.message = fmt::format(
-        "{} Its intervals, integrated alone, miss the next nodes to the same side: by {:.2g} of the range in total, "
-        "the worst by {:.2g}.{}",
+        "{} Its intervals, integrated alone, miss the next nodes on the same side: by {:.2g} of the range in total, at "
+        "most {:.2g} in one interval.{}",
         sentence_of(Status::too_coarse), found.accumulated_jump, found.relative_jump,
         estimate_in_words(solved, motion));
     return;
   }
   const Eigen::Index k = found.interval;
-  const double unit = solved.the_case.problem->card().time_unit.factor;
+  const std::string times = time_in_words(*solved.the_case.problem, motion.node_times[k], motion.node_times[k + 1]);
   const auto undefined = undefined_point(*solved.the_case.problem, motion, k);
   if (undefined || std::isinf(found.relative_jump)) {
     solved.solution.message = fmt::format(
-        "The discrete program is solved, but interval {} (t = {:.4g} to {:.4g}) does not lead to the next node: {} "
+        "The discrete program is solved, but interval {} ({}) does not lead to the next node: {} "
         "More intervals do not help. Keep the formula finite along the trajectory: bound the coordinates away from a "
         "singularity, or use a force as control and limit its power by a path constraint.",
-        k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
+        k, times,
         undefined ? undefined->quantity + " is not a finite number there." : "its formulas are singular there.");
     return;
   }
-  solved.solution.message = fmt::format(
-      "{} Interval {} (t = {:.4g} to {:.4g}), integrated alone, misses the next node by {:.2g} of the range.",
-      sentence_of(Status::too_coarse), k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
-      found.relative_jump);
+  solved.solution.message =
+      fmt::format("{} Interval {} ({}), integrated alone, misses the next node by {:.2g} of the range.",
+                  sentence_of(Status::too_coarse), k, times, found.relative_jump);
 }
 
 /// Notes if the scaled cost of the solver differs from 1 by three orders of magnitude.
@@ -347,7 +352,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
 Solution solve_from(Transcription& program, const Eigen::VectorXd& start,
                     const std::optional<Trajectory>& with_costates, const Solver& solver) {
   const TracedProblem& problem = program.traced_problem();
-  const bool is_mechanism = problem.holonomic_count() > 0 || problem.has_embedding();  // which costates do not start
+  const bool is_mechanism = problem.constraint_count() > 0 || problem.has_embedding();  // which costates do not start
   if (!with_costates || !takes_multipliers(solver) || is_mechanism) return solver.solve(program, start);
   Solution solution = solver.solve(program, start, sample_multipliers(program, *with_costates));
   if (is_solved(solution.status) || solution.status == Status::interrupted) return solution;
@@ -379,12 +384,14 @@ void take_judgement(SolvedCase& solved, const Start& start, std::shared_ptr<Judg
 
 bool is_on_branch(const Trajectory& trajectory, const Motion& branch) {
   constexpr double share = 0.1;
-  const Eigen::VectorXd range = trajectory.q.colwise().maxCoeff() - trajectory.q.colwise().minCoeff();
+  const bool moves = trajectory.y.cols() == 0 || (trajectory.q.rowwise() - trajectory.q.row(0)).any();
+  const Eigen::MatrixXd& states = moves ? trajectory.q : trajectory.y;  // of first-order states alone
+  const Eigen::VectorXd range = states.colwise().maxCoeff() - states.colwise().minCoeff();
   const double stretch = branch.horizon / trajectory.node_times[trajectory.intervals()];  // same relative time
   double distance = 0.0;
   for (Eigen::Index k = 0; k < trajectory.q.rows(); ++k) {
-    const Eigen::VectorXd q = branch.at(trajectory.node_times[k] * stretch).q;
-    distance = std::max(distance, (trajectory.q.row(k).transpose() - q).lpNorm<Eigen::Infinity>());
+    const MotionPoint at = branch.at(trajectory.node_times[k] * stretch);
+    distance = std::max(distance, (states.row(k).transpose() - (moves ? at.q : at.y)).lpNorm<Eigen::Infinity>());
   }
   return distance < share * range.maxCoeff();
 }

@@ -173,7 +173,8 @@ void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 /// The columns of these seconds and their quartiles.
 [[nodiscard]] Columns<std::vector<double>> round_columns();
 
-/// True if no node is a tenth of the range of q or more away from the motion, at the same relative time.
+/// True if no node is a tenth of the range of q or more away from the motion, at the same relative time. Where q rests
+/// and there are first-order states, these are compared.
 [[nodiscard]] bool is_on_branch(const Trajectory& trajectory, const Motion& branch);
 
 /// True for solves that ended on the wanted branch, or on any branch if none is wanted (`--start guess`); curves,

@@ -215,8 +215,8 @@ class StartProvider::Search {
           name, provider_.rules_.most_seconds);
     }
     return fmt::format(
-        "It started at the guess: {} has no common start, because from its guess no method finds a solution on {} or "
-        "{} intervals that follows the continuous dynamics, more closely on twice as many.",
+        "It started at the guess: {} has no common start, because no method found a solution from the guess that "
+        "follows the continuous dynamics on {} or {} intervals.",
         name, final_intervals, 2 * final_intervals);
   }
 
@@ -294,7 +294,7 @@ const Trajectory& StartProvider::motion_in_file(const Problem& problem) {
   if (!texts_) {
     std::error_code none;  // a failed lookup counts as missing
     if (!std::filesystem::exists(rules_.start, none))
-      throw Error(fmt::format("--start takes common, guess or a file; {} is none of them", rules_.start));
+      throw Error(fmt::format("--start takes common, guess or an existing file, not {}", rules_.start));
     texts_ = read_motion_texts(rules_.start);
     origin_ = origin_of(rules_.start, *texts_);
   }

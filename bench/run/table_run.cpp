@@ -142,7 +142,7 @@ void TableRun::stage(const std::string& name, const std::function<void()>& measu
 
 const Table& TableRun::table(const std::string& file) const {
   const auto found = std::ranges::find(tables_, out_ / (file + ".csv"), &TableFile::file);
-  if (found == tables_.end()) throw Error(fmt::format("no stage of {} has made {}.csv", name_, file));
+  if (found == tables_.end()) throw Error(fmt::format("no stage of {} has written {}.csv", name_, file));
   return found->table;
 }
 

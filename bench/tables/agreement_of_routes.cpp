@@ -40,7 +40,7 @@ RouteAgreement agreement_of_routes(const std::vector<double>& objectives,
              certain > 0 && agreement.reference_digits >= certain) {
     agreement.confirmed = fmt::format("to {} digits", agreement.reference_digits);
   } else {
-    agreement.confirmed = grid_digits ? "no" : "not settled by one grid";
+    agreement.confirmed = grid_digits ? "no" : "undecided: one grid is not enough";
   }
   return agreement;
 }

@@ -24,8 +24,6 @@ namespace {
 constexpr double rounding_level = 1e-11;
 /// The factor above the floor from which an error shows the order.
 constexpr double above_floor = 100.0;
-/// The fewest grids for an order in a range of the user's.
-constexpr std::size_t fewest_in_range = 3;
 
 constexpr std::array fitted_quantities{"state",
                                        "control",
@@ -164,14 +162,16 @@ Columns<FittedCurve> order_columns() {
              {"coarse_end", "",
               "why no coarser grid is used: grids (all are used), orders (they differ by more than 0.2), range (--fit)",
               from(&Curve::fitted, &Fit::coarse_end)},
-             {"fine_end", "", "why no finer grid is used: the same, or floor", from(&Curve::fitted, &Fit::fine_end)},
+             {"fine_end", "", "why no finer grid is used: grids, orders, range, or floor",
+              from(&Curve::fitted, &Fit::fine_end)},
              {"points", "", "number of grids used", from(&Curve::fit, &Fit::grids, &Selection::size)},
              {"floor", "", "error at the level of round-off; empty if not measured", from(&Curve::fit, &Fit::floor)},
              {"verdict", "",
               "slope; floor (round-off leaves too few grids), few grids, or unsteady (no four neighbouring grids have "
               "the same order)",
               from(&Curve::fit, &Fit::verdict)},
-             {"active", "", "what the active bounds and path constraints limit (controls, states); they lower orders",
+             {"active", "",
+              "quantities limited by active bounds and path constraints (controls, states), which lower the orders",
               &Curve::active}};
 }
 
@@ -220,11 +220,18 @@ std::optional<std::string> note_on_missing_orders(std::span<const FittedCurve> f
   if (fits.empty() || has_order) return std::nullopt;
   const Row& head = fits.front().head;
   const Fit& fit = fits.front().fit;
-  const bool has_few = fit.verdict == "few grids";
-  return fmt::format("{} {} {} {}: no order is fitted ({}: {} above round-off){}", head.text("problem"),
-                     head.text("method"), head.text("tableau"), head.text("stages"), fit.verdict,
-                     counted(fit.grids.size(), "grid"),
-                     has_few ? "; use at least four grids besides the reference, all solved and not too coarse" : "");
+  const std::string grids = counted(fit.grids.size(), "grid");
+  std::string reason = "no four neighbouring grids have the same order; try finer grids";
+  if (fit.verdict == "few grids") {
+    reason = grids + "; use at least four grids besides the reference, all solved and not too coarse";
+  } else if (fit.verdict == "floor") {
+    reason = fmt::format(
+        "the {} error stops falling at {:.1e}, and {} above {:g} times this level; use coarser grids. If the level is "
+        "far above round-off, reduce --tolerance, or add a small cost of a control that is not determined",
+        fits.front().quantity, *fit.floor, counted(fit.grids.size(), "grid is", "grids are"), above_floor);
+  }
+  return fmt::format("{} {} {} {}: no order is fitted ({}: {})", head.text("problem"), head.text("method"),
+                     head.text("tableau"), head.text("stages"), fit.verdict, reason);
 }
 
 /// The orders of a curve's largest jump and of its state error on the same grids.
@@ -262,7 +269,7 @@ Columns<JumpsOfCurve> jump_columns() {
               from(orders, &TwoOrders::error, standard_error_of)},
              {"orders_apart", "", "jump_slope minus error_slope",
               from(orders, [](const TwoOrders& both) { return both.jump.order - both.error.order; })},
-             {"error_of_jumps_coarsest", "", "state error by N times the jump on the coarsest grid",
+             {"error_of_jumps_coarsest", "", "state error divided by N times the jump, on the coarsest grid",
               from(orders, &TwoOrders::grids, &Selection::front, error_of_jumps)},
              {"error_of_jumps_finest", "", "the same on the finest grid",
               from(orders, &TwoOrders::grids, &Selection::back, error_of_jumps)},
@@ -337,6 +344,15 @@ Table fit_differences(const Selection& equivalence, const std::string& column) {
     append_fit(curves, column, column, above_the_floor(curve, column, rounded.max(column)), curve);
   }
   return table_of(order_columns(), curves);
+}
+
+bool has_solution_of_dmoc(const Row& row) {
+  constexpr double tolerance = 1e-10;
+  const auto leaves_rounding = [&](const char* violation, const char* rounding) {
+    return row.needed(violation) < std::max(tolerance, row.needed(rounding));
+  };
+  return leaves_rounding("violation_in_rows_of_dmoc", "rounding_in_rows_of_dmoc") &&
+         leaves_rounding("violation_of_dmoc_here", "rounding_here");
 }
 
 }  // namespace dmocbench

@@ -14,6 +14,9 @@ struct FitRange {
   long long finest = 0;
 };
 
+/// The fewest grids for an order in such a range.
+constexpr long long fewest_in_range = 3;
+
 /// Stands for a number of intervals where errors are measured against an exact solution.
 constexpr long long exact_reference = -1;
 
@@ -30,7 +33,8 @@ struct FittedOrders {
 /// They are fitted on the asymptotic range (`asymptotic_range`) of the grids whose error is above 100 times the floor.
 /// The floor is measured: it is the median of the errors on a curve's finest grids where they fall with less than order
 /// 1/2 on the whole; the smallest floor among the curves of a problem and method holds for all of them. With a
-/// range of the user's every error in it is used, at least three, except for those at the level of rounding.
+/// range of the user's every error in it is used, at least `fewest_in_range`, except for those at the level of
+/// rounding.
 ///
 /// `reference` is the number of intervals of the reference, 0 for the finest usable grid of a curve, or
 /// `exact_reference`. A note states where the grid that was meant is not usable, and why.
@@ -53,5 +57,9 @@ struct FittedOrders {
 /// tangent-space collocation, in the columns and by the rules of an exact reference. The floor is the largest such
 /// difference of Hamiltonian collocation on the same problem, which by (th:equi) is rounding.
 [[nodiscard]] Table fit_differences(const Selection& equivalence, const std::string& column);
+
+/// Whether a row of `equivalence` has the solution of DMOC: each of the two satisfies the equations of the other method
+/// to round-off, or to 1e-10 where round-off is smaller. Throws `Error` if a residual is missing.
+[[nodiscard]] bool has_solution_of_dmoc(const Row& row);
 
 }  // namespace dmocbench

@@ -173,7 +173,7 @@ Columns<StartsOfMethod> best_share_columns() {
              {"unconfirmed", "", "number of starts that ended in a minimum of a grid that is too coarse",
               &Starts::unconfirmed},
              {"best", "", "number of starts that ended in the best minimum", from(&Starts::best, &ShareCount::hits)},
-             {"share", "", "best by starts", from(&Starts::best, &ShareCount::share)},
+             {"share", "", "best divided by starts", from(&Starts::best, &ShareCount::share)},
              {"share_lower", "", "lower end of Wilson's 95 % interval of the share",
               from(&Starts::interval, &ShareInterval::lower)},
              {"share_upper", "", "upper end of this interval", from(&Starts::interval, &ShareInterval::upper)}};

@@ -58,7 +58,8 @@ Columns<ProfilePoint> point_columns() {
   return Columns<Point>{{"measure", "", "measure of the profile", &Point::measure}} +
          head_columns<Point>(competitor_columns) +
          Columns<Point>{
-             {"ratio", "", "effort of a competitor by the best one's on the same instance", &Point::ratio},
+             {"ratio", "", "effort of a competitor divided by the best competitor's on the same instance",
+              &Point::ratio},
              {"share", "", "share of all instances on which the competitor stays within the ratio", &Point::share}};
 }
 
@@ -247,9 +248,9 @@ Table library_table(const Selection& rows) {
 std::string library_table_in_markdown(const Selection& library) {
   const std::vector<std::string> methods = library.distinct("method");
   std::string text =
-      "# The library\n\nEvery problem from its own guess: the cost that a method reaches and, in brackets, its "
-      "relative difference from the reference; where it was not solved, the status. \"Elsewhere\" means that the cost "
-      "is too far from the reference to count as a success: another minimum, or a grid that is too coarse.\n";
+      "# The library\n\nEvery problem is solved from its own guess. An entry is the cost that a method reaches and, in "
+      "brackets, its relative difference from the reference, or the status of a failed solve. \"Elsewhere\" means that "
+      "the cost is too far from the reference to count as a success: another minimum, or a grid that is too coarse.\n";
   for (const Selection& scheme : library.group_by({"tableau", "stages", "solver", "derivatives"})) {
     const Row& head = scheme.front();
     text += fmt::format("\n## {} {}, {}, {}\n\n| problem | N | reference | {} |\n|---|---|---|", head.text("tableau"),
@@ -270,7 +271,7 @@ std::string library_table_in_markdown(const Selection& library) {
         });
       });
     };
-    text += fmt::format("\n\nSolved by all: {} of {} problems; with success by all: {}.\n",
+    text += fmt::format("\n\nSolved with all methods: {} of {} problems; successful with all methods: {}.\n",
                         count_by_all("status", "solved"), problems.size(), count_by_all("success", "yes"));
   }
   return text;

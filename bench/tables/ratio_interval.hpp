@@ -55,11 +55,11 @@ struct MedianOfRounds {
 /// the arguments of `from` after one.
 template <class Record, class... Members>
 [[nodiscard]] Columns<Record> round_columns(Members... ratios) {
-  return {{"ratio_lower", "", "lower end of the 99 % interval of the median ratio, where rounds were timed",
-           from(ratios..., &MedianOfRounds::lower)},
-          {"ratio_upper", "", "upper end of this interval", from(ratios..., &MedianOfRounds::upper)},
-          {"round_ratios", "", "the ratio in each round, with spaces between them",
-           from(ratios..., &MedianOfRounds::rounds)}};
+  return {
+      {"ratio_lower", "", "lower end of the 99 % interval of the median ratio, where rounds were timed",
+       from(ratios..., &MedianOfRounds::lower)},
+      {"ratio_upper", "", "upper end of this interval", from(ratios..., &MedianOfRounds::upper)},
+      {"round_ratios", "", "the ratio in each round, separated by spaces", from(ratios..., &MedianOfRounds::rounds)}};
 }
 
 /// The quotients of two lists of times, round by round, as far as both reach.

@@ -15,6 +15,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/polish.hpp"
 #include "methods/runtime/clock.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/families.hpp"
@@ -30,6 +31,19 @@ constexpr int most_stages = 3;
 
 /// The share of the accuracy that the next grid is made for.
 constexpr double margin = 0.9;
+
+/// Every interval in equal parts.
+Grid subdivided(const Grid& grid, Eigen::Index parts) {
+  const Eigen::VectorXd coarse = grid.relative_times();
+  Eigen::VectorXd fine(parts * (coarse.size() - 1) + 1);
+  for (Eigen::Index i = 0; i < fine.size() - 1; ++i) {
+    const Eigen::Index k = i / parts;
+    const double share = static_cast<double>(i % parts) / static_cast<double>(parts);
+    fine[i] = (1.0 - share) * coarse[k] + share * coarse[k + 1];
+  }
+  fine[fine.size() - 1] = coarse[coarse.size() - 1];
+  return Grid::from_nodes(fine);
+}
 
 /// Adds the counts and times of an earlier solve to a solution.
 void add_work(const Solution& earlier, Solution& solution) {
@@ -81,6 +95,7 @@ class AdaptiveRun {
     for (int number = 0; number < options_.most_grids; ++number) {
       const bool is_solved_here = attempt();
       if (on_grid) on_grid(answer_.grids.back());
+      if (!is_solved_here && narrowed_ > 0 && take_fewest_stages()) continue;
       if (!is_solved_here) return end(AdaptiveOutcome::not_solved, failure());
       if (!between_.is_motion()) {
         refine_where_violated();
@@ -91,12 +106,12 @@ class AdaptiveRun {
     }
     if (!between_.is_motion()) {
       return end(AdaptiveOutcome::not_solved,
-                 fmt::format("After {} grids the trajectory still violates constraints between stages:{}",
-                             options_.most_grids, between_.words(answer_.trajectory, 1.0)));
+                 fmt::format("After {} the trajectory still violates constraints between stages:{}",
+                             counted(options_.most_grids, "grid"), between_.words(*task_.problem, answer_.trajectory)));
     }
     return end(AdaptiveOutcome::too_many,
-               fmt::format("After {} grids the estimated error is still {:.1e}, not {:g}.", options_.most_grids,
-                           answer_.estimate.relative, options_.accuracy));
+               fmt::format("After {} the estimated error is still {:.1e}, above the requested {:g}.",
+                           counted(options_.most_grids, "grid"), answer_.estimate.relative, options_.accuracy));
   }
 
   AdaptiveAnswer end(AdaptiveOutcome outcome, std::string message) {
@@ -206,9 +221,9 @@ class AdaptiveRun {
     const ErrorEstimate& estimate = answer_.estimate;
     if (estimate.relative <= options_.accuracy) {
       answer_.outcome = AdaptiveOutcome::reached;
-      answer_.message = fmt::format("The estimated error is {:.1e} on {} intervals with {} stage{}{}.",
-                                    estimate.relative, answer_.grids.back().intervals, stages_, stages_ == 1 ? "" : "s",
-                                    reason_to_compare_.empty() ? "" : ", by comparison with the grid before");
+      answer_.message = fmt::format("The estimated error is {:.1e} on {} with {}{}.", estimate.relative,
+                                    counted(answer_.grids.back().intervals, "interval"), counted(stages_, "stage"),
+                                    reason_to_compare_.empty() ? "" : ", by comparison with the previous grid");
       return true;
     }
     return stopped_by_rounding(estimate.floor);
@@ -225,8 +240,23 @@ class AdaptiveRun {
     return true;
   }
 
-  /// The next grid where the motion leaves its constraints between stages: finer there, the same elsewhere.
+  /// As few stages as the tableau has, and that many more intervals: controls are constant or linear in an interval
+  /// then and keep their bounds wherever they switch. False if there are no fewer.
+  bool take_fewest_stages() {
+    const int fewest = task_.tableau == "gauss" ? 1 : 2;
+    if (stages_ <= fewest || family_of(task_.method).name == "galerkin") return false;
+    grid_ = subdivided(task_.first, stages_ / fewest);
+    stages_ = most_stages_ = fewest;
+    narrowed_ = 0;
+    is_finer_than_before_ = false;
+    return true;
+  }
+
+  /// The next grid where the motion leaves its constraints between stages: finer there, the same elsewhere. Where that
+  /// has not helped controls that switch, one with fewer stages.
   void refine_where_violated() {
+    constexpr int most_narrowed = 3;
+    if (between_.keeps_state() && narrowed_++ == most_narrowed && take_fewest_stages()) return;
     constexpr double narrower = 0.25;
     Eigen::VectorXd widths = grid_.relative_widths();
     const auto narrow = [&](Eigen::Index k) { widths[k] = std::max(narrower * widths[k], Grid::narrowest); };
@@ -253,27 +283,20 @@ class AdaptiveRun {
     const bool is_slow = std::isfinite(before) && predicted > most_predicted;
     slow_grids_ = is_slow ? slow_grids_ + 1 : 0;
     is_finer_than_before_ = true;
-    if (options_.refinement == Refinement::hp && stages_ < most_stages) {
+    if (options_.refinement == Refinement::hp && stages_ < most_stages_) {
       ++stages_;
       return true;
     }
-    const Eigen::VectorXd coarse = grid_.relative_times();
     const auto intervals = static_cast<Eigen::Index>(grid_.intervals());
     if (2 * intervals > options_.most_intervals || slow_grids_ >= most_slow_grids) {
       answer_.outcome = AdaptiveOutcome::too_many;
       answer_.message = fmt::format(
-          "An accuracy of {:g} needs too many intervals; on {} the estimated error is {:.1e}. More stages need fewer "
-          "intervals.",
+          "An accuracy of {:g} needs too many intervals; on {} the estimated error is {:.1e}. Use more stages, which "
+          "need fewer intervals.",
           options_.accuracy, intervals, now);
       return false;
     }
-    Eigen::VectorXd fine(2 * intervals + 1);
-    for (Eigen::Index k = 0; k < intervals; ++k) {
-      fine[2 * k] = coarse[k];
-      fine[2 * k + 1] = 0.5 * (coarse[k] + coarse[k + 1]);
-    }
-    fine[2 * intervals] = coarse[intervals];
-    grid_ = Grid::from_nodes(fine);
+    grid_ = subdivided(grid_, 2);
     return true;
   }
 
@@ -289,7 +312,7 @@ class AdaptiveRun {
       return equidistributed_widths(grid_, estimate.defects, tableau.order, share, growth * present);
     };
     EvenWidths even = even_widths(most_growth);
-    if (options_.refinement == Refinement::hp && stages_ < most_stages && even.asked > 2.0 * present) {
+    if (options_.refinement == Refinement::hp && stages_ < most_stages_ && even.asked > 2.0 * present) {
       ++stages_;
       even = even_widths(1.0);
     }
@@ -312,9 +335,11 @@ class AdaptiveRun {
   SolverOptions solver_options_;
   Grid grid_;
   int stages_;
+  int most_stages_ = most_stages;
   std::optional<ErrorEstimator> estimator_;
   std::string reason_to_compare_;      // why `estimator_` gives no estimate; empty if it does
   bool is_finer_than_before_ = false;  // every interval of the grid before was halved, or has more stages
+  int narrowed_ = 0;                   // grids, in turn, where controls left their bounds
   int slow_grids_ = 0;                 // in turn whose error hardly fell
   bool is_estimated_ = false;          // of the last solution: a limit may come before its estimate
   ViolationBetweenStages between_;     // of the last grid

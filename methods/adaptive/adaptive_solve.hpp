@@ -110,7 +110,9 @@ struct AdaptiveTask {
 ///
 /// A motion that leaves its constraints between stages (`violation_between_stages`) has no estimate, whatever the
 /// requested accuracy: the next grid is four times as fine where a control leaves its bounds, or where the motion
-/// leaves other constraints farthest, and the same elsewhere.
+/// leaves other constraints farthest, and the same elsewhere. Where three such grids have not helped a control, or one
+/// of them is not solved, it begins again with one Gauss or two Lobatto stages, whose controls keep their bounds, on
+/// that many more intervals; the number of stages stays so (`galerkin` keeps its own).
 ///
 /// It ends as `rounding` where the floor of an estimate is above the accuracy, or the next grid's would be. It stops
 /// where a program is not solved (`solution` has the reason), and as `stopped` where the time is up. `on_grid` is

@@ -168,8 +168,8 @@ void require_smooth_optimum(const Transcription& program, const LinearisedCondit
       is_active(program.constraint_lower(), program.constraint_upper(),
                 [&](Eigen::Index i) { return 1.0 / at.compliance[i]; })) {
     throw Error(
-        "the error can only be estimated where no bound and no inequality is active along the optimum; widen the "
-        "bounds, or choose the grid yourself");
+        "the error can be estimated only if no bound or inequality is active along the optimum; widen the bounds, or "
+        "choose the grid yourself");
   }
 }
 
@@ -223,10 +223,10 @@ double second_order_of_cost(const ExtremalCoordinates::Canonical& misses,
 
 /// The program, unless its horizon is free or its ends are tied.
 const Transcription& with_fixed_ends(const Transcription& program) {
-  if (program.has_free_horizon()) throw Error("the error cannot be estimated where the horizon is free; fix it");
+  if (program.has_free_horizon()) throw Error("the error cannot be estimated for a free horizon; fix it");
   program.traced_problem().require_no_constraints("the estimate of the error");
   if (program.traced_problem().boundary_condition_count() > 0) {
-    throw Error("the error cannot be estimated where the problem has boundary conditions; state the ends by " +
+    throw Error("the error cannot be estimated for a problem with boundary conditions; state the ends with " +
                 member_name("initial_state") + ", " + member_name("final_state") + " and bounds");
   }
   return program;

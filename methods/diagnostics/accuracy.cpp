@@ -86,8 +86,30 @@ Eigen::MatrixXd jumps_of(const TracedProblem& traced, const Trajectory& trajecto
   return jumps;
 }
 
-/// See `Accuracy::cost_error`.
-double cost_error_of(const TracedProblem& traced, const Trajectory& trajectory) {
+/// Σ_k ψ_{k+1}·δx_k of the jumps δx_k: by how much they change the least cost, to first order; 0 without costates, or
+/// where constraints on q leave a part of them undetermined.
+double worth_of(const TracedProblem& traced, const Trajectory& trajectory, const Eigen::MatrixXd& jumps) {
+  if (!trajectory.has_costates() || traced.holonomic_count() > 0 || !jumps.allFinite()) return 0.0;
+  const Eigen::Index n = trajectory.q.cols();
+  const Eigen::Index l = trajectory.y.cols();
+  const Eigen::Index intervals = trajectory.intervals();
+  Eigen::MatrixXd nodes = Eigen::MatrixXd::Zero(intervals, 2 * n + trajectory.stage_u.cols() + l + 1);
+  nodes.leftCols(n) = trajectory.q.bottomRows(intervals);
+  nodes.middleCols(n, n) = trajectory.v.bottomRows(intervals);
+  if (l > 0) nodes.rightCols(l + 1).leftCols(l) = trajectory.y.bottomRows(intervals);
+  nodes.rightCols(1) = trajectory.node_times.tail(intervals);
+  Eigen::MatrixXd ends = nodes;
+  ends.leftCols(2 * n) += jumps.topRows(2 * n).transpose();
+  ends.rightCols(l + 1).leftCols(l) += jumps.bottomRows(l).transpose();
+  const Eigen::MatrixXd of_p = traced.table(ends).leftCols(n) - traced.table(nodes).leftCols(n);
+  double worth = trajectory.psi_q.bottomRows(intervals).cwiseProduct(jumps.topRows(n).transpose()).sum() +
+                 trajectory.psi_p.bottomRows(intervals).cwiseProduct(of_p).sum();
+  if (l > 0) worth += trajectory.psi_y.bottomRows(intervals).cwiseProduct(jumps.bottomRows(l).transpose()).sum();
+  return worth;
+}
+
+/// Sets `Accuracy::cost_error` and `Accuracy::cost_miss`.
+void compare_cost(const TracedProblem& traced, const Trajectory& trajectory, double worth, Accuracy& found) {
   constexpr double smallest_cost = 1e-6;  // below it round-off and the tolerance decide
   using FinerRule = boost::math::quadrature::gauss<double, 7>;
   PointFunction running_cost(
@@ -116,15 +138,19 @@ double cost_error_of(const TracedProblem& traced, const Trajectory& trajectory) 
     finer += of_interval;
     size += std::abs(of_interval);
   }
-  if (!std::isfinite(finer)) return std::numeric_limits<double>::infinity();
-  return std::abs(finer - of_program) / std::max({size, std::abs(trajectory.cost), smallest_cost});
+  const auto share = [&](double of_cost) {
+    if (!std::isfinite(finer)) return std::numeric_limits<double>::infinity();
+    return std::abs(of_cost) / std::max({size, std::abs(trajectory.cost), smallest_cost});
+  };
+  found.cost_error = share(finer - of_program);
+  found.cost_miss = share(finer - of_program + worth);
 }
 
 }  // namespace
 
 bool Accuracy::is_motion() const {
   return relative_jump <= largest_jump_of_a_motion && accumulated_jump <= largest_accumulated_jump_of_a_motion &&
-         cost_error <= largest_cost_error_of_a_motion;
+         cost_error <= largest_cost_error_of_a_motion && !(cost_miss > largest_cost_miss_of_a_motion);
 }
 
 Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance) {
@@ -162,7 +188,7 @@ Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, dou
     sum += jumps.col(k);
     found.accumulated_jump = std::max(found.accumulated_jump, relative_size(sum));
   }
-  found.cost_error = cost_error_of(traced, trajectory);
+  compare_cost(traced, trajectory, worth_of(traced, trajectory, jumps), found);
   return found;
 }
 

@@ -31,18 +31,27 @@ Expression priced_integrals(const TracedProblem::Values& values, const Trajector
   return sum;
 }
 
-/// p·ξ at the nodes.
-Eigen::VectorXd momenta_along(const TracedProblem& traced, const Trajectory& trajectory) {
+/// p·ξ at the nodes, and the impulses of forces of constraint along ξ in the intervals.
+struct AlongSymmetry {
+  Eigen::VectorXd momenta;
+  Eigen::VectorXd impulses;
+};
+
+AlongSymmetry along_symmetry(const TracedProblem& traced, const Trajectory& trajectory) {
   PointFunction generator(
       traced.configuration_size(), traced.control_size(),
       [&](const ControlledState& x) { return traced.at(x).symmetry; }, traced.first_order_size());
-  Eigen::VectorXd momentum(trajectory.q.rows());
+  const Eigen::Index intervals = trajectory.intervals();
+  AlongSymmetry result{Eigen::VectorXd(intervals + 1), Eigen::VectorXd::Zero(intervals)};
+  const bool has_impulses = trajectory.left_impulses.size() > 0;
   Eigen::VectorXd direction(traced.configuration_size());
-  for (Eigen::Index k = 0; k < momentum.size(); ++k) {
+  for (Eigen::Index k = 0; k <= intervals; ++k) {
     generator.evaluate(trajectory.node(k), trajectory.node_times[k], direction);
-    momentum[k] = trajectory.p.row(k).dot(direction);
+    result.momenta[k] = trajectory.p.row(k).dot(direction);
+    if (has_impulses && k > 0) result.impulses[k - 1] += trajectory.right_impulses.row(k - 1).dot(direction);
+    if (has_impulses && k < intervals) result.impulses[k] += trajectory.left_impulses.row(k).dot(direction);
   }
-  return momentum;
+  return result;
 }
 
 void summarise(MomentumConsistency& result, double change_at_switches) {
@@ -63,7 +72,7 @@ MomentumConsistency consistency_of_phases(const PhasedProblem& problem, const Tr
     ends.emplace_back();
     if (!traced.has_symmetry()) continue;
     const MomentumConsistency own = momentum_consistency(*problem.phases()[i].problem, parts[i].motion);
-    const Eigen::VectorXd momentum = momenta_along(traced, parts[i].motion);
+    const Eigen::VectorXd momentum = along_symmetry(traced, parts[i].motion).momenta;
     ends.back() = std::pair(momentum[0], momentum[momentum.size() - 1]);
     if (i > 0 && ends[problem.preceding(i)]) change += momentum[0] - ends[problem.preceding(i)]->second;
     all.largest_force = std::max(all.largest_force, own.largest_force);
@@ -80,7 +89,7 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   if (!traced.has_symmetry()) {
-    throw Error(problem.name() + " states no symmetry, so it has no conserved momentum");
+    throw Error(problem.name() + " defines no symmetry, so it has no conserved momentum");
   }
   if (const PhasedProblem* const phased = problem.phased()) return consistency_of_phases(*phased, trajectory);
   PointFunction force_along(
@@ -88,15 +97,15 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
       [&](const ControlledState& x) {
         const TracedProblem::Values values = traced.at(x);
         const ExpressionVector transport = values.symmetry_jacobian * x.v;
-        return ExpressionVector::Constant(
-            1, values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport));
+        const Expression work = values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport);
+        return stacked({ExpressionVector::Constant(1, work), values.symmetry});
       },
       traced.first_order_size());
 
-  const Eigen::VectorXd momentum = momenta_along(traced, trajectory);
+  const auto [momentum, impulses] = along_symmetry(traced, trajectory);
   MomentumConsistency result;
   result.defects.resize(trajectory.intervals());
-  Eigen::VectorXd force(1);
+  Eigen::VectorXd force(1 + traced.configuration_size());  // along ξ, then ξ
   const Eigen::Index s = trajectory.stages();
   for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
     const double h = trajectory.step(k);
@@ -104,10 +113,13 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
     for (Eigen::Index i = 0; i < s; ++i) {
       const Eigen::Index stage = k * s + i;
       force_along.evaluate(trajectory.stage(stage), trajectory.stage_times[stage], force);
+      if (trajectory.stage_constraint_forces.rows() > 0) {
+        force[0] += trajectory.stage_constraint_forces.row(stage).dot(force.tail(force.size() - 1));
+      }
       work += h * trajectory.tableau.b[i] * force[0];
       result.largest_force = std::max(result.largest_force, std::abs(force[0]));
     }
-    result.defects[k] = momentum[k + 1] - momentum[k] - work;
+    result.defects[k] = momentum[k + 1] - momentum[k] - work - impulses[k];
   }
   summarise(result, 0.0);
   return result;
@@ -115,7 +127,7 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
 
 CostateMomentum costate_momentum(const Problem& problem, const Trajectory& trajectory) {
   const TracedProblem traced(problem);
-  if (!traced.has_symmetry()) throw Error(problem.name() + " states no symmetry, so its costates have no momentum");
+  if (!traced.has_symmetry()) throw Error(problem.name() + " defines no symmetry, so its costates have no momentum");
   if (!trajectory.has_costates()) throw Error("the momentum of costates needs a trajectory with costates");
   const Eigen::Index n = traced.configuration_size();
   PointFunction action(n, traced.control_size(), [&](const ControlledState& x) {

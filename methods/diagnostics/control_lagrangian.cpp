@@ -1,6 +1,7 @@
 #include "methods/diagnostics/control_lagrangian.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "methods/error.hpp"
@@ -8,6 +9,7 @@
 #include "methods/expression/vectors.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
 
 namespace dmocbench {
 
@@ -91,6 +93,24 @@ Eigen::MatrixXd multipliers_at_nodes(const TracedProblem& problem, const Traject
   return xi;
 }
 
+/// Series of a block of rows or unknowns, a row per member.
+template <class Kind>
+Eigen::MatrixXd members_of(const Block<Kind>& block, const Eigen::VectorXd& values) {
+  Eigen::MatrixXd series(static_cast<Eigen::Index>(block.length), block.width);
+  for (Eigen::Index i = 0; i < block.width; ++i) series.col(i) = values.segment(block.index(i), series.rows());
+  return series;
+}
+
+/// Row i: ∫₀^{c_i} ℓ_j of the Lagrange polynomials of the points of `rates`, whose quadrature is exact for them.
+Eigen::MatrixXd integrals_of_basis(const Tableau& rates, const Eigen::VectorXd& c) {
+  Eigen::MatrixXd integrals = Eigen::MatrixXd::Zero(c.size(), rates.stages());
+  for (Eigen::Index i = 0; i < c.size(); ++i) {
+    for (Eigen::Index j = 0; j < rates.stages(); ++j)
+      integrals.row(i) += c[i] * rates.b[j] * lagrange_basis(rates.c, c[i] * rates.c[j]).transpose();
+  }
+  return integrals;
+}
+
 double relative(double residual, double scale) { return scale > 0.0 ? residual / scale : residual; }
 
 }  // namespace
@@ -141,6 +161,68 @@ ControlLagrangianResidual control_lagrangian_residual(const Problem& problem, co
   return {.adjoint = relative(horizon * largest.adjoint, size_of_v),
           .motion = relative(horizon * largest.motion, size_of_rate),
           .control = relative(largest.control, size_of_cost)};
+}
+
+double GalerkinForm::difference() const { return std::abs(program - action) / size; }
+
+bool has_galerkin_form(const Transcription& program) {
+  const ProgramBlocks& blocks = program.blocks();
+  const auto has_velocity = [&](std::size_t node) { return blocks.unknown_at(Quantity::velocity, node).width > 0; };
+  return program.node_state() == NodeState::configuration && !has_velocity(0) && !has_velocity(blocks.intervals()) &&
+         std::ranges::all_of(blocks.rows(), [](const RowBlock& block) {
+           return block.width == 0 || block.kind == Equation::euler_lagrange;
+         });
+}
+
+GalerkinForm galerkin_form(Transcription& program, const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                           MultiplierPath path) {
+  const ProgramBlocks& blocks = program.blocks();
+  const Tableau& rates = program.functions().rates;
+  const Tableau& quadrature = program.tableau();
+  if (!has_galerkin_form(program))
+    throw Error("the Galerkin form needs dmoc or galerkin, fixed ends, and no equations besides Euler-Lagrange");
+  const TracedProblem& traced = program.traced_problem();
+  const Eigen::Index n = traced.configuration_size();
+  PointFunction formulas(n, traced.control_size(), [&](const ControlledState& point) {
+    const TracedProblem::Values values = traced.at(point);
+    ExpressionVector outputs(2 * n + 1);
+    outputs << values.generalised_force, values.momentum, values.running_cost;
+    return outputs;
+  });
+  const Trajectory trajectory = read_trajectory(program, x, {});
+  const Eigen::MatrixXd at_nodes = members_of(blocks.row(Equation::euler_lagrange), multipliers);
+  const Eigen::MatrixXd integrals = integrals_of_basis(rates, quadrature.c);
+  Eigen::VectorXd residual(static_cast<Eigen::Index>(program.constraint_count()));
+  program.constraints(x, residual);
+  GalerkinForm form{.program = program.objective(x) + multipliers.dot(residual)};
+  Eigen::VectorXd values(2 * n + 1);
+  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
+    const double h = trajectory.step(k);
+    const Eigen::VectorXd straight = (at_nodes.row(k + 1) - at_nodes.row(k)).transpose() / h;
+    Eigen::MatrixXd rates_of_xi = straight.replicate(1, rates.stages());
+    if (path == MultiplierPath::polynomial) {
+      Eigen::VectorXd last = straight;
+      for (Eigen::Index j = 0; j + 1 < rates.stages(); ++j) {
+        const Eigen::MatrixXd own = members_of(blocks.row(Equation::euler_lagrange, j), multipliers);
+        rates_of_xi.col(j) = own.row(k).transpose() / (h * rates.b[j]);
+        last -= rates.b[j] * rates_of_xi.col(j);
+      }
+      rates_of_xi.rightCols(1) = last / rates.b[rates.stages() - 1];
+    }
+    for (Eigen::Index i = 0; i < quadrature.stages(); ++i) {
+      const Eigen::Index row = k * quadrature.stages() + i;
+      formulas.evaluate(trajectory.stage(row), trajectory.stage_times[row], values);
+      const Eigen::VectorXd xi = at_nodes.row(k).transpose() + h * rates_of_xi * integrals.row(i).transpose();
+      const Eigen::VectorXd xi_rate = rates_of_xi * lagrange_basis(rates.c, quadrature.c[i]);
+      const double weight = h * quadrature.b[i];
+      for (const double term :
+           {program.cost_scale() * values[2 * n], xi.dot(values.head(n)), xi_rate.dot(values.segment(n, n))}) {
+        form.action += weight * term;
+        form.size += std::abs(weight * term);
+      }
+    }
+  }
+  return form;
 }
 
 }  // namespace dmocbench

@@ -131,7 +131,7 @@ std::vector<std::string> broken_counts(const TracedInterval& interval, const Ele
   const IntervalTrace& trace = interval.trace;
   std::vector<std::string> broken;
   const auto expect = [&](Eigen::Index size, Eigen::Index expected, const char* what) {
-    if (size != expected) broken.push_back(fmt::format("counts: {} {} instead of {}", size, what, expected));
+    if (size != expected) broken.push_back(fmt::format("counts: {} {}, expected {}", size, what, expected));
   };
   const Eigen::Index of_node = element.node_state() == NodeState::configuration ? degrees : 0;
   expect(trace.left_rows.size(), of_node, "entries of left_rows");
@@ -149,7 +149,7 @@ std::vector<std::string> broken_counts(const TracedInterval& interval, const Ele
     misses << stage.u - polynomial_at(controls.c, interval.unknowns.controls, tableau.c[i]),
         stage.t - interval.unknowns.t - Expression(tableau.c[i]) * interval.unknowns.h;
     if (largest_value(misses, interval) > Number(1e-14)) {
-      broken.push_back(fmt::format("counts: stage {} is not at t_k + c_i h or does not have the control U_i", i + 1));
+      broken.push_back(fmt::format("counts: stage {} is not at t_k + c_i h, or its control is not U_i", i + 1));
     }
   }
   return broken;
@@ -191,10 +191,9 @@ std::vector<std::string> broken_consistency(const IdentityMap& map, const Schedu
   }
   if (std::isnan(measured)) return {"consistency: the equations of an interval cannot be solved for its right node"};
   if (measured > Number(order + 1) - margin) return {};
-  return {
-      fmt::format("consistency: the error of a step of length h behaves like h^{:.2f}, not like h^{}; it is {:.1e} "
-                  "with h = 0.0125",
-                  static_cast<double>(measured), order + 1, static_cast<double>(error))};
+  return {fmt::format(
+      "consistency: the error of one step of length h decreases as h^{:.2f}, not as h^{}; it is {:.1e} for h = 0.0125",
+      static_cast<double>(measured), order + 1, static_cast<double>(error))};
 }
 
 std::vector<std::string> broken_momenta(const TracedInterval& interval, const TracedProblem& problem, NodeState state) {
@@ -284,8 +283,8 @@ std::vector<std::string> broken_costates(const IdentityMap& map, const CostToGo&
   const Number miss = (gradient - differences).lpNorm<Eigen::Infinity>();
   if (miss < Number(1e-7)) return {};
   return {
-      fmt::format("costates: the derivative of the Lagrangian of an interval by its left node differs by {:.1e} from "
-                  "differences of the cost to go",
+      fmt::format("costates: the derivative of an interval's Lagrangian with respect to its left node differs by "
+                  "{:.1e} from finite differences of the cost-to-go",
                   static_cast<double>(miss))};
 }
 

@@ -10,7 +10,7 @@
 #include "methods/diagnostics/switch_map.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/holonomic_constraints.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/phased_problem.hpp"
 #include "methods/mechanics/point_function.hpp"
@@ -61,7 +61,7 @@ class Replay {
         running_cost_(
             traced_.configuration_size(), traced_.control_size(),
             [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced_.at(x).running_cost); }, l_) {
-    if (traced_.holonomic_count() > 0) constraints_.emplace(traced_);
+    if (traced_.constraint_count() > 0) constraints_.emplace(traced_);
   }
 
   /// q, v, y and a cost so far of 0.
@@ -87,7 +87,7 @@ class Replay {
     const double left = trajectory_.node_times[k];
     const double right = trajectory_.node_times[k + 1];
     if (!integrate(equations, state, left, right, right - left, tolerance_)) {
-      throw Error(fmt::format("the replay's step size vanished in interval {}", k));
+      throw Error(fmt::format("the step size of the replay vanished in interval {}", k));
     }
     if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n_ + l_ + 1).allFinite()) {
       throw Error(fmt::format("the replay left the domain of the equations of motion in interval {}", k));
@@ -105,7 +105,7 @@ class Replay {
   Eigen::Index l_;
   TracedProblem traced_;
   EquationsOfMotion motion_;
-  std::optional<HolonomicConstraints> constraints_;  // of reduced index, the equations of motion drift away from them
+  std::optional<MotionConstraints> constraints_;  // of reduced index, the equations of motion drift away from them
   PointFunction running_cost_;
   Eigen::VectorXd cost_rate_ = Eigen::VectorXd(1);
 };

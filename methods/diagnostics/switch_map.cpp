@@ -83,7 +83,7 @@ BoundaryState SwitchMap::after(const BoundaryState& before, double time, const B
     const Eigen::Index n = start.q.size();
     return {.q = x.head(n), .v = x.segment(n, n), .y = x.segment(2 * n, start.y.size())};
   }
-  throw Error(fmt::format("the conditions of a switch determine no state after it within {} steps of Newton's method",
+  throw Error(fmt::format("Newton's method found no state after a switch that satisfies its conditions within {} steps",
                           most_steps));
 }
 

@@ -11,6 +11,7 @@
 #include "methods/expression/enclosure.hpp"
 #include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/member_name.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "methods/numerics/dense_solve.hpp"
 #include "methods/transcription/elements/tableau.hpp"
 
@@ -501,11 +502,11 @@ bool ViolationBetweenStages::keeps_controls() const {
   return control.share <= largest_violation_of_a_motion || missed <= smallest_miss;
 }
 
-std::string ViolationBetweenStages::words(const Trajectory& trajectory, double time_unit) const {
+std::string ViolationBetweenStages::words(const Problem& problem, const Trajectory& trajectory) const {
   std::string text;
   const auto add = [&](const MotionViolation& worst, const std::string& size) {
-    text += fmt::format(" {} is violated by {:.2g} at t = {:.4g} (interval {}){}.", worst.constraint, worst.size,
-                        time_unit * worst.time, worst.interval, size);
+    text += fmt::format(" {} is violated by {:.2g} at {} (interval {}){}.", worst.constraint, worst.size,
+                        time_in_words(problem, worst.time), worst.interval, size);
   };
   if (!keeps_state())
     add(state, state.share > 1.0 ? ", more than its scale" : fmt::format(", {:.2g} of its scale", state.share));

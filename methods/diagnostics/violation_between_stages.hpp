@@ -35,9 +35,9 @@ struct ViolationBetweenStages {
   [[nodiscard]] bool keeps_controls() const;
   /// Whether both hold.
   [[nodiscard]] bool is_motion() const { return keeps_state() && keeps_controls(); }
-  /// Sentences for an answer that is not a motion: which constraint it leaves, by how much, when (in units of time as
-  /// shown, `time_unit` of the motion's), and what can be done.
-  [[nodiscard]] std::string words(const Trajectory& trajectory, double time_unit) const;
+  /// Sentences for an answer that is not a motion: which constraint it leaves, by how much, when, and what can be
+  /// done.
+  [[nodiscard]] std::string words(const Problem& problem, const Trajectory& trajectory) const;
 };
 
 /// Measures the element's polynomial of q with its time derivative, and the stage polynomial of u, at nine points per

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench::detail {
 
@@ -16,8 +17,8 @@ void require_factors(Eigen::Index rows, Eigen::Index columns, Eigen::Index other
 
 void throw_no_entry(char name, Eigen::Index entry, Eigen::Index size) {
   if (size == 0) throw Error(fmt::format("a formula reads {}[{}], but {} has no entries", name, entry, name));
-  throw Error(fmt::format("a formula reads {}[{}], but {} has {} {}, the last of which is {}[{}]", name, entry, name,
-                          size, size == 1 ? "entry" : "entries", name, size - 1));
+  throw Error(fmt::format("a formula reads {}[{}], but {} has {}, the last of which is {}[{}]", name, entry, name,
+                          counted(size, "entry", "entries"), name, size - 1));
 }
 
 }  // namespace dmocbench::detail

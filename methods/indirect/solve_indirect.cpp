@@ -84,6 +84,7 @@ void require_indirect(const Problem& problem) {
   if (traced.first_order_size() > 0) refuse("first-order states");
   if (traced.unknown_count() > 0) refuse("unknown parameters");
   if (traced.holonomic_count() > 0) refuse("constraints g(q) = 0");
+  if (traced.constraint_count() > 0) refuse("velocity constraints");
   if (traced.boundary_condition_count() > 0) refuse("boundary conditions");
   const Eigen::Index n = traced.configuration_size();
   const auto size = static_cast<std::size_t>(n);

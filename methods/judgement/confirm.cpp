@@ -79,17 +79,10 @@ double Confirmation::scaled_residual(double tolerance, const Solution& solution)
 
 /// The lengths of the Newton step; none where it cannot be computed.
 std::optional<Confirmation::StepLengths> Confirmation::newton_step(const Solution& solution) {
-  const auto step_by = [&](NewtonCorrections& corrections) -> std::optional<StepLengths> {
-    const auto length = corrections.length_at(solution.primal, solution.multipliers, memory_);
-    if (!length) return std::nullopt;
-    return StepLengths{.of_all = *length, .of_state = corrections.length_of_state()};
-  };
   if (!corrections_) corrections_.emplace(program_);
-  const std::optional<StepLengths> step = step_by(*corrections_);
-  if (step && step->of_all <= settled) return step;
-  // A long step may be an inaccurate one: elimination by intervals does not pivot across them.
-  NewtonCorrections pivoting(program_, NewtonCorrections::Factorisation::sparse);
-  return step_by(pivoting);
+  const auto length = corrections_->length_at(solution.primal, solution.multipliers, memory_);
+  if (!length) return std::nullopt;
+  return StepLengths{.of_all = *length, .of_state = corrections_->length_of_state()};
 }
 
 void Confirmation::look_for_curvature(double tolerance, Solution& solution) {
@@ -103,6 +96,15 @@ void Confirmation::look_for_curvature(double tolerance, Solution& solution) {
   solution.curvature = curvature_->share;
 }
 
+/// The largest |∂a_i/∂ξ_j λ_i| of the free variables.
+double Confirmation::largest_term(const Eigen::VectorXd& multipliers) const {
+  double largest = 0.0;
+  program_.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
+    if (!is_fixed(program_, column)) largest = std::max(largest, std::abs(memory_.jacobian[e] * multipliers[row]));
+  });
+  return largest;
+}
+
 /// Takes "solved" back from an answer whose residuals the tolerance, or the round-off of a constraint, hides.
 void Confirmation::require_visible(double tolerance, Solution& solution) {
   const auto hidden = sizes_.hidden_violation(program_, solution.primal, memory_);
@@ -110,8 +112,8 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
   if (hidden) {
     solution.status = Status::not_confirmed;
     solution.message = fmt::format(
-        "The violation of constraint {} is below the tolerance, but {:.1g} of the constraint's own size, {:.1g}. State "
-        "it in units in which its size is about 1.",
+        "The violation of constraint {} is below the tolerance, but it is {:.1g} times the size of the constraint, "
+        "{:.1g}. State it in units in which its size is about 1.",
         hidden->row, hidden->share, hidden->size);
     return;
   }
@@ -119,12 +121,22 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
   const double mean = multipliers.lpNorm<1>() / std::max(1.0, static_cast<double>(multipliers.size()));
   const double residual = solution.kkt_residual.value_or(0.0);
   const double gradient = largest_of_free(program_, memory_.gradient_of_cost);
+  const double term = largest_term(multipliers);
+  has_huge_multipliers_ = term > largest_terms * std::max(gradient, tolerance);
+  if (std::numeric_limits<double>::epsilon() * term > ConstraintSizes::largest_share * std::max(gradient, tolerance)) {
+    solution.status = Status::not_confirmed;
+    solution.message = fmt::format(
+        "The multipliers are so large, {:.1g}, that round-off hides the residual of stationarity: constraints depend "
+        "on each other. State each condition once.",
+        multipliers.lpNorm<Eigen::Infinity>());
+    return;
+  }
   if (residual <= confirmation_factor * tolerance * StopRule::scale(mean)) return;
   if (!(residual > ConstraintSizes::largest_share * gradient)) return;
   needs_factors_of_rows_ = true;
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
-      "The residual of stationarity, {:.1g}, is within the round-off of large constraints, but it is {:.1g} of the "
+      "The residual of stationarity, {:.1g}, is within the round-off of large constraints, but it is {:.1g} times the "
       "gradient of the cost. State the constraints in units in which their sizes are about 1.",
       residual, gradient > 0.0 ? residual / gradient : unbounded);
 }
@@ -158,8 +170,7 @@ void Confirmation::require_settled(double tolerance, Solution& solution) {
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
       "The residuals are below the tolerance, but a Newton step would move the solution by {:.1g} of its size. Scaling "
-      "the cost to about 1 or a smaller tolerance may help, except where the cost hardly depends on the unknowns that "
-      "move.",
+      "the cost to about 1 or a smaller tolerance may help, unless the cost hardly depends on the unknowns that move.",
       length);
 }
 
@@ -174,6 +185,7 @@ void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton)
   solution.curvature.reset();
   curvature_.reset();
   needs_factors_of_rows_ = false;
+  has_huge_multipliers_ = false;
   const bool claims_success = solution.status == Status::solved || solution.status == Status::acceptable;
   if (!claims_success) return;
   solution.status = confirmed_status(solution.status, scaled_residual(tolerance, solution));

@@ -71,6 +71,13 @@ class Confirmation {
   /// (`ConstraintSizes`).
   [[nodiscard]] Scaling scaling(double tolerance, const Eigen::VectorXd& start, const Solution& solution);
 
+  /// True if multipliers of the answer judged last are so large that their terms, in the gradient of the Lagrangian,
+  /// exceed `largest_terms` times the gradient of the cost: round-off of these terms may hide any residual. Constraints
+  /// that depend on each other have such multipliers.
+  [[nodiscard]] bool has_huge_multipliers() const noexcept { return has_huge_multipliers_; }
+  /// See above.
+  static constexpr double largest_terms = 1e7;
+
   /// The negative curvature at the answer judged last, if `Solution::curvature` reports one.
   [[nodiscard]] const std::optional<NegativeCurvature>& negative_curvature() const noexcept { return curvature_; }
 
@@ -85,6 +92,7 @@ class Confirmation {
   [[nodiscard]] std::optional<StepLengths> newton_step(const Solution& solution);
   [[nodiscard]] double factor_of_cost(double tolerance, const Eigen::VectorXd& start, const Solution& solution);
   void require_visible(double tolerance, Solution& solution);
+  [[nodiscard]] double largest_term(const Eigen::VectorXd& multipliers) const;
   void require_settled(double tolerance, Solution& solution);
   void look_for_curvature(double tolerance, Solution& solution);
 
@@ -98,6 +106,7 @@ class Confirmation {
   std::optional<NegativeCurvature> curvature_;
   ConstraintSizes sizes_;
   bool needs_factors_of_rows_ = false;
+  bool has_huge_multipliers_ = false;
 };
 
 /// `Confirmation::judge`, once.
@@ -116,8 +125,5 @@ inline constexpr double confirmation_factor = 10.0;
 
 /// The permitted ratio of the residual of an acceptable solution to a solved one's.
 inline constexpr double acceptable_factor = 100.0;
-
-/// The largest Newton step, relative to the answer, at which an answer is settled.
-inline constexpr double settled = 1e-4;
 
 }  // namespace dmocbench

@@ -80,7 +80,7 @@ class ViolationDescent {
 /// that is reported infeasible, whose step failed or whose iterations ran out; the latter is judged at its last point,
 /// without descent. "Infeasible" is not reported either where a `feasible_point` is found from `start`, where the solve
 /// began. Its message says "infeasible" where the constraints are affine, so that a local minimum of the violation is a
-/// global one, otherwise "no motion found". It counts no evaluation. Throws `Stopped` where the
+/// global one, otherwise "no trajectory found". It counts no evaluation. Throws `Stopped` where the
 /// solve must end.
 void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, const Eigen::VectorXd& start,
                          Solution& solution);

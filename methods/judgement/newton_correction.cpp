@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "methods/judgement/linearised_conditions.hpp"
+#include "methods/kkt/newton_residual.hpp"
 #include "methods/kkt/sparse_kkt.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
@@ -41,16 +42,17 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
       return FactorisationStatus::singular;
     }
   };
-  FactorisationStatus status = FactorisationStatus::untrusted;
-  if (by_intervals_) status = solved_or_failed(*by_intervals_);
-  has_minimum_ = status == FactorisationStatus::solved;
+  has_minimum_ = by_intervals_ && solved_or_failed(*by_intervals_) == FactorisationStatus::solved;
+  if (has_minimum_) {
+    measure_step(primal, memory.gradient_of_cost);
+    has_minimum_ = step_.length <= settled || refine_step();
+  }
   if (!has_minimum_) {
     by_intervals_.reset();
     if (!pivoting_) pivoting_ = kkt_system_of_any_point(program_);
-    status = solved_or_failed(*pivoting_);
-    has_minimum_ = status == FactorisationStatus::solved && pivoting_->has_minimum();
+    if (solved_or_failed(*pivoting_) != FactorisationStatus::solved) return std::nullopt;
+    has_minimum_ = pivoting_->has_minimum();
   }
-  if (status != FactorisationStatus::solved) return std::nullopt;
   measure_step(primal, memory.gradient_of_cost);
   return std::isfinite(step_.length) ? std::optional(step_.length) : std::nullopt;
 }
@@ -63,6 +65,26 @@ std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& pri
   if (!length) return std::nullopt;
   step_.length = *length;
   return step_;
+}
+
+/// Refines a step by intervals; false if it does not become the step of its system.
+bool NewtonCorrections::refine_step() {
+  constexpr int most_refinements = 5;
+  constexpr double accuracy = 1e-6;
+  const kkt::KktMatrix matrix = kkt_matrix_of(conditions_);
+  const kkt::KktStep step{step_.primal, step_.multipliers};
+  if (!residual_) residual_ = std::make_unique<kkt::NewtonResidual>(program_);
+  NewtonCorrection correction{.primal = step_.primal, .multipliers = step_.multipliers};
+  for (int i = 0; i <= most_refinements; ++i) {
+    residual_->compute(matrix, {conditions_.gradient, conditions_.constraints}, step);
+    if (residual_->excess(matrix, step, accuracy) <= 1.0) return true;
+    const FactorisationStatus status =
+        by_intervals_->solve(matrix, residual_->value(), {correction.primal, correction.multipliers});
+    if (status != FactorisationStatus::solved) return false;
+    step_.primal += correction.primal;
+    step_.multipliers += correction.multipliers;
+  }
+  return false;
 }
 
 void NewtonCorrections::measure_step(const Eigen::VectorXd& primal, const Eigen::VectorXd& gradient) {

@@ -13,6 +13,10 @@
 
 namespace dmocbench {
 
+namespace kkt {
+class NewtonResidual;
+}
+
 /// A Newton step from a point near an optimum towards it.
 struct NewtonCorrection {
   Eigen::VectorXd primal;       ///< δξ, variable_count() entries
@@ -22,6 +26,9 @@ struct NewtonCorrection {
   /// The same without the unknowns that are values of a control.
   double length_of_state = 0.0;
 };
+
+/// The largest Newton step, relative to the answer, at which an answer is settled.
+inline constexpr double settled = 1e-4;
 
 /// The distance of answers of a program from the point where the Karush-Kuhn-Tucker conditions hold exactly, to first
 /// order: the error of an answer that small residuals still permit. Where the cost is flat, or a step h is small,
@@ -40,7 +47,9 @@ class NewtonCorrections {
  public:
   /// The factorisation of the linear systems.
   enum class Factorisation : std::uint8_t {
-    by_intervals,  ///< where the program's structure allows it, in time linear in the intervals; otherwise sparse
+    by_intervals,  ///< where the program's structure allows it, in time linear in the intervals, long steps refined,
+                   ///< since elimination by intervals does not pivot across them; otherwise, and where that fails,
+                   ///< sparse
     sparse,        ///< with pivoting: slower, and the last digits are better
   };
 
@@ -75,13 +84,15 @@ class NewtonCorrections {
 
  private:
   void measure_step(const Eigen::VectorXd& primal, const Eigen::VectorXd& gradient);
+  [[nodiscard]] bool refine_step();
 
   NonlinearProgram& program_;
   std::unique_ptr<kkt::KktSystem> by_intervals_;  // until it fails once
   std::unique_ptr<kkt::SparseKkt> pivoting_;      // made when it is first needed
   bool has_minimum_ = false;
   LinearisedConditions conditions_;
-  NewtonCorrection step_;  // the last one
+  std::unique_ptr<kkt::NewtonResidual> residual_;  // made when it is first needed
+  NewtonCorrection step_;                          // the last one
 };
 
 }  // namespace dmocbench

@@ -11,6 +11,7 @@
 #include "methods/judgement/negative_curvature.hpp"
 #include "methods/judgement/newton_correction.hpp"
 #include "methods/judgement/stop_rule.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
@@ -117,7 +118,7 @@ int steps_to_rounding(NonlinearProgram& program, Solution& solution, int most_st
 
 /// Newton steps until the answer is confirmed; none, and the answer as it was, where they do not get there.
 int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
-  NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
+  NewtonCorrections corrections(program);
   Confirmation confirmation(program);
   const bool was_unsettled = is_unsettled(solution);
   Solution next = solution;
@@ -135,7 +136,7 @@ int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution&
     if (next.curvature) return 0;  // Newton's method leads to saddles too
     // If the cost is so small that any residual passes, an answer whose residuals were large remains unchecked.
     if (!was_unsettled && confirmation.scaling(tolerance, next.primal, next).of_cost != 1.0) return 0;
-    next.message += fmt::format(" {} Newton steps after the solver confirmed the solution.", steps);
+    next.message += fmt::format(" {} after the solver confirmed the solution.", counted(steps, "Newton step"));
     if (solution.status != Status::not_confirmed && !is_solved(solution.status)) {
       next.message += fmt::format(" The solver itself reported \"{}\".", name_of(solution.status));
     }
@@ -174,8 +175,9 @@ void tell_of_equal_neighbours(NonlinearProgram& program, double tolerance, Solut
   }
   solution.status = Status::solved;
   solution.message = fmt::format(
-      "{} The tolerance does not determine the trajectory: others, {:.0e} of its size away on both sides, satisfy all "
-      "conditions at the same cost. A small term in the cost, such as the square of a control, would select one.",
+      "{} The tolerance does not determine the trajectory: trajectories at a distance of {:.0e} of its size, on both "
+      "sides, satisfy all conditions at the same cost. A small term in the cost, such as the square of a control, "
+      "would select one.",
       sentence_of(solution.status), share * correction->length);
 }
 

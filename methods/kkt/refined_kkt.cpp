@@ -18,6 +18,8 @@ constexpr double tolerable = 1e5;
 constexpr double very_accurate = 1e-2;
 constexpr int unchecked_after_accurate = 2;
 constexpr int unchecked_after_very_accurate = 7;
+/// The number of sparse factorisations after which the order that MUMPS finds has repaid the time to find it.
+constexpr int repaid_after = 4;
 
 }  // namespace
 
@@ -40,7 +42,7 @@ FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const KktRightHan
     return status;
   }
   if (!robust_) robust_ = std::make_unique<SparseKkt>(program_, SparseKkt::Order::along_the_horizon);
-  ++fallbacks_;
+  if (fallbacks_++ == repaid_after) robust_ = std::make_unique<SparseKkt>(program_, SparseKkt::Order::found);
   const FactorisationStatus robust = robust_->solve(matrix, right_hand_side, step);
   if (robust != FactorisationStatus::solved) return robust;
   // Rounding may hide dependent constraints from its pivots, but not from the residual of its step.

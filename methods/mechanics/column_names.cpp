@@ -26,8 +26,8 @@ class TakenColumns {
     const bool has_blank = name.starts_with(' ') || name.ends_with(' ');
     if (name.empty() || has_blank || name.find_first_of(",\"") != std::string::npos || has_control_character(name)) {
       throw Error(
-          fmt::format("{} \"{}\" is not a name for a column: it is empty, or has a comma, a quotation mark, a control "
-                      "character or a blank at an end",
+          fmt::format("{} \"{}\" cannot name a column: it is empty, or has a comma, a quotation mark, a control "
+                      "character, or a leading or trailing blank",
                       subject_, shown(name)));
     }
     const auto [other, is_new] = owners_.try_emplace(column, name);
@@ -86,8 +86,7 @@ void require_names(const Problem& problem) {
   const auto controls = names_of("control_names", [&] { return problem.control_names(); });
   if (configurations.empty()) {
     throw Error(problem.name() + ": " + member_name("configuration_names") +
-                " is empty; a problem needs at least one coordinate, because all methods are the same for first-order "
-                "states alone");
+                " is empty; derive a problem of first-order states alone from FirstOrderProblem");
   }
   const auto first_order = names_of("first_order_names", [&] { return problem.first_order_names(); });
   for (const std::string& name : configurations) columns.take(name, name);

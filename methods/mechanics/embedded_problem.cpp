@@ -15,6 +15,7 @@
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/numerics/dense_solve.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -34,13 +35,16 @@ class SpreadPoints {
   std::uniform_real_distribution<double> even_{-3.14, 3.14};
 };
 
-Eigen::VectorXd numbers_of(const Schedule& schedule, const Eigen::VectorXd& inputs) {
-  const std::vector<double> values =
-      replay<double>(schedule, std::span(inputs.data(), static_cast<std::size_t>(inputs.size())));
+Eigen::VectorXd numbers_of(const Schedule& schedule, const Eigen::VectorXd& theta, double t) {
+  std::vector<double> inputs(theta.begin(), theta.end());
+  inputs.push_back(t);
+  const std::vector<double> values = replay<double>(schedule, std::span<const double>(inputs));
   return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
 }
 
-ExpressionVector formulas_of(const Schedule& schedule, const ExpressionVector& inputs) {
+ExpressionVector formulas_of(const Schedule& schedule, const ExpressionVector& theta, const Expression& t,
+                             const ExpressionVector& rates = {}) {
+  const ExpressionVector inputs = stacked({theta, ExpressionVector::Constant(1, t), rates});
   const std::vector<Expression> formulas =
       replay<Expression>(schedule, std::span<const Expression>(entries_of(inputs)));
   return Eigen::Map<const ExpressionVector>(formulas.data(), std::ssize(formulas));
@@ -63,16 +67,17 @@ EmbeddedProblem::EmbeddedProblem(std::shared_ptr<const Problem> redundant) : red
   const ProblemBounds bounds = redundant_->bounds();
   static_cast<void>(bounds_on_theta(bounds));
   const BoundaryState given = redundant_->initial_state();
-  first_ = end_of(given, nearest_of_all(given.q), bounds.first, "initial_state");
+  first_ = end_of(given, nearest_of_all(given.q), 0.0, bounds.first, "initial_state");
   constexpr Eigen::Index points = 129;
   guessed_.resize(points, freedoms_);
   Eigen::VectorXd theta = first_.q;
   for (Eigen::Index i = 0; i < points; ++i) {
-    theta = nearest(redundant_->guess(horizon() * static_cast<double>(i) / (points - 1)).q, theta);
+    const double t = horizon() * static_cast<double>(i) / (points - 1);
+    theta = nearest(redundant_->guess(t).q, theta, t);
     guessed_.row(i) = theta.transpose();
   }
   const BoundaryState wanted = redundant_->final_state();
-  last_ = end_of(wanted, nearest(wanted.q, theta), bounds.last, "final_state");
+  last_ = end_of(wanted, nearest(wanted.q, theta, horizon()), horizon(), bounds.last, "final_state");
 }
 
 void EmbeddedProblem::trace_embedding() {
@@ -80,27 +85,38 @@ void EmbeddedProblem::trace_embedding() {
   const Eigen::Index c =
       call_formula(*redundant_, "constraints", [&] { return redundant_->constraints(input_vector(0, n)).size(); });
   if (c == 0) throw Error(redundant_->name() + " has no constraints g(q) = 0 and needs no embedding");
+  if (redundant_->velocity_constraints(input_vector(0, n), input_vector(0, n)).size() > 0) {
+    throw Error(redundant_->name() + ": an embedding does not support velocity_constraints; use multipliers");
+  }
   freedoms_ = n - c;
-  const ExpressionVector theta = input_vector(0, freedoms_);
-  const ExpressionVector q = call_formula(*redundant_, "embedding", [&] { return redundant_->embedding(theta); });
+  InputCounter inputs;
+  const ExpressionVector theta = inputs.take(freedoms_);
+  const ExpressionVector t = inputs.take(1);
+  const ExpressionVector q =
+      call_formula(*redundant_, "embedding", [&] { return redundant_->moving_embedding(theta, t[0]); });
   if (q.size() == 0)
     throw Error(redundant_->name() + " does not define embedding(theta); define it or use multipliers");
   if (q.size() != n) {
-    throw Error(fmt::format("{}: embedding has {} entries, expected {}", redundant_->name(), q.size(), n));
+    throw Error(
+        fmt::format("{}: embedding has {}, expected {}", redundant_->name(), counted(q.size(), "entry", "entries"), n));
   }
   embedding_ = Schedule(q);
   const ExpressionMatrix by_theta = jacobian(q, theta);
-  chart_ = Schedule(stacked({q, by_theta.reshaped()}));
-  velocity_ = Schedule(ExpressionVector(by_theta * input_vector(static_cast<std::size_t>(freedoms_), freedoms_)));
+  const ExpressionVector by_time = jacobian(q, t);
+  chart_ = Schedule(stacked({q, by_theta.reshaped(), by_time}));
+  velocity_ = Schedule(ExpressionVector(by_theta * inputs.take(freedoms_) + by_time));
 }
 
 void EmbeddedProblem::require_on_manifold() const {
-  const Schedule residual(redundant_->constraints(formulas_of(embedding_, input_vector(0, freedoms_))));
+  InputCounter inputs;
+  const ExpressionVector of_theta = inputs.take(freedoms_);
+  const Schedule residual(redundant_->constraints(formulas_of(embedding_, of_theta, inputs.take())));
   SpreadPoints points;
   for (int i = 0; i < tries; ++i) {
     const Eigen::VectorXd theta = points.next(freedoms_);
-    const Eigen::VectorXd g = numbers_of(residual, theta);
-    const double size = 1.0 + chart_at(theta).q.squaredNorm();
+    const double t = horizon() * i / (tries - 1);
+    const Eigen::VectorXd g = numbers_of(residual, theta, t);
+    const double size = 1.0 + chart_at(theta, t).q.squaredNorm();
     for (Eigen::Index a = 0; a < g.size(); ++a) {
       if (!(std::abs(g[a]) > 1e-10 * size)) continue;  // where Φ is not defined, it is not wrong
       throw Error(
@@ -128,17 +144,17 @@ Bounds EmbeddedProblem::bounds_on_theta(const ProblemBounds& bounds) const {
       ": an embedding supports bounds between the ends only on coordinates that are entries of theta; use multipliers");
 }
 
-EmbeddedProblem::Chart EmbeddedProblem::chart_at(const Eigen::VectorXd& theta) const {
-  const Eigen::VectorXd values = numbers_of(chart_, theta);
-  const Eigen::Index n = values.size() / (1 + freedoms_);
-  return {values.head(n), values.tail(n * freedoms_).reshaped(n, freedoms_)};
+EmbeddedProblem::Chart EmbeddedProblem::chart_at(const Eigen::VectorXd& theta, double t) const {
+  const Eigen::VectorXd values = numbers_of(chart_, theta, t);
+  const Eigen::Index n = values.size() / (2 + freedoms_);
+  return {values.head(n), values.segment(n, n * freedoms_).reshaped(n, freedoms_), values.tail(n)};
 }
 
-Eigen::VectorXd EmbeddedProblem::nearest(const Eigen::VectorXd& q, Eigen::VectorXd theta) const {
+Eigen::VectorXd EmbeddedProblem::nearest(const Eigen::VectorXd& q, Eigen::VectorXd theta, double t) const {
   constexpr int most_steps = 100;
   constexpr double longest = 0.5;  // of an angle, so that a far start leads somewhere near
   for (int i = 0; i < most_steps; ++i) {
-    const Chart at = chart_at(theta);
+    const Chart at = chart_at(theta, t);
     Eigen::VectorXd step = least_squares(at.jacobian, q - at.q);
     if (!step.allFinite()) break;
     step *= std::min(1.0, longest * (1.0 + theta.norm()) / step.norm());
@@ -153,8 +169,8 @@ Eigen::VectorXd EmbeddedProblem::nearest_of_all(const Eigen::VectorXd& q) const 
   Eigen::VectorXd best = points.next(freedoms_);
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < tries && !(least < 1e-12 * (1.0 + q.norm())); ++i) {
-    const Eigen::VectorXd theta = nearest(q, points.next(freedoms_));
-    const double distance = (chart_at(theta).q - q).norm();
+    const Eigen::VectorXd theta = nearest(q, points.next(freedoms_), 0.0);
+    const double distance = (chart_at(theta, 0.0).q - q).norm();
     if (!(distance < least)) continue;
     best = theta;
     least = distance;
@@ -162,12 +178,13 @@ Eigen::VectorXd EmbeddedProblem::nearest_of_all(const Eigen::VectorXd& q) const 
   return best;
 }
 
-Eigen::VectorXd EmbeddedProblem::rate_of(const Eigen::VectorXd& v, const Eigen::VectorXd& theta) const {
-  return least_squares(chart_at(theta).jacobian, v);
+Eigen::VectorXd EmbeddedProblem::rate_of(const Eigen::VectorXd& v, const Eigen::VectorXd& theta, double t) const {
+  const Chart at = chart_at(theta, t);
+  return least_squares(at.jacobian, v - at.rate);
 }
 
-BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::VectorXd& theta, const EndBounds& bounds,
-                                      const char* end) const {
+BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::VectorXd& theta, double t,
+                                      const EndBounds& bounds, const char* end) const {
   const auto require_whole = [&](const Bounds& of, const char* what) {
     if (of.all_fixed() || !of.any()) return;
     throw Error(fmt::format("{}: {} gives or bounds {} in part, which an embedding does not support; use multipliers",
@@ -176,11 +193,11 @@ BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::V
   require_whole(bounds.q, "q");
   require_whole(bounds.v, "its rates");
   if (bounds.v.all_fixed() && !bounds.q.all_fixed()) {
-    throw Error(fmt::format("{}: {} gives the rates of q alone, which an embedding does not support; use multipliers",
+    throw Error(fmt::format("{}: {} gives only the rates of q, which an embedding does not support; use multipliers",
                             redundant_->name(), member_name(end)));
   }
-  BoundaryState result{.q = theta, .v = rate_of(state.v, theta), .y = state.y};
-  const BoundaryState reached = lifted(result);
+  BoundaryState result{.q = theta, .v = rate_of(state.v, theta, t), .y = state.y};
+  const BoundaryState reached = lifted(result, t);
   const auto require_near = [&](const Eigen::VectorXd& from, const Eigen::VectorXd& to, const char* what) {
     const double distance = (from - to).norm();
     if (distance <= 1e-9 * (1.0 + to.norm())) return;  // not where it is not a number
@@ -192,13 +209,13 @@ BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::V
   return result;
 }
 
-BoundaryState EmbeddedProblem::lifted(const BoundaryState& state) const {
-  const Chart at = chart_at(state.q);
-  return {.q = at.q, .v = at.jacobian * state.v, .y = state.y};
+BoundaryState EmbeddedProblem::lifted(const BoundaryState& state, double t) const {
+  const Chart at = chart_at(state.q, t);
+  return {.q = at.q, .v = at.jacobian * state.v + at.rate, .y = state.y};
 }
 
 State EmbeddedProblem::lifted(const State& x) const {
-  return {formulas_of(embedding_, x.q), formulas_of(velocity_, stacked({x.q, x.v})), x.t, x.y};
+  return {formulas_of(embedding_, x.q, x.t), formulas_of(velocity_, x.q, x.t, x.v), x.t, x.y};
 }
 
 ControlledState EmbeddedProblem::lifted(const ControlledState& x) const {
@@ -231,9 +248,9 @@ Expression EmbeddedProblem::lagrangian(const State& x) const { return redundant_
 
 ExpressionVector EmbeddedProblem::force(const ControlledState& x) const {
   const ExpressionVector of_redundant = redundant_->force(lifted(x));
-  const ExpressionVector chart = formulas_of(chart_, x.q);
+  const ExpressionVector chart = formulas_of(chart_, x.q, x.t);
   const Eigen::Index n = of_redundant.size();
-  return chart.tail(n * freedoms_).reshaped(n, freedoms_).transpose() * of_redundant;
+  return chart.segment(n, n * freedoms_).reshaped(n, freedoms_).transpose() * of_redundant;
 }
 
 Expression EmbeddedProblem::running_cost(const ControlledState& x) const { return redundant_->running_cost(lifted(x)); }
@@ -270,8 +287,8 @@ MotionPoint EmbeddedProblem::guess(double t) const {
   const Eigen::Index last = guessed_.rows() - 1;
   const double place = std::round(t / horizon() * static_cast<double>(last));
   const auto row = static_cast<Eigen::Index>(std::clamp(place, 0.0, static_cast<double>(last)));
-  const Eigen::VectorXd theta = nearest(point.q, guessed_.row(row).transpose());
-  return {theta, rate_of(point.v, theta), point.u, point.y};
+  const Eigen::VectorXd theta = nearest(point.q, guessed_.row(row).transpose(), t);
+  return {theta, rate_of(point.v, theta, t), point.u, point.y};
 }
 
 }  // namespace dmocbench

@@ -1,7 +1,7 @@
 #include "methods/mechanics/equations_of_motion.hpp"
 
 #include "methods/error.hpp"
-#include "methods/mechanics/holonomic_constraints.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
@@ -9,7 +9,7 @@ namespace dmocbench {
 EquationsOfMotion::EquationsOfMotion(const TracedProblem& problem)
     : n_(problem.configuration_size()),
       l_(problem.first_order_size()),
-      c_(problem.holonomic_count()),
+      c_(problem.constraint_count()),
       function_(
           n_, problem.control_size(),
           [&](const ControlledState& x) {
@@ -20,7 +20,7 @@ EquationsOfMotion::EquationsOfMotion(const TracedProblem& problem)
             ExpressionVector outputs(n_ + l_ + n_ * n_);
             outputs << right_hand_side, values.first_order_rates, values.mass.reshaped();
             if (c_ == 0) return outputs;
-            const TracedProblem::HolonomicValues holonomic = problem.holonomic_at(x.q, x.v);
+            const TracedProblem::ConstraintValues holonomic = problem.constraints_at(x.q, x.v);
             return stacked({outputs, -holonomic.curvature, holonomic.jacobian.reshaped()});
           },
           l_),

@@ -10,8 +10,8 @@
 namespace dmocbench {
 
 /// The forced Euler-Lagrange equations (eq:varmech_FEL), solved for the acceleration:
-/// L_vv q̈ = L_q + f - L_vq q̇ - L_vy ẏ - L_vt; with holonomic constraints their index is reduced: L_vv q̈ + Gᵀλ is that
-/// right-hand side, and G q̈ = -Ġ q̇.
+/// L_vv q̈ = L_q + f - L_vq q̇ - L_vy ẏ - L_vt; with constraints g(q) = 0 or A(q) q̇ = 0 their index is reduced:
+/// L_vv q̈ + Gᵀλ is that right-hand side, and G q̈ = -Ġ q̇, A among the rows of G.
 class EquationsOfMotion {
  public:
   /// Traces them for the problem.
@@ -24,7 +24,7 @@ class EquationsOfMotion {
                                              const Eigen::Ref<const Eigen::VectorXd>& u, double t,
                                              const Eigen::Ref<const Eigen::VectorXd>& y = Eigen::VectorXd());
 
-  /// λ of the holonomic constraints there, c entries: -Gᵀλ is the force that they need. Throws as `acceleration`.
+  /// λ of the constraints there, c entries: -Gᵀλ is the force that they need. Throws as `acceleration`.
   [[nodiscard]] Eigen::VectorXd multipliers(const MotionPoint& point, double t);
 
   /// The same as a system of first order: the first n entries of `rate` become v, the next n become q̈, then l become ẏ,

@@ -40,6 +40,7 @@ ExpressionVector FormulaCheck::trace(const Problem& problem, const ControlledSta
   add_formula("running_cost", ExpressionVector::Constant(1, problem.running_cost(x)));
   add_formula("path_constraints", problem.path_constraints(x));
   add_formula("constraints", problem.constraints(x.q));
+  add_formula("velocity_constraints", problem.velocity_constraints(x.q, x.v));
   add_formula("first_order_rates", problem.first_order_rates(x));
   add_formula("integrands", problem.integrands(x));
   return Eigen::Map<const ExpressionVector>(outputs.data(), static_cast<Eigen::Index>(outputs.size()));

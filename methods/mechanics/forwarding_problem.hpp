@@ -41,8 +41,15 @@ class ForwardingProblem : public Problem {
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override {
     return original_.constraints(q);
   }
+  [[nodiscard]] ExpressionVector velocity_constraints(const ExpressionVector& q,
+                                                      const ExpressionVector& v) const override {
+    return original_.velocity_constraints(q, v);
+  }
   [[nodiscard]] ExpressionVector embedding(const ExpressionVector& theta) const override {
     return original_.embedding(theta);
+  }
+  [[nodiscard]] ExpressionVector moving_embedding(const ExpressionVector& theta, const Expression& t) const override {
+    return original_.moving_embedding(theta, t);
   }
   [[nodiscard]] const Problem* redundant() const override { return original_.redundant(); }
   [[nodiscard]] const PhasedProblem* phased() const override { return original_.phased(); }

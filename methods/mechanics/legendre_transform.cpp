@@ -3,14 +3,14 @@
 #include <limits>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/holonomic_constraints.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 
 LegendreTransform::LegendreTransform(const TracedProblem& problem)
     : n_(problem.configuration_size()),
-      c_(problem.holonomic_count()),
+      c_(problem.constraint_count()),
       function_(
           n_, problem.control_size(),
           [&](const ControlledState& x) {
@@ -19,7 +19,7 @@ LegendreTransform::LegendreTransform(const TracedProblem& problem)
             outputs << values.momentum, values.mass.reshaped(), values.momentum_by_configuration.reshaped(),
                 values.momentum_by_first_order.reshaped();
             if (c_ == 0) return outputs;
-            return stacked({outputs, problem.holonomic_at(x.q, x.v).jacobian.reshaped()});
+            return stacked({outputs, problem.constraints_at(x.q, x.v).jacobian.reshaped()});
           },
           problem.first_order_size()),
       values_(function_.output_count()) {}

@@ -21,7 +21,7 @@ class LegendreTransform {
   [[nodiscard]] Eigen::VectorXd momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                          const Eigen::VectorXd& y = {});
 
-  /// The v with L_v(q, v, t) = p, by Newton's method from v = `start` (one step if L is quadratic in v). With holonomic
+  /// The v with L_v(q, v, t) = p, by Newton's method from v = `start` (one step if L is quadratic in v). With
   /// constraints the v with G v = 0 and L_v(q, v, t) = p - Gᵀμ for some μ: the velocity of the projected momentum.
   /// Throws `Error` if L_vv is singular there, or (L_vv, Gᵀ; G, 0), or the iteration does not converge.
   [[nodiscard]] Eigen::VectorXd velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& p, double t,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -10,8 +11,9 @@ namespace {
 
 ExpressionVector difference(const ExpressionVector& after, const ExpressionVector& before, const char* of) {
   if (after.size() == before.size()) return after - before;
-  throw Error(fmt::format("the phase before has {} {}, the one after {}; state their conditions entry by entry",
-                          before.size(), of, after.size()));
+  throw Error(
+      fmt::format("the phase before the switch has {} {}, the phase after it {}; state their conditions entry by entry",
+                  before.size(), of, after.size()));
 }
 
 ExpressionVector change_of_q(const PhaseEnd& before, const PhaseEnd& after) {
@@ -34,7 +36,7 @@ ExpressionVector momentum_kept(const PhaseEnd& before, const PhaseEnd& after) {
 
 ExpressionVector dropped(const PhaseEnd& before, const PhaseEnd& after, const ExpressionVector& amount) {
   PhaseEnd left = before;
-  left.y = difference(before.y, amount, "entries that are dropped, and first-order states");
+  left.y = difference(before.y, amount, "first-order states or entries of the dropped amount");
   return continuous(left, after);
 }
 
@@ -43,8 +45,8 @@ ExpressionVector impact(const VectorFormula& guard, const Expression& restitutio
   const ExpressionVector change = change_of_q(before, after);
   const ExpressionVector distance = guard(before.q);
   if (impulse.size() != distance.size()) {
-    throw Error(fmt::format("an impact with {} guards has {} impulses; it needs one per guard", distance.size(),
-                            impulse.size()));
+    throw Error(fmt::format("an impact with {} has {}; it needs one per guard", counted(distance.size(), "guard"),
+                            counted(impulse.size(), "impulse")));
   }
   const ExpressionMatrix gradient = jacobian_at(guard, before.q);
   return stacked({change, ExpressionVector(after.p - before.p - gradient.transpose() * impulse), distance,

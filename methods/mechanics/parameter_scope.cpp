@@ -11,6 +11,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -36,7 +37,8 @@ ParameterScope*& innermost() {
 Eigen::VectorXd checked(const Problem& problem, Eigen::VectorXd values) {
   const std::vector<Parameter>& parameters = problem.parameters();
   if (static_cast<std::size_t>(values.size()) != parameters.size()) {
-    throw Error(fmt::format("{} has {} parameters, got {} values", problem.name(), parameters.size(), values.size()));
+    throw Error(fmt::format("{} has {}, got {}", problem.name(), counted(parameters.size(), "parameter"),
+                            counted(values.size(), "value")));
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].check(values[static_cast<Eigen::Index>(i)]);
   return values;
@@ -130,7 +132,7 @@ void ParameterTrace::read_as_number(std::size_t parameter) {
 void ParameterTrace::require_unknowns_read() const {
   for (const std::size_t unknown : problem_.unknowns()) {
     if (varies_[unknown]) continue;
-    throw Error(fmt::format("{}: no formula reads the unknown {}; leave it out", problem_.name(),
+    throw Error(fmt::format("{}: no formula depends on the unknown {}; remove it", problem_.name(),
                             problem_.parameters()[unknown].name));
   }
 }
@@ -216,7 +218,7 @@ std::vector<std::size_t> Problem::unknowns() const {
 void Problem::set_parameter(std::string_view name, double value) {
   const std::size_t number = parameter_number(*this, name);
   if (&parameters() != &parameters_)
-    throw Error(this->name() + " has the parameters of another problem; set them there");
+    throw Error(this->name() + " uses the parameters of another problem; set them on that problem");
   Parameter& parameter = parameters_[number];
   parameter.check(value);
   parameter.value = value;

@@ -9,8 +9,10 @@
 #include <fmt/ranges.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/first_order_problem.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -68,8 +70,8 @@ void add_shared(std::vector<Parameter>& parameters, const Parameter& added, cons
   } else if (same->value != added.value || same->lower != added.lower || same->upper != added.upper ||
              same->whole != added.whole || same->is_unknown != added.is_unknown) {
     throw Error(
-        fmt::format("phase {}: its parameter {} differs from an earlier phase's in value, range or kind; phases share "
-                    "parameters of one name, so give it the same ones, or another name",
+        fmt::format("phase {}: the value, range or kind of its parameter {} differs from an earlier phase; phases "
+                    "share parameters of the same name, so make them equal or rename one",
                     phase, added.name));
   }
 }
@@ -94,7 +96,7 @@ void add_end_velocities(std::vector<Parameter>& parameters, const PhasedProblem:
 ProblemBounds bounds_of_phase(const PhasedProblem::Phase& phase) {
   const HorizonBounds horizon = phase.problem->bounds().horizon;
   if (!(horizon.lower > 0.0)) {
-    throw Error(fmt::format("phase {}: its duration has the lower bound {:g}; give it a positive one", phase.name,
+    throw Error(fmt::format("phase {}: the lower bound of its duration is {:g}; it must be positive", phase.name,
                             horizon.lower));
   }
   return problem_bounds(*phase.problem);
@@ -125,8 +127,10 @@ std::vector<Parameter> parameters_of(const std::vector<PhasedProblem::Phase>& ph
   return parameters;
 }
 
-Eigen::Index constraint_count(const Problem& problem) {
-  return problem.constraints(input_vector(0, problem.configuration_size())).size();
+/// How many numbers of an end its constraints determine: g = 0, its rate and A q̇ = 0.
+Eigen::Index held_numbers(const Problem& problem) {
+  const ExpressionVector x = input_vector(0, problem.configuration_size());
+  return 2 * problem.constraints(x).size() + problem.velocity_constraints(x, x).size();
 }
 
 Eigen::Index path_constraint_count(const Problem& problem) {
@@ -146,16 +150,16 @@ PhasedProblem::PhasedProblem(std::vector<Phase> phases, std::vector<Parameter> p
 
 void PhasedProblem::add_phase(Phase phase) {
   if (std::ranges::count(phases_, phase.name, &Phase::name) > 0) {
-    throw Error(fmt::format("two phases are called {}; give each a name of its own", phase.name));
+    throw Error(fmt::format("two phases are named {}; rename one", phase.name));
   }
   if (phase.follows.value_or(0) >= std::max(phases_.size(), std::size_t{1})) {
-    throw Error(fmt::format("phase {} follows phase {}, which is not one of the {} before it", phase.name,
+    throw Error(fmt::format("phase {} follows phase {}, but must follow one of the {} phases before it", phase.name,
                             *phase.follows, phases_.size()));
   }
   const std::vector<std::string> coordinates = phase.problem->configuration_names();
   if (std::ranges::count(coordinates, "phase") > 0) {
-    throw Error(
-        fmt::format("phase {} has a coordinate called phase, as the column of the phases is; rename it", phase.name));
+    throw Error(fmt::format(
+        "phase {} has a coordinate named phase, which is the name of the column of the phases; rename it", phase.name));
   }
   const Part before = parts_.empty() ? Part{} : parts_.back();
   const Problem& problem = *phase.problem;
@@ -265,8 +269,8 @@ ExpressionVector PhasedProblem::force(const ControlledState& x) const {
   return of_all([&](std::size_t i, const Problem& phase) -> ExpressionVector {
     const ExpressionVector force = phase.force(in_own_velocities(i, x));
     if (force.size() == parts_[i].q.size) return share(i) * force;
-    throw Error(
-        fmt::format("force of phase {} has {} entries, expected {}", phases_[i].name, force.size(), parts_[i].q.size));
+    throw Error(fmt::format("force of phase {} has {}, expected {}", phases_[i].name,
+                            counted(force.size(), "entry", "entries"), parts_[i].q.size));
   });
 }
 
@@ -286,6 +290,12 @@ ExpressionVector PhasedProblem::integrands(const ControlledState& x) const {
 ExpressionVector PhasedProblem::constraints(const ExpressionVector& q) const {
   return of_all(
       [&](std::size_t i, const Problem& phase) -> ExpressionVector { return phase.constraints(parts_[i].q.of(q)); });
+}
+
+ExpressionVector PhasedProblem::velocity_constraints(const ExpressionVector& q, const ExpressionVector& v) const {
+  return of_all([&](std::size_t i, const Problem& phase) -> ExpressionVector {
+    return phase.velocity_constraints(parts_[i].q.of(q), parts_[i].q.of(v));
+  });
 }
 
 ExpressionVector PhasedProblem::path_constraints(const ControlledState& x) const {
@@ -329,6 +339,7 @@ PhaseEnd PhasedProblem::end_of(std::size_t i, const State& own) const {
   static_cast<State&>(end) = own;
   end.t = start_time(i) + own.t;
   end.p = ExpressionVector(jacobian_at(lagrangian, own.v).transpose());
+  if (has_no_configuration(*phases_[i].problem)) end.q = end.v = end.p = ExpressionVector();
   return end;
 }
 
@@ -355,43 +366,74 @@ ExpressionVector PhasedProblem::checked_link(std::size_t i, const PhaseEnd& befo
   const ExpressionVector entries = call_formula(*this, "link", [&] { return link(i, before, after); });
   const std::size_t next = i + 1;
   const Eigen::Index open = open_entries(phase_bounds(next).first);
-  const Eigen::Index held = 2 * in_phase(next, constraint_count);
+  const Eigen::Index held = in_phase(next, held_numbers);
   const auto unknown_count = static_cast<Eigen::Index>(unknowns().size());
   const Eigen::Index most = open + open_entries(phase_bounds(preceding(next)).last) + unknown_count;
-  const std::string subject = fmt::format("link {}, from {} to {}, has {} entries", i, phases_[preceding(next)].name,
-                                          phases_[next].name, entries.size());
+  const std::string subject = name_of_link(i) + " has " + counted(entries.size(), "entry", "entries");
   if (entries.size() < open - held) {
-    throw Error(fmt::format("{}, but the start of {} has {} numbers that are not given; state an entry for each",
-                            subject, phases_[next].name, open - held));
+    throw Error(fmt::format("{}, but {} not given at the start of {}; state an entry for each", subject,
+                            counted(open - held, "number is", "numbers are"), phases_[next].name));
   }
   if (entries.size() > most) {
     throw Error(
-        fmt::format("{}, but only {} numbers are not given at its two ends; leave open in both phases what "
-                    "the switch determines",
-                    subject, most));
+        fmt::format("{}, but only {} not given at its two ends; leave open in both phases what the switch determines",
+                    subject, counted(most, "number is", "numbers are")));
   }
   return entries;
 }
 
-ExpressionVector PhasedProblem::boundary_conditions(const State& first, const State& last) const {
+std::vector<PhasedProblem::NamedConditions> PhasedProblem::named_conditions(const State& first,
+                                                                            const State& last) const {
   std::vector<PhaseEnd> starts;
   std::vector<PhaseEnd> ends;
-  std::vector<ExpressionVector> rows;
+  std::vector<NamedConditions> all;
   for (std::size_t i = 0; i < phases_.size(); ++i) {
     const State start = in_own_velocities(i, first);
     State end = in_own_velocities(i, last);
     end.t = duration(i);
-    rows.push_back(in_phase(i, [&](const Problem& phase) { return phase.boundary_conditions(start, end); }));
-    rows.push_back(end_velocities(i, start, false));
-    rows.push_back(end_velocities(i, end, true));
+    const std::string& name = phases_[i].name;
+    all.push_back({"boundary_conditions of " + name,
+                   in_phase(i, [&](const Problem& phase) { return phase.boundary_conditions(start, end); })});
+    all.push_back({"the velocity at the start of " + name, end_velocities(i, start, false)});
+    all.push_back({"the velocity at the end of " + name, end_velocities(i, end, true)});
     starts.push_back(end_of(i, start));
     ends.push_back(end_of(i, end));
   }
   for (std::size_t i = 0; i + 1 < phases_.size(); ++i) {
-    rows.push_back(checked_link(i, ends[preceding(i + 1)], starts[i + 1]));
+    all.push_back({name_of_link(i), checked_link(i, ends[preceding(i + 1)], starts[i + 1])});
   }
-  rows.push_back(call_formula(*this, "conditions", [&] { return conditions(starts, ends); }));
+  all.push_back({"conditions", call_formula(*this, "conditions", [&] { return conditions(starts, ends); })});
+  return all;
+}
+
+ExpressionVector PhasedProblem::boundary_conditions(const State& first, const State& last) const {
+  std::vector<ExpressionVector> rows;
+  for (const NamedConditions& some : named_conditions(first, last)) rows.push_back(some.entries);
   return stacked(rows);
+}
+
+std::string PhasedProblem::condition_in_words(std::size_t i) const {
+  InputCounter inputs;
+  const Eigen::Index n = configuration_size();
+  const State any{inputs.take(n), inputs.take(n), inputs.take(), inputs.take(first_order_size())};
+  auto entry = static_cast<Eigen::Index>(i);
+  for (const NamedConditions& some : named_conditions(any, any)) {
+    if (entry < some.entries.size()) return fmt::format("{}, entry [{}]", some.name, entry);
+    entry -= some.entries.size();
+  }
+  throw Error(fmt::format("{} has no boundary condition {}", name(), i));
+}
+
+std::string PhasedProblem::name_of_link(std::size_t i) const {
+  return fmt::format("the link from {} to {}", phases_[preceding(i + 1)].name, phases_[i + 1].name);
+}
+
+std::string time_in_words(const Problem& problem, double from, std::optional<double> to) {
+  const bool is_phased = problem.phased() != nullptr;
+  const double unit = is_phased ? 1.0 / problem.horizon() : problem.card().time_unit.factor;
+  const std::string until = to ? fmt::format(" to {:.4g}", unit * *to) : "";
+  return is_phased ? fmt::format("{:.4g}{} of each phase", unit * from, until)
+                   : fmt::format("t = {:.4g}{}", unit * from, until);
 }
 
 BoundaryState PhasedProblem::ends(BoundaryState (Problem::*end)() const) const {
@@ -419,10 +461,10 @@ ProblemBounds PhasedProblem::phase_bounds(std::size_t i) const { return in_phase
 void PhasedProblem::require_stated_range(std::size_t i, const HorizonBounds& now) const {
   const Parameter& stated = parameters()[parameter_number(*this, name_of_duration(i))];
   if (stated.lower == now.lower && stated.upper == now.upper) return;
-  throw Error(fmt::format(
-      "phase {}: the range of its duration was {:g} to {:g} and is {:g} to {:g} with these parameters; state "
-      "it without parameters",
-      phases_[i].name, stated.lower, stated.upper, now.lower, now.upper));
+  throw Error(
+      fmt::format("phase {}: the range of its duration was {:g} to {:g} and is {:g} to {:g} with these parameters; it "
+                  "must not depend on parameters",
+                  phases_[i].name, stated.lower, stated.upper, now.lower, now.upper));
 }
 
 ProblemBounds PhasedProblem::bounds() const {
@@ -469,10 +511,9 @@ void PhasedProblem::add_interior(ProblemBounds& all, std::size_t i, const Interi
   put(place->y, part.y.first, at.y);
   for (Eigen::Index j = 0; part.is_free && j < part.q.size; ++j) {
     if (is_kept_by_scaling(at.v, j)) continue;
-    throw Error(
-        fmt::format("phase {} has a free duration and bounds on a velocity between its ends, which can only be "
-                    "0; split the phase there",
-                    phases_[i].name));
+    throw Error(fmt::format(
+        "phase {} has a free duration, so bounds on a velocity between its ends must be 0; split the phase there",
+        phases_[i].name));
   }
   put(place->v, part.q.first, part.is_free ? at.v : scaled(at.v, guessed_share(i)));
 }
@@ -485,7 +526,7 @@ ProblemCard PhasedProblem::card() const {
     return result;
   }();
   all.description = fmt::format("the phases {}", fmt::join(names, ", "));
-  all.guess = "of every phase its own, side by side";
+  all.guess = "the guesses of all phases, side by side";
   for (std::size_t i = 0; i < phases_.size(); ++i) {
     const ProblemCard own = in_phase(i, [](const Problem& phase) { return phase.card(); });
     if (i == 0) all.time_unit = own.time_unit;

@@ -24,9 +24,9 @@ namespace dmocbench {
 /// and the conditions of switches are boundary conditions. The discrete equations equal the equations of a sequence of
 /// grids with N intervals each. Free durations (`bounds().horizon` of a phase) are unknown parameters `duration_NAME`.
 /// Coordinates, first-order states and controls are called NAME_of_phase, '_' and their names in the phase. Bounds on
-/// ends, on states and on controls, path constraints, constraints g(q) = 0, integrals, boundary conditions and the
-/// guess of every phase hold as it states them, in its own velocities and its own time, which begins at 0. The ends of
-/// a phase at a switch have to be free in its `bounds()` where the switch determines them.
+/// ends, on states and on controls, path constraints, constraints g(q) = 0 and A(q) q̇ = 0, integrals, boundary
+/// conditions and the guess of every phase hold as it states them, in its own velocities and its own time, which begins
+/// at 0. The ends of a phase at a switch have to be free in its `bounds()` where the switch determines them.
 ///
 /// Phases may have parameters; one that several of them have is the same one.
 class PhasedProblem : public Problem {
@@ -114,8 +114,11 @@ class PhasedProblem : public Problem {
   /// The phases' own, then the bounded velocities of phases with a free duration.
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const final;
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const final;
+  [[nodiscard]] ExpressionVector velocity_constraints(const ExpressionVector& q, const ExpressionVector& v) const final;
   [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const final;
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const final;
+  /// "the link from fall to rise, entry [0]": entry i of `boundary_conditions`.
+  [[nodiscard]] std::string condition_in_words(std::size_t i) const;
   /// The sum of the phases' final costs.
   [[nodiscard]] Expression final_cost(const State& last) const final;
   /// Of the phases that have one; 0 in the others. None if no phase has one.
@@ -123,6 +126,13 @@ class PhasedProblem : public Problem {
   [[nodiscard]] MotionPoint guess(double t) const override;
 
  private:
+  struct NamedConditions {
+    std::string name;
+    ExpressionVector entries;
+  };
+
+  [[nodiscard]] std::vector<NamedConditions> named_conditions(const State& first, const State& last) const;
+  [[nodiscard]] std::string name_of_link(std::size_t i) const;
   void add_phase(Phase phase);
   /// `call(phase i)`, whose parameters are this problem's.
   template <class Call>
@@ -157,5 +167,9 @@ class PhasedProblem : public Problem {
   std::vector<Phase> phases_;
   std::vector<Part> parts_;
 };
+
+/// "t = 0.41" or "t = 0.41 to 0.5", in the unit of `ProblemCard::time_unit`; of a `PhasedProblem` the share of each
+/// phase, "0.41 to 0.5 of each phase".
+[[nodiscard]] std::string time_in_words(const Problem& problem, double from, std::optional<double> to = {});
 
 }  // namespace dmocbench

@@ -102,7 +102,15 @@ ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const {
 
 ExpressionVector Problem::constraints(const ExpressionVector& /*q*/) const { return {}; }
 
+ExpressionVector Problem::velocity_constraints(const ExpressionVector& /*q*/, const ExpressionVector& /*v*/) const {
+  return {};
+}
+
 ExpressionVector Problem::embedding(const ExpressionVector& /*theta*/) const { return {}; }
+
+ExpressionVector Problem::moving_embedding(const ExpressionVector& theta, const Expression& /*t*/) const {
+  return embedding(theta);
+}
 
 const Problem* Problem::redundant() const { return nullptr; }
 

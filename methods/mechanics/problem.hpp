@@ -106,9 +106,17 @@ class Problem {
   /// there. G = ∂g/∂q needs full rank along the motion, and c < n; L_vv may then be singular as long as
   /// (L_vv, Gᵀ; G, 0) is not. Forces are evaluated off g = 0 too, and have to be smooth there. Default: none.
   [[nodiscard]] virtual ExpressionVector constraints(const ExpressionVector& q) const;
+  /// A(q) q̇ = 0 that is not the rate of any g, of a blade or of a wheel that rolls: the entries of A(q) v, each linear
+  /// in v. The forces of constraint -A(q)ᵀλ hold the motion there by the Lagrange-d'Alembert principle, so that motions
+  /// are not varied along A. G and A together need full rank along the motion, and fewer than n rows. Default: none.
+  [[nodiscard]] virtual ExpressionVector velocity_constraints(const ExpressionVector& q,
+                                                              const ExpressionVector& v) const;
   /// q = Φ(θ), n entries, of n - c coordinates θ with g(Φ(θ)) = 0: `EmbeddedProblem` takes it in the place of
   /// multipliers. Default: none.
   [[nodiscard]] virtual ExpressionVector embedding(const ExpressionVector& theta) const;
+  /// q = Φ(θ, t), where no chart of the manifold is regular along the whole motion: a chart that moves with it, at
+  /// every node another one. Default: `embedding(theta)`.
+  [[nodiscard]] virtual ExpressionVector moving_embedding(const ExpressionVector& theta, const Expression& t) const;
   /// The problem with constraints whose `embedding` has the coordinates of this one, an `EmbeddedProblem`: stages are
   /// in its coordinates. Default: null.
   [[nodiscard]] virtual const Problem* redundant() const;

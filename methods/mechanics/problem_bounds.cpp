@@ -10,6 +10,7 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/member_name.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -28,7 +29,8 @@ void require_state(const BoundaryState& state, const Problem& problem, const cha
   const std::string subject = problem.name() + ": the boundary state " + member_name(name);
   for (const Eigen::VectorXd* part : {&state.q, &state.v}) {
     if (part->size() != problem.configuration_size()) {
-      throw Error(fmt::format("{} has {} entries, expected {}", subject, part->size(), problem.configuration_size()));
+      throw Error(fmt::format("{} has {}, expected {}", subject, counted(part->size(), "entry", "entries"),
+                              problem.configuration_size()));
     }
     if (!part->allFinite()) throw Error(subject + " is not finite");
   }
@@ -55,7 +57,7 @@ Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string
   if (bounds.empty()) return Bounds::none(size);
   for (const Eigen::VectorXd* side : {&bounds.lower, &bounds.upper}) {
     if (side->size() != size) {
-      throw Error(fmt::format("{} has {} entries, expected {}", subject, side->size(), size));
+      throw Error(fmt::format("{} has {}, expected {}", subject, counted(side->size(), "entry", "entries"), size));
     }
   }
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -88,7 +90,8 @@ void narrow(Bounds& end, const Bounds& everywhere, const std::string& subject, c
 
 EndBounds checked_end(const EndBounds& end, const ProblemBounds& everywhere, const std::string& subject) {
   const Eigen::Index n = everywhere.q.lower.size();
-  if (end.q.empty() || end.v.empty()) throw Error(fmt::format("{} needs {} entries each for q and v", subject, n));
+  if (end.q.empty() || end.v.empty())
+    throw Error(fmt::format("{} needs {} each for q and v", subject, counted(n, "entry", "entries")));
   EndBounds checked{checked_bounds(end.q, n, subject + ".q"), checked_bounds(end.v, n, subject + ".v"),
                     checked_bounds(end.y, everywhere.y.lower.size(), subject + ".y")};
   narrow(checked.q, everywhere.q, subject, 'q');
@@ -129,7 +132,7 @@ std::vector<InteriorBounds> checked_interior(std::vector<InteriorBounds> interio
   std::ranges::sort(interior, {}, &InteriorBounds::relative_time);
   const auto same = std::ranges::adjacent_find(interior, {}, &InteriorBounds::relative_time);
   if (same == interior.end()) return interior;
-  throw Error(fmt::format("{} has two entries at the relative time {:g}; state their bounds in one", name,
+  throw Error(fmt::format("{} has two entries at the relative time {:g}; combine their bounds into one entry", name,
                           same->relative_time));
 }
 
@@ -186,8 +189,8 @@ void require_bounds_of_formulas(const Problem& problem, const ProblemBounds& bou
                                 Eigen::Index integrals) {
   const auto require = [&](const char* part, const char* formula, const Bounds& given, Eigen::Index count) {
     if (given.lower.size() == count) return;
-    throw Error(fmt::format("{}: {}{} has {} entries, and {} has {}", problem.name(), member_name("bounds()."), part,
-                            given.lower.size(), formula, count));
+    throw Error(fmt::format("{}: {}{} has {}, but {} has {}", problem.name(), member_name("bounds()."), part,
+                            counted(given.lower.size(), "entry", "entries"), formula, count));
   };
   if (!bounds.path.empty()) require("path", "path_constraints", bounds.path, path_constraints);
   require("integrals", "integrands", bounds.integrals, integrals);

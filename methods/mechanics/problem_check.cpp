@@ -12,6 +12,7 @@
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -31,8 +32,8 @@ void check_parameters(const Problem& problem) {
     };
     if (parameter.name.empty() || std::ranges::any_of(parameter.name, is_odd)) {
       throw Error(
-          fmt::format("{}: a parameter has no name for --set NAME=VALUE: it is empty, or has a blank, a control "
-                      "character, an equals sign, a comma or a quotation mark",
+          fmt::format("{}: the name of a parameter cannot be used in --set NAME=VALUE: it is empty, or has a blank, a "
+                      "control character, an equals sign, a comma or a quotation mark",
                       problem.name()));
     }
     const std::string owner = "parameter " + parameter.name;
@@ -72,7 +73,8 @@ void check_units(const Problem& problem, const char* of, const std::vector<std::
   const std::string owner = fmt::format("card().{}", of);
   for (const std::string& unit : units) require_one_line(problem, owner, unit);
   if (units.empty() || std::ssize(units) == entries) return;
-  throw Error(fmt::format("{}: {} has {} entries, expected {}, or none", problem.name(), owner, units.size(), entries));
+  throw Error(fmt::format("{}: {} has {}, expected {}, or none", problem.name(), owner,
+                          counted(units.size(), "entry", "entries"), entries));
 }
 
 void check_card(const Problem& problem, const ProblemCard& card) {
@@ -137,7 +139,9 @@ double positive_cost_scale(const Problem& problem) {
 
 std::string flaw_of_sizes(const MotionPoint& point, Eigen::Index n, Eigen::Index m, Eigen::Index l) {
   const auto flaw_of = [](const char* name, const Eigen::VectorXd& part, Eigen::Index size) {
-    return part.size() == size ? "" : fmt::format("{} has {} entries, expected {}", name, part.size(), size);
+    return part.size() == size
+               ? ""
+               : fmt::format("{} has {}, expected {}", name, counted(part.size(), "entry", "entries"), size);
   };
   std::string flaw = flaw_of("q", point.q, n);
   if (flaw.empty()) flaw = flaw_of("v", point.v, n);

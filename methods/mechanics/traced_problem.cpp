@@ -13,6 +13,7 @@
 #include "methods/mechanics/column_names.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
 
@@ -20,7 +21,8 @@ namespace {
 
 void require_size(Eigen::Index actual, Eigen::Index wanted, const Problem& problem, const char* formula) {
   if (actual == wanted) return;
-  throw Error(fmt::format("{}: {} has {} entries, expected {}", problem.name(), formula, actual, wanted));
+  throw Error(
+      fmt::format("{}: {} has {}, expected {}", problem.name(), formula, counted(actual, "entry", "entries"), wanted));
 }
 
 /// Constraints have names all or none.
@@ -45,7 +47,7 @@ void require_controls(const Schedule& formulas, std::size_t first, const Problem
     if (step.input_index - first < is_read.size()) is_read[step.input_index - first] = true;
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!is_read[i]) throw Error(problem.name() + ": no formula reads the control " + names[i] + "; leave it out");
+    if (!is_read[i]) throw Error(problem.name() + ": no formula depends on the control " + names[i] + "; remove it");
   }
 }
 
@@ -90,11 +92,13 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
   open_values_.resize(static_cast<Eigen::Index>(open_.size()));
   unknown_values_.resize(static_cast<Eigen::Index>(unknowns_.size()));
   set_parameters(values);
-  trace_holonomic(problem);
+  trace_constraints(problem);
   trace_formulas(problem);
   trace_ends(problem);
   if (const Problem* const redundant = problem.redundant(); redundant != nullptr) {
-    embedding_ = Schedule(redundant->embedding(input_vector(0, n_)));
+    InputCounter node;
+    const ExpressionVector theta = node.take(n_);
+    embedding_ = Schedule(redundant->moving_embedding(theta, node.take()));
     of_stages_ = std::make_shared<const TracedProblem>(*redundant);
   }
   parameters.require_unknowns_read();
@@ -122,7 +126,7 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   const ExpressionVector momentum = gradient(lagrangian, point.v);
   const ExpressionMatrix mass = jacobian(momentum, point.v);
   const auto is_zero = [](const Expression& entry) { return entry.is_zero(); };
-  for (Eigen::Index i = 0; i < n_ && holonomic_count_ == 0; ++i) {
+  for (Eigen::Index i = 0; i < n_ && constraint_count_ == 0; ++i) {
     const auto row = mass.row(i);
     if (std::all_of(row.begin(), row.end(), is_zero)) {
       throw Error(problem.name() + ": the Lagrangian is not regular, L_vv has a zero row for " +
@@ -169,49 +173,80 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   tape_ = Tape(schedule_);
 }
 
-void TracedProblem::trace_holonomic(const Problem& problem) {
+void TracedProblem::trace_constraints(const Problem& problem) {
   InputCounter inputs(parameter_inputs());
   const ExpressionVector q = inputs.take(n_);
   const ExpressionVector v = inputs.take(n_);
   const ExpressionVector residual = call_formula(problem, "constraints", [&] { return problem.constraints(q); });
+  const ExpressionVector rates =
+      call_formula(problem, "velocity_constraints", [&] { return problem.velocity_constraints(q, v); });
   holonomic_count_ = residual.size();
-  if (holonomic_count_ == 0) return;
-  if (holonomic_count_ >= n_) {
-    throw Error(fmt::format("{}: {} constraints leave no degree of freedom for {} coordinates; state fewer constraints",
-                            problem.name(), holonomic_count_, n_));
+  constraint_count_ = residual.size() + rates.size();
+  if (constraint_count_ == 0) return;
+  if (constraint_count_ >= n_) {
+    throw Error(fmt::format("{}: {} no degree of freedom for {}; state fewer constraints", problem.name(),
+                            counted(constraint_count_, "constraint leaves", "constraints leave"),
+                            counted(n_, "coordinate")));
   }
   for (Eigen::Index i = 0; i < holonomic_count_; ++i) {
     if (reads(Schedule(residual.segment(i, 1)), parameter_inputs(), static_cast<std::size_t>(n_))) continue;
     throw Error(fmt::format("{}: constraints[{}] depends on no coordinate", problem.name(), i));
   }
-  const ExpressionMatrix holonomic_jacobian = jacobian(residual, q);
+  ExpressionMatrix by_v(constraint_count_, n_);
+  by_v.topRows(holonomic_count_) = jacobian(residual, q);
+  by_v.bottomRows(rates.size()) = jacobian(rates, v);
+  require_linear(rates, by_v.bottomRows(rates.size()), problem);
   std::vector<Expression> formulas;
   append(formulas, residual);
-  append(formulas, holonomic_jacobian);
-  append(formulas, jacobian(holonomic_jacobian * v, q) * v);
-  holonomic_ = Schedule(formulas);
+  append(formulas, by_v);
+  append(formulas, jacobian(by_v * v, q) * v);
+  constraints_ = Schedule(formulas);
+}
+
+void TracedProblem::require_linear(const ExpressionVector& rates, const ExpressionMatrix& by_v,
+                                   const Problem& problem) const {
+  const ExpressionVector parameters = input_vector(0, static_cast<Eigen::Index>(parameter_inputs()));
+  const ExpressionVector q = input_vector(parameter_inputs(), n_);
+  const ExpressionVector rest(n_);
+  const ExpressionVector at_rest = FormulaReader(Schedule(rates), {&parameters, &q, &rest}, {}).vector(rates.size());
+  const auto size = static_cast<std::size_t>(n_);
+  for (Eigen::Index i = 0; i < rates.size(); ++i) {
+    const Schedule row(ExpressionVector(by_v.row(i).transpose()));
+    const bool is_linear = at_rest[i].is_zero() && !reads(row, parameter_inputs() + size, size);
+    const auto is_zero = [](const Expression& entry) { return entry.is_zero(); };
+    if (is_linear && !std::ranges::all_of(by_v.row(i), is_zero)) continue;
+    throw Error(
+        fmt::format("{}: velocity_constraints[{}] is not linear in v; state the entries of A(q) v, which vanish "
+                    "at v = 0",
+                    problem.name(), i));
+  }
 }
 
 void TracedProblem::require_no_constraints(const char* method) const {
-  if (holonomic_count_ == 0 && !has_embedding()) return;
+  if (constraint_count_ == 0 && !has_embedding()) return;
+  if (holonomic_count_ == 0 && !has_embedding()) {
+    throw Error(fmt::format("{} does not support velocity constraints ({}); state the problem in quasi-velocities",
+                            method, member_name("Problem::velocity_constraints")));
+  }
   throw Error(fmt::format("{} does not support {} g(q) = 0 ({}); state the problem in minimal coordinates", method,
                           has_embedding() ? "the embedding of constraints" : "constraints",
                           has_embedding() ? std::string("EmbeddedProblem") : member_name("Problem::constraints")));
 }
 
-TracedProblem::HolonomicValues TracedProblem::holonomic_at(const ExpressionVector& q, const ExpressionVector& v) const {
+TracedProblem::ConstraintValues TracedProblem::constraints_at(const ExpressionVector& q,
+                                                              const ExpressionVector& v) const {
   const ExpressionVector parameters = this->parameters();
-  FormulaReader read(holonomic_, {&parameters, &q, &v}, {});
-  HolonomicValues values;
+  FormulaReader read(constraints_, {&parameters, &q, &v}, {});
+  ConstraintValues values;
   values.residual = read.vector(holonomic_count_);
-  values.jacobian = read.matrix(holonomic_count_, n_);
-  values.curvature = read.vector(holonomic_count_);
+  values.jacobian = read.matrix(constraint_count_, n_);
+  values.curvature = read.vector(constraint_count_);
   return values;
 }
 
-ExpressionVector TracedProblem::in_stages(const ExpressionVector& q) const {
+ExpressionVector TracedProblem::in_stages(const ExpressionVector& q, const Expression& t) const {
   if (!has_embedding()) return q;
-  return FormulaReader(embedding_, {&q}, {}).vector(of_stages_->configuration_size());
+  return FormulaReader(embedding_, {&q}, t).vector(of_stages_->configuration_size());
 }
 
 void TracedProblem::trace_ends(const Problem& problem) {

@@ -40,10 +40,10 @@ class TracedProblem {
     ExpressionMatrix symmetry_jacobian;          ///< Dξ(q), n × n, empty without symmetry
   };
 
-  /// The holonomic constraints g(q) = 0, with what methods need of them.
-  struct HolonomicValues {
-    ExpressionVector residual;   ///< g, c entries
-    ExpressionMatrix jacobian;   ///< G = ∂g/∂q, c × n
+  /// The c constraints of the motion: the holonomic ones, g(q) = 0, then A(q) q̇ = 0.
+  struct ConstraintValues {
+    ExpressionVector residual;   ///< g, as many entries as there are holonomic ones
+    ExpressionMatrix jacobian;   ///< G = ∂g/∂q, then A, c × n
     ExpressionVector curvature;  ///< Ġ v, c entries: G q̈ = -Ġ v keeps G q̇ = 0
   };
 
@@ -85,17 +85,21 @@ class TracedProblem {
   [[nodiscard]] Eigen::Index path_constraint_count() const noexcept { return path_constraints_; }
   /// How many entries c has.
   [[nodiscard]] Eigen::Index integral_count() const noexcept { return integrals_; }
-  /// Throws `Error` if there are holonomic constraints or an embedding in their place, which `method`, "a batch" or
+  /// Throws `Error` if there are constraints of the motion or an embedding in their place, which `method`, "a batch" or
   /// "the modified energy", does not have.
   void require_no_constraints(const char* method) const;
-  /// How many holonomic constraints there are: c.
+  /// How many constraints of the motion there are, g(q) = 0 and A(q) q̇ = 0: c.
+  [[nodiscard]] Eigen::Index constraint_count() const noexcept { return constraint_count_; }
+  /// How many of them are g(q) = 0.
   [[nodiscard]] Eigen::Index holonomic_count() const noexcept { return holonomic_count_; }
+  /// How many of them are A(q) q̇ = 0.
+  [[nodiscard]] Eigen::Index velocity_constraint_count() const noexcept { return constraint_count_ - holonomic_count_; }
   /// True of an `EmbeddedProblem`.
   [[nodiscard]] bool has_embedding() const noexcept { return of_stages_ != nullptr; }
   /// The formulas in the coordinates of stages: with an embedding the redundant statement's, otherwise these.
   [[nodiscard]] const TracedProblem& of_stages() const noexcept { return of_stages_ ? *of_stages_ : *this; }
-  /// The configuration of a node in the coordinates of stages: with an embedding Φ(θ), otherwise q.
-  [[nodiscard]] ExpressionVector in_stages(const ExpressionVector& q) const;
+  /// The configuration of a node at time t in the coordinates of stages: with an embedding Φ(θ, t), otherwise q.
+  [[nodiscard]] ExpressionVector in_stages(const ExpressionVector& q, const Expression& t) const;
   /// Whether entry i of h reads a control.
   [[nodiscard]] const std::vector<bool>& constraints_read_controls() const noexcept {
     return constraints_read_controls_;
@@ -124,8 +128,8 @@ class TracedProblem {
   /// All formulas with the given point substituted. Throws `Error` if the point lacks first-order states: not every
   /// method supports them.
   [[nodiscard]] Values at(const ControlledState& point) const;
-  /// The holonomic constraints at q and, for their curvature, at v.
-  [[nodiscard]] HolonomicValues holonomic_at(const ExpressionVector& q, const ExpressionVector& v) const;
+  /// The constraints of the motion at q and, for their curvature, at v.
+  [[nodiscard]] ConstraintValues constraints_at(const ExpressionVector& q, const ExpressionVector& v) const;
   /// The formulas of the ends with the given states substituted.
   [[nodiscard]] EndValues at_ends(const State& first, const State& last) const;
   /// The same with u = 0, for formulas that do not depend on the control (momentum, mass, symmetry).
@@ -134,7 +138,9 @@ class TracedProblem {
  private:
   void require_first_order(Eigen::Index given) const;
   void trace_formulas(const Problem& problem);
-  void trace_holonomic(const Problem& problem);
+  void trace_constraints(const Problem& problem);
+  /// Throws `Error` unless `rates` are `by_v` times the inputs v.
+  void require_linear(const ExpressionVector& rates, const ExpressionMatrix& by_v, const Problem& problem) const;
   void trace_ends(const Problem& problem);
   /// Whether an input of the ends' formulas is read, numbered without the parameters.
   [[nodiscard]] bool ends_read(Eigen::Index first, Eigen::Index count) const;
@@ -149,6 +155,7 @@ class TracedProblem {
   Eigen::Index path_constraints_ = 0;
   Eigen::Index integrals_ = 0;
   Eigen::Index holonomic_count_ = 0;
+  Eigen::Index constraint_count_ = 0;
   Eigen::Index boundary_conditions_ = 0;
   bool has_symmetry_ = false;
   bool momentum_depends_on_time_ = false;
@@ -166,7 +173,7 @@ class TracedProblem {
   ExpressionVector unknown_inputs_;  // where it has open inputs
   Schedule schedule_;
   Tape tape_;  // of the schedule
-  Schedule holonomic_;
+  Schedule constraints_;
   Schedule ends_;
   Schedule embedding_;
   std::shared_ptr<const TracedProblem> of_stages_;

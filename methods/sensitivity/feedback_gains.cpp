@@ -59,20 +59,20 @@ void require_feedback(const Transcription& program, const Eigen::VectorXd& prima
   const IntervalFunctions& functions = program.functions();
   const TracedProblem& traced = program.traced_problem();
   const bool has_own_times = !functions.controls.has_times_of(program.tableau());
-  const char* reason = functions.free_horizon                                 ? "a free horizon"
-                       : traced.boundary_condition_count() > 0                ? "boundary conditions"
-                       : functions.controls.shares_controls                   ? "controls that two intervals share"
-                       : has_own_times                                        ? "controls at times of their own"
-                       : functions.mayer                                      ? "the Mayer form"
-                       : traced.integral_count() > 0                          ? "integral constraints"
-                       : traced.first_order_size() > 0                        ? "first-order states"
-                       : traced.unknown_count() > 0                           ? "unknown parameters"
-                       : functions.multipliers > 0                            ? "constraints g(q) = 0"
+  const char* reason = functions.free_horizon                  ? "a free horizon"
+                       : traced.boundary_condition_count() > 0 ? "boundary conditions"
+                       : functions.controls.shares_controls    ? "controls shared by two intervals"
+                       : has_own_times                         ? "controls at times other than the stages"
+                       : functions.mayer                       ? "the Mayer form"
+                       : traced.integral_count() > 0           ? "integral constraints"
+                       : traced.first_order_size() > 0         ? "first-order states"
+                       : traced.unknown_count() > 0            ? "unknown parameters"
+                       : functions.multipliers > 0             ? "constraints of the trajectory"
                        : program.interval_structure()->has_interior_equations ? "conditions between the ends"
                                                                               : nullptr;
   if (reason != nullptr) {
     throw Error(std::string("feedback gains are not available with ") + reason +
-                ": the optimal control does not follow from the state at a node alone");
+                ": the state at a node alone does not determine the optimal control");
   }
 }
 

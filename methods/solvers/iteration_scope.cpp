@@ -17,6 +17,14 @@ const IterationScope*& watching_scope() {
 IterationScope::IterationScope(std::function<void(const Iteration&)> watch)
     : watch_(std::move(watch)), outer_(std::exchange(watching_scope(), this)) {}
 
+IterationScope::IterationScope(double factor_of_objective) : IterationScope(std::function<void(const Iteration&)>()) {
+  if (outer_ == nullptr || !outer_->watch_) return;
+  watch_ = [this, factor_of_objective](Iteration iteration) {
+    iteration.objective /= factor_of_objective;
+    outer_->watch_(iteration);
+  };
+}
+
 IterationScope::~IterationScope() { watching_scope() = outer_; }
 
 bool iterations_are_watched() noexcept { return watching_scope() != nullptr && watching_scope()->watch_; }

@@ -20,6 +20,8 @@ class IterationScope {
  public:
   /// Takes the place of the scope around, until it is destroyed. An empty `watch` gets no reports.
   explicit IterationScope(std::function<void(const Iteration&)> watch);
+  /// Passes reports on to the scope around, with the objective divided by the factor that the solver sees in addition.
+  explicit IterationScope(double factor_of_objective);
   ~IterationScope();
   IterationScope(const IterationScope&) = delete;
   IterationScope& operator=(const IterationScope&) = delete;

@@ -5,14 +5,19 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/least_violation.hpp"
+#include "methods/judgement/linearised_conditions.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
+#include "methods/solvers/iteration_scope.hpp"
 #include "methods/solvers/leave_saddle.hpp"
 
 namespace dmocbench {
@@ -99,20 +104,81 @@ void state_without_scaling(NonlinearProgram& program, const Scaling& scaling, co
                            Solution& solution) {
   if (scaling.of_cost != 1.0) {
     solution.message += fmt::format(
-        " The cost was too small for the tolerance and was multiplied by {:.0e} for the solver, as by `cost_scale` of "
-        "a problem.",
+        " The cost was too small for the tolerance and was multiplied by {:.0e} for the solver, as `cost_scale` of a "
+        "problem would do.",
         scaling.of_cost);
   }
   if (scaling.of_rows.size() > 0) {
     solution.message +=
-        fmt::format(" {} constraints, whose sizes are far from 1, were multiplied by powers of two for the solver.",
-                    (scaling.of_rows.array() != 1.0).count());
+        fmt::format(" {} multiplied by powers of two for the solver.",
+                    counted((scaling.of_rows.array() != 1.0).count(), "constraint, whose size is far from 1, was",
+                            "constraints, whose sizes are far from 1, were"));
   }
   if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would ignore the factors
   if (solution.barrier_parameter) *solution.barrier_parameter /= scaling.of_cost;
   solution.multipliers = scaled.original_ones(solution.multipliers);
   if (solution.primal.size() > 0) judge_residuals(program, solution);
 }
+
+/// True of a failure that dependent constraints may cause.
+bool has_stopped(Status status) {
+  return status == Status::step_failed || status == Status::not_confirmed || status == Status::acceptable;
+}
+
+/// A program without conditions of its ends that others imply: each is an inequality that no point near a solution
+/// reaches. Equations of intervals and nodes stay.
+class RelaxedProgram final : public ForwardingProgram {
+ public:
+  /// `program` must outlive it.
+  explicit RelaxedProgram(NonlinearProgram& program)
+      : ForwardingProgram(program), lower_(program.constraint_lower()), upper_(program.constraint_upper()) {}
+
+  [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return lower_; }
+  [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return upper_; }
+
+  /// Relaxes the last of the conditions whose gradients depend on each other at a point; false if there are none.
+  [[nodiscard]] bool relax_one_at(const Eigen::VectorXd& point) {
+    constexpr std::size_t most = 16;
+    const IntervalStructure* const structure = interval_structure();
+    if (structure == nullptr || relaxed_.size() == most || !point.allFinite()) return false;
+    Eigen::Index last = -1;
+    const std::vector<std::size_t> rows = dependent_rows(*this, point);
+    for (const std::size_t row : rows) {
+      const auto i = static_cast<Eigen::Index>(row);
+      const bool is_of_ends = structure->rows[row].kind == Place::Kind::border;
+      if (is_of_ends && lower_[i] == upper_[i]) last = std::max(last, i);
+    }
+    if (last < 0 || rows.size() < 2) return false;
+    Eigen::VectorXd values(lower_.size());
+    constraints(point, values);
+    const double room = std::max({1.0, std::abs(lower_[last]), 10.0 * std::abs(values[last] - lower_[last])});
+    lower_[last] -= room;
+    upper_[last] += room;
+    relaxed_.push_back(last);
+    return true;
+  }
+
+  /// Whether a solution of this program is one of the original (`Confirmation`); then it is stated as that.
+  [[nodiscard]] bool states_of_original(double tolerance, Solution& solution) const {
+    if (!is_solved(solution.status)) return false;
+    for (const Eigen::Index row : relaxed_) solution.multipliers[row] = 0.0;
+    Solution judged = solution;
+    judged.status = Status::solved;
+    Confirmation(original()).judge(tolerance, judged, false);
+    if (judged.status != Status::solved) return false;
+    solution.kkt_residual = judged.kkt_residual;
+    solution.constraint_violation = judged.constraint_violation;
+    solution.message += fmt::format(
+        " Constraint {} {} others and {} left out for the solver: state each condition once.",
+        fmt::join(relaxed_, ", "), relaxed_.size() == 1 ? "repeats" : "repeat", relaxed_.size() == 1 ? "was" : "were");
+    return true;
+  }
+
+ private:
+  Eigen::VectorXd lower_;
+  Eigen::VectorXd upper_;
+  std::vector<Eigen::Index> relaxed_;
+};
 
 class RunWithoutMemory final : public PreparedRun {
  public:
@@ -207,25 +273,47 @@ Scaling Solver::run_and_judge(CountedProgram& counted, PreparedRun& run, const W
   return needed;
 }
 
-Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
-                       std::optional<double> barrier_parameter) const {
-  check(program, start, multipliers, barrier_parameter);
+Solution Solver::solve_as_stated(NonlinearProgram& program, const WarmStart& start, double seconds,
+                                 bool& may_depend) const {
   Confirmation confirmation(program);  // before the clock begins
-  CountedProgram counted(program, seconds_allowed());
+  CountedProgram counted(program, seconds);
   Solution solution;
-  const Scaling needed =
-      run_and_judge(counted, *prepare(counted), {start, multipliers, barrier_parameter}, confirmation, true, solution);
+  const Scaling needed = run_and_judge(counted, *prepare(counted), start, confirmation, true, solution);
+  may_depend = has_stopped(solution.status) || confirmation.has_huge_multipliers();
   if (needed.is_one()) return solution;
 
   ScaledProgram scaled(program, needed);
   Confirmation of_scaled(scaled);
   CountedProgram counted_again(scaled, std::max(counted.seconds_left(), shortest_limit));
   solution = {};
+  std::optional<double> barrier_parameter = start.barrier_parameter;
   if (barrier_parameter) *barrier_parameter *= needed.of_cost;
-  const Eigen::VectorXd scaled_multipliers = scaled.scaled(multipliers);
+  const Eigen::VectorXd scaled_multipliers = scaled.scaled(start.multipliers);
+  const IterationScope of_original(needed.of_cost);
   static_cast<void>(run_and_judge(counted_again, *prepare(counted_again),
-                                  {start, scaled_multipliers, barrier_parameter}, of_scaled, true, solution));
+                                  {start.primal, scaled_multipliers, barrier_parameter}, of_scaled, true, solution));
+  may_depend = has_stopped(solution.status) || of_scaled.has_huge_multipliers();
   state_without_scaling(program, needed, scaled, solution);
+  return solution;
+}
+
+Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
+                       std::optional<double> barrier_parameter) const {
+  check(program, start, multipliers, barrier_parameter);
+  const WarmStart from{start, multipliers, barrier_parameter};
+  const StopScope limits(options_.stop_requested, seconds_allowed());
+  bool may_depend = false;
+  Solution solution = solve_as_stated(program, from, seconds_allowed(), may_depend);
+  if (!may_depend || solution.primal.size() != start.size() || must_stop()) return solution;
+  try {
+    RelaxedProgram relaxed(program);
+    while (relaxed.relax_one_at(solution.primal)) {
+      Solution next = solve_as_stated(relaxed, from, std::max(seconds_left(), shortest_limit), may_depend);
+      if (relaxed.states_of_original(options_.tolerance, next)) return next;
+      if (next.primal.size() != start.size() || must_stop()) break;
+    }
+  } catch (const Stopped&) {  // the first solution stays
+  }
   return solution;
 }
 

@@ -75,6 +75,10 @@ class Solver {
   /// Where the tolerance does not constrain the cost or a constraint, since it is too small or too large
   /// (`Confirmation::scaling`), the program is solved again with both times powers of two, and the message reports it.
   /// Counts and times belong to the second solve, the limit of time holds for both.
+  ///
+  /// Where the multipliers are huge, or the solve failed, and conditions of the ends depend on each other there
+  /// (`dependent_rows`), it is solved again without the redundant ones; a solution of that replaces the first one if it
+  /// satisfies these, too.
   [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start,
                                const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
                                std::optional<double> barrier_parameter = std::nullopt) const;
@@ -113,6 +117,9 @@ class Solver {
   /// `Confirmation::scaling`; where the cost needs a factor, the answer is not confirmed.
   Scaling complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation, bool asks_newton,
                    Solution& solution) const;
+  /// `solve` with all constraints. `may_depend`: whether huge multipliers, or the failure, may be due to dependent
+  /// ones.
+  Solution solve_as_stated(NonlinearProgram& program, const WarmStart& start, double seconds, bool& may_depend) const;
   /// The same, continued from a saddle point (`leave_saddle`). Returns as `complete`.
   Scaling run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start, Confirmation& confirmation,
                         bool asks_newton, Solution& solution) const;

@@ -25,7 +25,7 @@ namespace {
 
 std::string fault_of_field(const Table& table, const Row& row, const std::string& column) {
   if (std::ranges::count(table.columns(), column) == 0)
-    return fmt::format("there is no column {} among {}", column, fmt::join(table.columns(), ", "));
+    return fmt::format("there is no column {}; the columns are {}", column, fmt::join(table.columns(), ", "));
   return fmt::format("\"{}\" in column {} is not a number", row.text(column), column);
 }
 
@@ -64,7 +64,7 @@ Eigen::VectorXd times_in(const Table& table, const std::filesystem::path& file) 
   Eigen::VectorXd times = columns(table, {"t"}, "", file);
   for (Eigen::Index k = 0; k < times.size(); ++k) {
     if (std::isfinite(times[k]) && (k == 0 || times[k] > times[k - 1])) continue;
-    throw Error(fmt::format("{}: t must be finite and increase, which fails in row {}", file.string(), k + 1));
+    throw Error(fmt::format("{}: t must be finite and increasing, but is not in row {}", file.string(), k + 1));
   }
   return times;
 }
@@ -127,7 +127,7 @@ void require_one_motion(const Trajectory& motion, const std::filesystem::path& n
     return;
   }
   throw Error(
-      fmt::format("{} has stages from t = {:g} to {:g}, and the nodes in {} reach from 0 to {:g}: they belong to "
+      fmt::format("{} has stages from t = {:g} to {:g}, but the nodes in {} extend from 0 to {:g}: they belong to "
                   "different trajectories, or one of the files is truncated",
                   stages.string(), first_stage, last_stage, nodes.filename().string(), motion.node_times[last]));
 }
@@ -180,12 +180,12 @@ Series priced(const std::string& prefix, const std::vector<std::string>& names, 
 
 /// λ at the stages, whatever the method; without columns where there are none, or the equations of motion are singular.
 Series multipliers_at_stages(const Problem& problem, const Trajectory& trajectory) {
-  Series series{"lambda_", {}, {}, "multiplier of a constraint g(q) = 0, energy per unit of g"};
-  if (problem.constraints(input_vector(0, problem.configuration_size())).size() == 0) return series;
+  Series series{"lambda_", {}, {}, "multiplier of a constraint g(q) = 0, energy per unit of g, or A(q) v = 0"};
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
+  if (traced.constraint_count() == 0) return series;
   EquationsOfMotion motion(traced);
-  Eigen::MatrixXd values(trajectory.stage_times.size(), traced.holonomic_count());
+  Eigen::MatrixXd values(trajectory.stage_times.size(), traced.constraint_count());
   try {
     for (Eigen::Index row = 0; row < values.rows(); ++row) {
       values.row(row) = motion.multipliers(trajectory.stage(row), trajectory.stage_times[row]).transpose();
@@ -223,7 +223,7 @@ Table by_phase(const PhasedProblem& problem, const Trajectory& trajectory, const
                double time_unit = 1.0) {
   std::vector<std::string> header;
   std::vector<Row> rows;
-  std::map<std::string, ColumnFacts> facts{{"phase", {"", "of the motion", {FieldKind::text, false}}}};
+  std::map<std::string, ColumnFacts> facts{{"phase", {"", "phase of the trajectory", {FieldKind::text, false}}}};
   const std::vector<PhaseTrajectory> parts = phase_trajectories(problem, trajectory);
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -310,18 +310,22 @@ void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more, double fac
 Trajectory motion_in_tables(const Problem& problem, const Table& nodes, const std::optional<Table>& stages,
                             const std::filesystem::path& file);
 
-/// A motion whose phases follow each other, side by side. Throws `Error` unless all have as many nodes.
+/// A motion whose phases follow each other, side by side. Unknowns without a column are the durations of the rows, or
+/// guessed. Throws `Error` unless all phases have as many nodes.
 Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const std::optional<Table>& stages,
                         const std::filesystem::path& file) {
   Trajectory all;
-  for (const auto& [name, phase, follows] : problem.phases()) {
+  std::map<std::string, double> durations;
+  for (std::size_t i = 0; i < problem.phases().size(); ++i) {
+    const auto& [name, phase, follows] = problem.phases()[i];
     const auto first = std::ranges::find(nodes.rows(), name, [](const Row& row) { return row.text("phase"); });
     if (first == nodes.rows().end()) throw Error(fmt::format("{} has no rows of the phase {}", file.string(), name));
     const double start = first->needed("t");
     const SharedParameters shared(problem, *phase);
     const std::optional<Table> own_stages = stages ? std::optional(rows_of_phase(*stages, name, start)) : std::nullopt;
     const Trajectory own = motion_in_tables(*phase, rows_of_phase(nodes, name, start), own_stages, file);
-    const double share = own.node_times.tail<1>()[0] / problem.horizon();
+    const double duration = durations[problem.name_of_duration(i)] = own.node_times.tail<1>()[0];
+    const double share = duration / problem.horizon();
     if (all.node_times.size() == 0) {
       all.tableau = own.tableau;
       all.node_times = own.node_times / share;
@@ -329,8 +333,9 @@ Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const 
     }
     if (own.q.rows() != all.node_times.size() || own.stage_u.rows() != all.stage_times.size()) {
       throw Error(fmt::format(
-          "{}: the phase {} has {} nodes and {} controls, the first phase {} and {}; all need as many", file.string(),
-          name, own.q.rows(), own.stage_u.rows(), all.node_times.size(), all.stage_times.size()));
+          "{}: the phase {} has {} nodes and {} controls, but the first phase has {} and {}; all phases need the same "
+          "numbers",
+          file.string(), name, own.q.rows(), own.stage_u.rows(), all.node_times.size(), all.stage_times.size()));
     }
     append_columns(all.q, own.q);
     append_columns(all.v, own.v, share);
@@ -340,7 +345,14 @@ Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const 
     append_columns(all.psi_p, own.psi_p);
     append_columns(all.psi_y, own.psi_y);
   }
-  read_unknowns(problem, nodes, file, all);
+  const std::vector<std::string> names = unknown_names(problem);
+  all.unknowns.resize(std::ssize(names));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto duration = durations.find(names[i]);
+    const double otherwise = duration == durations.end() ? problem.parameter(names[i]) : duration->second;
+    const Row& row = nodes.rows().front();
+    all.unknowns[static_cast<Eigen::Index>(i)] = row.text(names[i]).empty() ? otherwise : row.needed(names[i]);
+  }
   return all;
 }
 
@@ -470,9 +482,9 @@ Table quantity_table(const Problem& problem) {
   Table table({"kind", "quantity", "unit", "lower", "upper", "time"});
   constexpr FieldType text{FieldKind::text, true};
   constexpr FieldType number{FieldKind::number, true};
-  table.describe({{"kind", {"", "t, q, u or h, a path constraint", text}},
+  table.describe({{"kind", {"", "t, q, u, or h for a path constraint", text}},
                   {"quantity", {"", "the column with this name in the tables of the trajectory", text}},
-                  {"unit", {"", "as the problem states it; empty where it states none", text}},
+                  {"unit", {"", "unit that the problem states; empty if it states none", text}},
                   {"lower", {"", "its lower bound; empty for none", number}},
                   {"upper", {"", "its upper bound; empty for none", number}},
                   {"time",
@@ -523,7 +535,7 @@ std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {
   constexpr std::string_view ending = "_nodes.csv";
   const std::string name = nodes_file.string();
   if (name.size() <= ending.size() || !name.ends_with(ending)) {
-    throw Error(fmt::format("the name of a node table ends with {}, unlike {}", ending, name));
+    throw Error(fmt::format("the name of a node table must end with {}, unlike {}", ending, name));
   }
   return name.substr(0, name.size() - ending.size()) + "_stages.csv";
 }

@@ -10,7 +10,8 @@ namespace {
 constexpr std::string_view euler_lagrange_of = "lagrangian and force: the Euler-Lagrange equation of {}";
 constexpr std::string_view momentum_of = "lagrangian: the momentum p = L_v of {}";
 constexpr std::string_view holonomic_condition = "constraints[{}]: g(q) = 0 or its rate";
-constexpr std::string_view other_bounds = "the bounds of a velocity, momentum or cost";
+constexpr std::string_view other_bounds = "the bounds on a velocity, momentum or cost";
+constexpr std::string_view velocity_condition = "velocity_constraints[{}]: A(q) v = 0 or its rate";
 constexpr std::string_view equation_number = "equation_{1}";
 
 bool gives_any(const Bounds& bounds) { return (bounds.lower.array() == bounds.upper.array()).any(); }
@@ -88,20 +89,22 @@ struct Sizes {
       : n(traced.configuration_size()),
         l(traced.first_order_size()),
         m(traced.control_size()),
-        c(traced.holonomic_count()),
+        holonomic(traced.holonomic_count()),
+        velocity(traced.velocity_constraint_count()),
         stages(tableau.stages()),
-        conditions(c > 0 ? functions.multipliers / c : 0),
+        conditions(functions.conditions),
         last_node(grid.intervals()),
         velocities(nodes_with_velocities(grid, ends, bounds)) {}
 
   Eigen::Index n;
   Eigen::Index l;
   Eigen::Index m;
-  Eigen::Index c;                       // holonomic constraints
-  Eigen::Index stages;                  // s
-  Eigen::Index conditions;              // of each holonomic constraint, per interval
-  std::size_t last_node;                // N
-  std::vector<std::size_t> velocities;  // nodes between the ends
+  Eigen::Index holonomic;                // constraints g(q) = 0
+  Eigen::Index velocity;                 // constraints A(q) q̇ = 0
+  Eigen::Index stages;                   // s
+  std::vector<Eigen::Index> conditions;  // of constraints, per interval
+  std::size_t last_node;                 // N
+  std::vector<std::size_t> velocities;   // nodes between the ends
 };
 
 /// Those of the nodes and of the intervals; `add_unknowns_of_ends` follows.
@@ -135,8 +138,9 @@ void add_unknowns(const Sizes& of, const TracedProblem& traced, const EndRules& 
   for (Eigen::Index i = shared; i < control_stages - shared; ++i) {
     declare.in_intervals(control, of.m, {by_u, "bounds().u: {}", control_stages > 1 ? "{0}_{2}" : "{0}"}, i);
   }
-  for (Eigen::Index i = 0; i < of.conditions; ++i) {
-    declare.in_intervals(multiplier, of.c, {number, other_bounds, "lambda_{1}"}, i);
+  for (Eigen::Index i = 0; i < std::ssize(of.conditions); ++i) {
+    const Eigen::Index size = of.conditions[static_cast<std::size_t>(i)];
+    declare.in_intervals(multiplier, size, {number, other_bounds, "lambda_{1}"}, i);
   }
   declare.at_nodes(cost, ends.mayer ? 1 : 0, {number, other_bounds, "cost_so_far"});
   declare.at_nodes(integral, traced.integral_count(), {number, other_bounds, "integral_{1}"});
@@ -154,8 +158,8 @@ void add_unknowns_of_ends(const Sizes& of, const TracedProblem& traced, const En
     declare.at_node(velocity, node, of.n, {by_q, "bounds().interior: the velocity of {}", "v_{0}[{3}]"});
   }
   declare.of_all(parameter, traced.unknown_count(),
-                 {ComponentNames::parameter, "the bounds of the unknown {}", "parameter_{1}"});
-  declare.of_all(horizon, ends.free_horizon ? 1 : 0, {number, "the bounds of the horizon", "T"});
+                 {ComponentNames::parameter, "the bounds on the unknown {}", "parameter_{1}"});
+  declare.of_all(horizon, ends.free_horizon ? 1 : 0, {number, "the bounds on the horizon", "T"});
 }
 
 /// The equations of an element.
@@ -177,7 +181,7 @@ void add_element_equations(const Sizes& of, const EndRules& ends, const Interval
     for (Eigen::Index i = 0; i + 1 < functions.rates.stages(); ++i) add(euler_lagrange, euler_lagrange_of, i);
   } else if (!ends.carries_q_alone() && count == 2 * of.stages * of.n) {
     for (Eigen::Index i = 0; i < of.stages; ++i) {
-      has_momenta ? add(momentum, momentum_of, i) : add(velocity, "the velocity as stage rate of {}", i);
+      has_momenta ? add(momentum, momentum_of, i) : add(velocity, "the velocity equal to the stage rate of {}", i);
       add(euler_lagrange, euler_lagrange_of, i);
     }
   } else {
@@ -192,8 +196,10 @@ void add_rows(const Sizes& of, const TracedProblem& traced, const EndRules& ends
   constexpr auto number = ComponentNames::number;
   declare.at_nodes(euler_lagrange, functions.node_rows, {by_q, euler_lagrange_of, "node_{0}"});
   add_element_equations(of, ends, functions, declare);
-  for (Eigen::Index i = 0; i < of.conditions; ++i) {
-    declare.in_intervals(holonomic, of.c, {number, holonomic_condition, equation_number}, i);
+  for (Eigen::Index i = 0; i < std::ssize(of.conditions); ++i) {
+    const Eigen::Index of_velocity = of.conditions[static_cast<std::size_t>(i)] - of.holonomic;
+    declare.in_intervals(constraint, of.holonomic, {number, holonomic_condition, equation_number}, i);
+    declare.in_intervals(constraint, of_velocity, {number, velocity_condition, equation_number}, i);
   }
   for (Eigen::Index i = 0; i < of.stages; ++i) {
     declare.in_intervals(first_order, of.l,
@@ -221,11 +227,18 @@ void add_rows_of_ends(const Sizes& of, const TracedProblem& traced, const EndRul
   if (ends.last_has_velocity()) {
     declare.at_node(momentum, of.last_node, tied, {by_q, momentum_of, "momentum_{0}_last"});
   }
-  for (Eigen::Index i = 0; i < ends.first_holonomic(); i += of.c) {
-    declare.at_node(holonomic, 0, of.c, {number, holonomic_condition, "constraint_first_{1}"});
+  if (ends.has_first_constraints()) {
+    for (int i = 0; i < 2; ++i) {
+      declare.at_node(constraint, 0, of.holonomic, {number, holonomic_condition, "constraint_first_{1}"});
+    }
+    declare.at_node(constraint, 0, of.velocity, {number, velocity_condition, "velocity_constraint_first_{1}"});
   }
-  for (Eigen::Index i = 0; i < ends.last_holonomic(); i += of.c) {
-    declare.at_node(holonomic, of.last_node, of.c, {number, holonomic_condition, "constraint_last_{1}"});
+  if (ends.has_last_constraints()) {
+    const auto at_last = [&](Eigen::Index count, std::string_view sentence, std::string_view name) {
+      declare.at_node(constraint, of.last_node, count, {number, sentence, name});
+    };
+    at_last(of.holonomic, holonomic_condition, "constraint_last_{1}");
+    at_last(of.velocity, velocity_condition, "velocity_constraint_last_{1}");
   }
   for (const std::size_t node : of.velocities) {
     declare.at_node(momentum, node, of.n, {by_q, momentum_of, "momentum_{0}[{3}]"});
@@ -343,7 +356,7 @@ void ProgramBlocks::place_ends() {
     if (adds_to_node) append_places(row(Equation::euler_lagrange).later(node), false, end_row_places_);
   }
   for (const RowBlock& block : rows_) {
-    if (block.kind == Equation::holonomic && block.support == Support::one_node) {
+    if (block.kind == Equation::constraint && block.support == Support::one_node) {
       append_places(block, false, end_row_places_);
     }
   }

@@ -28,7 +28,7 @@ enum class Quantity : std::uint8_t {
   second_rate,       ///< Ṗ or V̇
   first_order_rate,  ///< Ẏ
   control,           ///< U of a stage
-  multiplier,        ///< λ of holonomic constraints; one vector per condition of an interval, or of node N
+  multiplier,        ///< λ of constraints; one vector per condition of an interval, or of node N
   cost,              ///< z, the cost so far (Mayer form)
   integral,          ///< each integral so far
   velocity,          ///< v of a node whose state does not contain it
@@ -44,7 +44,7 @@ enum class Equation : std::uint8_t {
   motion,              ///< q of the next node, by simulation
   second_motion,       ///< p or v of the next node, by simulation
   of_method,           ///< of an element of another family
-  holonomic,           ///< g(q) = 0 or its rate
+  constraint,          ///< g(q) = 0 or its rate, or A(q) q̇ = 0
   first_order,         ///< Ẏ = g at a stage
   bounded_velocity,    ///< q̇_i at a stage
   path,                ///< h at a stage

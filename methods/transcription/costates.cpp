@@ -1,7 +1,7 @@
 #include "methods/transcription/costates.hpp"
 
-#include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "methods/numerics/dense_solve.hpp"
 #include "methods/transcription/derivatives/point_derivatives.hpp"
 
@@ -106,7 +106,7 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
 
 void move_to_projected_momenta(const TracedProblem& problem, const Eigen::MatrixXd& gaps, const Trajectory& trajectory,
                                Costates& psi) {
-  HolonomicConstraints constraints(problem);
+  MotionConstraints constraints(problem);
   LegendreTransform legendre(problem);
   const Eigen::Index c = constraints.count();
   for (Eigen::Index k = 0; k < gaps.rows(); ++k) {
@@ -119,7 +119,7 @@ void move_to_projected_momenta(const TracedProblem& problem, const Eigen::Matrix
     Eigen::VectorXd psi_p = psi.psi_p.row(k).transpose();
     // V(q, p) = V(q, p + G(q)'mu): at p + G'mu, its derivative by q at fixed p has one of G'mu besides.
     const Eigen::VectorXd mu = solve_square(gram, Eigen::VectorXd(jacobian * gaps.row(k).transpose()));
-    psi_q += constraints.hessian(mu) * psi_p;
+    psi_q += constraints.force_by_configuration(mu).transpose() * psi_p;
     // The gradients of G H_p, D by q and G L_vv⁻¹ by p, and the gradients of g vanish along motions.
     const Eigen::VectorXd normal = jacobian * psi_p;
     const Eigen::MatrixXd mass = legendre.mass(node.q, node.v, t, node.y);
@@ -127,13 +127,14 @@ void move_to_projected_momenta(const TracedProblem& problem, const Eigen::Matrix
       const Eigen::MatrixXd by_p = solve_square(mass, Eigen::MatrixXd(jacobian.transpose()));  // L_vv⁻¹ Gᵀ
       Eigen::MatrixXd by_q = -by_p.transpose() * legendre.momentum_by_configuration(node.q, node.v, t, node.y);
       for (Eigen::Index a = 0; a < c; ++a) {
-        by_q.row(a) += (constraints.hessian(Eigen::VectorXd::Unit(c, a)) * node.v).transpose();
+        by_q.row(a) += node.v.transpose() * constraints.force_by_configuration(Eigen::VectorXd::Unit(c, a));
       }
       const Eigen::VectorXd beta = solve_square(Eigen::MatrixXd(jacobian * by_p), normal);
       psi_p -= by_p * beta;
       psi_q -= by_q.transpose() * beta;
     }
-    psi_q -= jacobian.transpose() * solve_square(gram, Eigen::VectorXd(jacobian * psi_q));
+    const auto of_g = jacobian.topRows(constraints.holonomic_count());
+    psi_q -= of_g.transpose() * solve_square(Eigen::MatrixXd(of_g * of_g.transpose()), Eigen::VectorXd(of_g * psi_q));
     psi.psi_q.row(k) = psi_q.transpose();
     psi.psi_p.row(k) = psi_p.transpose();
   }
@@ -159,9 +160,10 @@ StageCostates stage_costates(const Transcription& transcription, const Eigen::Ve
     for (Eigen::Index i = 0; i < s; ++i) {
       const Eigen::Index row = k * s + i;
       const RowBlock& first_order = blocks.row(Equation::first_order, i);
+      const double weight = tableau.b[i] * (family == NodeState::configuration ? 1.0 : h);
       Eigen::VectorXd psi_y(l);
       for (Eigen::Index j = 0; j < l; ++j) {
-        psi_y[j] = multipliers[first_order.index(j) + k] / transcription.cost_scale() / -h / tableau.b[i];
+        psi_y[j] = multipliers[first_order.index(j) + k] / transcription.cost_scale() / -weight;
       }
       at_stage.evaluate(trajectory.stage(row), trajectory.stage_times[row]);
       const Eigen::VectorXd psi_p = stages.psi_p.col(i);

@@ -24,10 +24,10 @@ struct Costates {
 [[nodiscard]] Costates costates(Transcription& transcription, const Eigen::VectorXd& primal,
                                 const Eigen::VectorXd& multipliers, const Eigen::MatrixXd& v);
 
-/// Moves costates of a problem with holonomic constraints to the projected momenta of a trajectory, from momenta that
+/// Moves costates of a problem with constraints to the projected momenta of a trajectory, from momenta that
 /// are larger by Gᵀμ = `gaps`, (N + 1) × n. The gradient of the cost-to-go is determined along motions only, δq and δp
-/// that keep g = 0 and G H_p = 0; of all ψ with the same values there, those with G ψ^p = 0 and G ψ^q = 0 are taken,
-/// for all methods alike.
+/// that keep g = 0 and G H_p = 0, A among the rows of G; of all ψ with the same values there, those with G ψ^p = 0 and
+/// ∂g/∂q ψ^q = 0 are taken, for all methods alike.
 void move_to_projected_momenta(const TracedProblem& problem, const Eigen::MatrixXd& gaps, const Trajectory& trajectory,
                                Costates& psi);
 

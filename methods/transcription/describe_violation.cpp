@@ -13,6 +13,8 @@
 #include "methods/judgement/linearised_conditions.hpp"
 #include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/member_name.hpp"
+#include "methods/mechanics/phased_problem.hpp"
+#include "methods/runtime/numbers_in_text.hpp"
 #include "methods/transcription/start.hpp"
 
 namespace dmocbench {
@@ -27,6 +29,12 @@ std::string named(char symbol, Eigen::Index i, const std::vector<std::string>& n
 /// "path_constraints[1] (clearance)"; without the name where the problem gives none.
 std::string entry_of(const char* function, std::size_t i, const std::vector<std::string>& names) {
   return fmt::format("{}[{}]{}", function, i, i < names.size() ? " (" + names[i] + ")" : "");
+}
+
+/// "boundary_conditions[1] (gate)"; of phases, what the condition states.
+std::string condition_in_words(const Problem& problem, std::size_t i) {
+  if (const PhasedProblem* const phased = problem.phased()) return phased->condition_in_words(i);
+  return entry_of("boundary_conditions", i, problem.card().boundary_condition_names);
 }
 
 /// Words for the constraints and unknowns of a transcription at one point.
@@ -49,6 +57,8 @@ class ConstraintWords {
       if (place.index == blocks_->intervals())
         return end_momentum("final_state", "bounds().last", bounds_->last, block, row) + where(place);
     }
+    if (block.kind == Equation::boundary_condition)
+      return condition_in_words(*problem_, static_cast<std::size_t>(number_in(block, row)));
     return fmt::format(fmt::runtime(member_name(block.words.sentence)), component) + where(place);
   }
 
@@ -99,15 +109,15 @@ class ConstraintWords {
   }
   [[nodiscard]] std::string in_interval(std::size_t k) const {
     const auto left = static_cast<Eigen::Index>(k);
-    return fmt::format(" in interval {} (t = {:.4g} to {:.4g})", k, times_[left], times_[left + 1]);
+    return fmt::format(" in interval {} ({})", k, time_in_words(*problem_, times_[left], times_[left + 1]));
   }
   [[nodiscard]] std::string where(const Place& place) const {
     if (place.kind == Place::Kind::border) return "";
     if (place.kind == Place::Kind::interval) return in_interval(place.index);
     if (place.index == 0) return in_interval(0);
     if (place.index == blocks_->intervals()) return in_interval(place.index - 1);
-    return fmt::format(" between intervals {} and {} (t = {:.4g})", place.index - 1, place.index,
-                       times_[static_cast<Eigen::Index>(place.index)]);
+    return fmt::format(" between intervals {} and {} ({})", place.index - 1, place.index,
+                       time_in_words(*problem_, times_[static_cast<Eigen::Index>(place.index)]));
   }
   [[nodiscard]] std::string end_momentum(const char* state, const char* bounds, const EndBounds& end,
                                          const RowBlock& block, std::size_t row) const {
@@ -222,7 +232,8 @@ std::string missed_velocity(const Problem& problem, const Transcription& transcr
     if (transcription.blocks().block_of_row(row).kind == Equation::bounded_velocity) worst = {row, amount};
   }
   if (worst.amount < share * most) return "";
-  return fmt::format(" Violated as well is {}.", ConstraintWords(problem, transcription, x).row(worst.entry));
+  return fmt::format(" Another violated constraint is {}.",
+                     ConstraintWords(problem, transcription, x).row(worst.entry));
 }
 
 /// The largest derivatives of each boundary condition, and by which unknown it is.
@@ -240,24 +251,36 @@ std::vector<Worst> slopes_of_conditions(Transcription& transcription, const Eige
   return slopes;
 }
 
-/// Boundary conditions whose derivatives vanish where the solve ended, next to those at the guess.
+/// The values of the boundary conditions.
+Eigen::VectorXd values_of_conditions(Transcription& transcription, const Eigen::VectorXd& x) {
+  const RowBlock& conditions = transcription.blocks().row(Equation::boundary_condition);
+  Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription.constraint_count()));
+  transcription.constraints(x, rows);
+  return rows.segment(conditions.index(), conditions.width);
+}
+
+/// Boundary conditions that nearly hold where the solve ended, and whose derivatives vanish there, next to those at the
+/// guess.
 std::string vanishing_conditions(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x) {
   constexpr double small = 1e-3;
   if (transcription.traced_problem().boundary_condition_count() == 0 || !x.allFinite()) return "";
   const std::vector<Worst> here = slopes_of_conditions(transcription, x);
-  const std::vector<Worst> guessed =
-      slopes_of_conditions(transcription, sample(transcription, guessed_motion(transcription)));
+  const Eigen::VectorXd guess = sample(transcription, guessed_motion(transcription));
+  const std::vector<Worst> guessed = slopes_of_conditions(transcription, guess);
+  const Eigen::VectorXd values = values_of_conditions(transcription, x);
+  const Eigen::VectorXd guessed_values = values_of_conditions(transcription, guess);
   std::string text;
   for (std::size_t i = 0; i < here.size(); ++i) {
-    if (!(here[i].amount <= small * guessed[i].amount)) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    const bool holds = std::abs(values[row]) <= small * std::abs(guessed_values[row]);
+    if (!holds || !(here[i].amount <= small * guessed[i].amount)) continue;
     const Place place = transcription.blocks().structure().unknowns[guessed[i].entry];
     const auto node = place.kind == Place::Kind::node ? static_cast<Eigen::Index>(place.index)
                                                       : static_cast<Eigen::Index>(transcription.blocks().intervals());
     text += fmt::format(
-        " {} is rank deficient: its derivatives vanish at node {} (t = {:.4g}); state it with a formula whose "
-        "derivatives do not vanish where it holds.",
-        entry_of("boundary_conditions", i, problem.card().boundary_condition_names), node,
-        transcription.node_times(x)[node]);
+        " {} is rank deficient: its derivatives vanish at node {} ({}); state it with a formula whose derivatives do "
+        "not vanish where it holds.",
+        condition_in_words(problem, i), node, time_in_words(problem, transcription.node_times(x)[node]));
   }
   return text;
 }
@@ -291,9 +314,9 @@ std::string no_freedom(const Transcription& transcription) {
   }
   if (equations < unknowns) return "";
   return fmt::format(
-      " The problem has no freedom: {} equations determine its {} unknowns, whatever the cost. It is a boundary value "
-      "problem, whose solution depends on the guess.",
-      equations, unknowns);
+      " The problem has no freedom: {} for {}, whatever the cost. It is a boundary value problem, whose solution "
+      "depends on the guess.",
+      counted(equations, "equation"), counted(unknowns, "unknown"));
 }
 
 std::string held_horizon(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x) {
@@ -361,6 +384,7 @@ std::string contradiction(const Transcription& transcription) {
   if (transcription.traced_problem().path_constraint_count() > 0) parts.emplace_back("path_constraints");
   if (transcription.traced_problem().integral_count() > 0) parts.push_back(member_name("bounds().integrals"));
   if (transcription.traced_problem().holonomic_count() > 0) parts.emplace_back("constraints");
+  if (transcription.traced_problem().velocity_constraint_count() > 0) parts.emplace_back("velocity_constraints");
   if (parts.empty()) return "";
   std::string text = " The solver found no trajectory near this one that satisfies " + parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
@@ -394,7 +418,7 @@ std::string describe_flat_constraint(const Problem& problem, Transcription& tran
   const ConstraintWords words(problem, transcription, guess);
   return fmt::format(
       "The guess violates {}, whose derivative with respect to {} vanishes there, so it does not determine on which "
-      "side to pass: guess a trajectory on one side of it.",
+      "side to pass; guess a trajectory on one side of it.",
       words.row(worst.row), words.component(worst.unknown));
 }
 

@@ -13,9 +13,9 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/expression/schedule.hpp"
-#include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/member_name.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
@@ -49,24 +49,27 @@ void require_quadratic(const Problem& problem, const TracedProblem& traced) {
   }
 }
 
-/// The components of an end that are released: independent columns of G, and of G L_vv⁻¹ where p is fixed.
+/// The components of an end that are released: independent columns of G, and of G L_vv⁻¹ where p is fixed. Velocity
+/// constraints, the last rows of G, release no q.
 ReleasedComponents released(const Problem& problem, const TracedProblem& traced, const BoundaryState& state,
                             const EndBounds& end, double t, bool fixes_momentum, const char* name) {
-  HolonomicConstraints constraints(traced);
+  MotionConstraints constraints(traced);
   constraints.evaluate(state.q);
+  const bool has_velocity = constraints.count() > constraints.holonomic_count();
   const auto choose = [&](const Eigen::MatrixXd& jacobian, const Bounds& bounds) {
     std::vector<bool> is_free;
     for (Eigen::Index i = 0; i < bounds.lower.size(); ++i) is_free.push_back(!bounds.is_fixed(i));
     std::vector<Eigen::Index> columns = independent_columns(jacobian, is_free);
-    if (std::ssize(columns) < constraints.count()) {
-      throw Error(fmt::format("{}: constraints are dependent at {}: G = dg/dq has rank {}, not {}", problem.name(),
-                              member_name(name), columns.size(), constraints.count()));
+    if (std::ssize(columns) < jacobian.rows()) {
+      throw Error(fmt::format("{}: {} are dependent at {}: {} has rank {}, not {}", problem.name(),
+                              has_velocity ? "velocity_constraints" : "constraints", member_name(name),
+                              has_velocity ? "A" : "G = dg/dq", columns.size(), jacobian.rows()));
     }
     std::erase_if(columns, [&](Eigen::Index i) { return is_free[static_cast<std::size_t>(i)]; });
     return columns;
   };
   const Eigen::MatrixXd jacobian = constraints.jacobian();
-  ReleasedComponents result{.q = choose(jacobian, end.q), .second = {}};
+  ReleasedComponents result{.q = choose(jacobian.topRows(constraints.holonomic_count()), end.q), .second = {}};
   if (!fixes_momentum) {
     result.second = choose(jacobian, end.v);
     return result;
@@ -95,8 +98,8 @@ EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeStat
   };
   rules.first_clamped = is_clamped(bounds.first);
   rules.last_clamped = is_clamped(bounds.last) && !moves;
-  rules.holonomic = traced.holonomic_count();
-  if (rules.holonomic == 0) return rules;
+  rules.constraints = traced.constraint_count();
+  if (rules.constraints == 0) return rules;
   if (node_state == NodeState::momentum) require_quadratic(problem, traced);
   const BoundaryState first = problem.initial_state();
   const BoundaryState last = problem.final_state();
@@ -141,7 +144,7 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
   if (rules.first_has_velocity()) tie(first, first_state, 1.0);
   if (rules.last_has_velocity()) tie(last, last_state, -1.0);
   if (rules.last_multipliers() > 0) {
-    const ExpressionVector force = -(traced.holonomic_at(last.q, last.v).jacobian.transpose() * last_multiplier);
+    const ExpressionVector force = -(traced.constraints_at(last.q, last.v).jacobian.transpose() * last_multiplier);
     if (rules.last_has_velocity()) {
       ties.back() += force;
     } else {
@@ -149,15 +152,15 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
     }
   }
   const ExpressionVector tied = stacked(ties);
-  std::vector<ExpressionVector> holonomic;
-  if (rules.first_holonomic() > 0) {
-    const TracedProblem::HolonomicValues values = traced.holonomic_at(first.q, first.v);
-    holonomic = {values.residual, values.jacobian * first.v};
+  std::vector<ExpressionVector> constraints;
+  if (rules.has_first_constraints()) {
+    const TracedProblem::ConstraintValues values = traced.constraints_at(first.q, first.v);
+    constraints = {values.residual, values.jacobian * first.v};
   }
-  if (rules.last_holonomic() > 0) holonomic.emplace_back(traced.holonomic_at(last.q, last.v).jacobian * last.v);
-  if (tied.size() == 0 && holonomic.empty() && ends.conditions.size() == 0 && cost.is_zero()) return std::nullopt;
+  if (rules.has_last_constraints()) constraints.emplace_back(traced.constraints_at(last.q, last.v).jacobian * last.v);
+  if (tied.size() == 0 && constraints.empty() && ends.conditions.size() == 0 && cost.is_zero()) return std::nullopt;
   EndFunctions functions;
-  static_cast<LocalFunctions&>(functions) = differentiate(cost, stacked({tied, stacked(holonomic), ends.conditions}),
+  static_cast<LocalFunctions&>(functions) = differentiate(cost, stacked({tied, stacked(constraints), ends.conditions}),
                                                           unknowns.taken() - parameters, parameters);
   functions.ties = tied.size();
   functions.conditions = ends.conditions.size();
@@ -262,19 +265,22 @@ void require_path_constraints_at_ends(const Problem& problem, const TracedProble
                          traced, path);
 }
 
-void require_holonomic_constraints_at_ends(const Problem& problem, const TracedProblem& traced,
-                                           const ProblemBounds& bounds) {
+void require_motion_constraints_at_ends(const Problem& problem, const TracedProblem& traced,
+                                        const ProblemBounds& bounds) {
   // Unknown parameters may be such that the ends keep the constraints.
-  if (traced.holonomic_count() == 0 || traced.unknown_count() > 0) return;
+  if (traced.constraint_count() == 0 || traced.unknown_count() > 0) return;
   constexpr double known_digits = 1e-9;  // ends are numbers that users compute
-  HolonomicConstraints constraints(traced);
+  MotionConstraints constraints(traced);
   const auto require_small = [&](const Eigen::VectorXd& values, const Eigen::VectorXd& of, const char* what,
                                  const char* name) {
     const Eigen::VectorXd terms = constraints.jacobian().cwiseAbs() * of.cwiseAbs();
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       if (std::abs(values[i]) <= known_digits * (1.0 + terms[i])) continue;
-      throw Error(fmt::format("{}: {} violates constraints[{}]: {} = {:.3g} there, but must be 0", problem.name(),
-                              member_name(name), i, what, values[i]));
+      const Eigen::Index of_velocity = i - traced.holonomic_count();
+      const bool is_holonomic = of_velocity < 0;
+      throw Error(fmt::format("{}: {} violates {}constraints[{}]: {} = {:.3g} there, but must be 0", problem.name(),
+                              member_name(name), is_holonomic ? "" : "velocity_", is_holonomic ? i : of_velocity,
+                              is_holonomic ? what : "A v", values[i]));
     }
   };
   for (const auto& [end, name] : {std::pair(&bounds.first, "initial_state"), std::pair(&bounds.last, "final_state")}) {

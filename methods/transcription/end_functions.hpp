@@ -13,7 +13,7 @@
 
 namespace dmocbench {
 
-/// Components of an end that are given and that holonomic constraints imply too: stated twice, they would leave the
+/// Components of an end that are given and that constraints imply too: stated twice, they would leave the
 /// rows of the program dependent. They are not fixed; the rows of the constraints determine them.
 struct ReleasedComponents {
   std::vector<Eigen::Index> q;       ///< of the configuration
@@ -27,7 +27,8 @@ struct ReleasedComponents {
 /// Hamiltonian collocation have the velocity as a further unknown, tied to the momentum by p = L_v(q, v); nothing else
 /// changes. Tangent-space collocation has that unknown at every node.
 ///
-/// Every interval states the holonomic constraints of its right node, so that the last interval's hold at T.
+/// Every interval states the holonomic constraints of its right node, so that the last interval's hold at T, and so do
+/// velocity constraints of nodes that have a p or v. A given q_N is consistent with velocity constraints in any case.
 struct EndRules {
   NodeState node_state = NodeState::configuration;  ///< the second part of the nodes' states
   double cost_scale = 1.0;                          ///< factor of the cost
@@ -35,18 +36,18 @@ struct EndRules {
   bool last_clamped = true;                         ///< the state of the last end is given completely
   bool mayer = false;                               ///< the cost is the last z of the Mayer form
   bool free_horizon = false;                        ///< T is an unknown
-  Eigen::Index holonomic = 0;                       ///< how many holonomic constraints there are: c
+  Eigen::Index constraints = 0;                     ///< how many constraints there are: c
   ReleasedComponents released_at_first = {};        ///< where the first end is not clamped
   ReleasedComponents released_at_last = {};         ///< at the last end
 
-  /// How many rows of holonomic constraints the first end has: g(q_0) and G v_0, unless its state is given.
-  [[nodiscard]] Eigen::Index first_holonomic() const noexcept { return first_clamped ? 0 : 2 * holonomic; }
+  /// Whether the first end has rows of constraints, g(q_0) and G v_0: unless its state is given.
+  [[nodiscard]] bool has_first_constraints() const noexcept { return constraints > 0 && !first_clamped; }
   /// The same of the last end, without the rows of the last interval: DMOC's G v_N where that velocity is an unknown.
-  [[nodiscard]] Eigen::Index last_holonomic() const noexcept {
-    return carries_q_alone() && !last_clamped ? holonomic : 0;
+  [[nodiscard]] bool has_last_constraints() const noexcept {
+    return constraints > 0 && carries_q_alone() && !last_clamped;
   }
   /// How many multipliers node N has that belong to no interval: DMOC's λ_N.
-  [[nodiscard]] Eigen::Index last_multipliers() const noexcept { return carries_q_alone() ? holonomic : 0; }
+  [[nodiscard]] Eigen::Index last_multipliers() const noexcept { return carries_q_alone() ? constraints : 0; }
   /// True if the velocity of the first (last) end is an unknown in addition to its node's.
   [[nodiscard]] bool first_has_velocity() const noexcept { return !first_clamped && node_state != NodeState::velocity; }
   /// True if the velocity of the last end is an unknown of its own.
@@ -84,9 +85,9 @@ struct EndFunctions : LocalFunctions {
 void require_path_constraints_at_ends(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
                                       double horizon);
 
-/// Throws `Error` that reports by how much an end whose configuration is given leaves the holonomic constraints, g(q) =
-/// 0, or one whose velocity is given too leaves G v = 0.
-void require_holonomic_constraints_at_ends(const Problem& problem, const TracedProblem& traced,
-                                           const ProblemBounds& bounds);
+/// Throws `Error` that reports by how much an end whose configuration is given leaves the constraints g(q) = 0, or one
+/// whose velocity is given too leaves G v = 0 or A v = 0.
+void require_motion_constraints_at_ends(const Problem& problem, const TracedProblem& traced,
+                                        const ProblemBounds& bounds);
 
 }  // namespace dmocbench

@@ -8,7 +8,7 @@
 
 namespace dmocbench {
 
-/// What `fit_forces` sets besides the multipliers of holonomic constraints.
+/// What `fit_forces` sets besides the multipliers of constraints.
 enum class FittedForces : std::uint8_t {
   controls,     ///< the controls: for a start that moves the mechanism along x
   second_rates  ///< interior rates of p or v: for a discrete motion, whose controls are known

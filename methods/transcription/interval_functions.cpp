@@ -1,5 +1,7 @@
 #include "methods/transcription/interval_functions.hpp"
 
+#include <numeric>
+
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -37,13 +39,15 @@ Unknowns make_unknowns(const TracedProblem& problem, const Element& element, con
   return unknowns;
 }
 
-/// Ẏ_i - g at the stages.
+/// Ẏ_i - g at the stages. Equations of nodes have the factor h of an impulse, and then these have it too: a filter adds
+/// up the violations of all equations, and would let one kind outweigh the other N times.
 ExpressionVector first_order_equations(const TracedProblem& problem, const Unknowns& unknowns,
                                        const IntervalTrace& trace) {
   if (problem.first_order_size() == 0) return {};
+  const Expression factor = trace.left_rows.size() > 0 ? unknowns.h : Expression(1.0);
   std::vector<ExpressionVector> equations;
   for (std::size_t i = 0; i < trace.stages.size(); ++i) {
-    equations.emplace_back(unknowns.rates_y[i] - problem.of_stages().at(trace.stages[i]).first_order_rates);
+    equations.emplace_back(factor * (unknowns.rates_y[i] - problem.of_stages().at(trace.stages[i]).first_order_rates));
   }
   return stacked(equations);
 }
@@ -132,8 +136,10 @@ IntervalFunctions trace_interval(const TracedProblem& traced, const Element& ele
   functions.mayer = rules.mayer;
   functions.free_horizon = rules.free_horizon;
   functions.integrals = problem.integral_count();
-  functions.multipliers = std::ssize(unknowns.multipliers) * problem.holonomic_count();
-  functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum}));
+  for (const ExpressionVector& vector : unknowns.multipliers) functions.conditions.push_back(vector.size());
+  functions.multipliers = std::reduce(functions.conditions.begin(), functions.conditions.end());
+  functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum, trace.left_impulse,
+                                        trace.right_impulse, stacked(trace.stage_forces)}));
   const auto stages = problem.has_embedding() ? stages_between_nodes(trace.stages, unknowns) : trace.stages;
   functions.stages = stage_table(stages, unknowns.rates_y);
   return functions;

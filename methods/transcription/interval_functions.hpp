@@ -38,9 +38,10 @@ struct IntervalFunctions : LocalFunctions {
 
   Eigen::Index integrals = 0;  ///< integral constraints
 
-  Eigen::Index multipliers = 0;  ///< of holonomic constraints
+  Eigen::Index multipliers = 0;          ///< of constraints, in all
+  std::vector<Eigen::Index> conditions;  ///< how many of them each vector has, and rows of its condition
 
-  Schedule momenta;  ///< left momentum, then right momentum
+  Schedule momenta;  ///< left momentum, right momentum; with constraints left impulse, right impulse, forces at stages
   Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i, U_i, Y_i, Ẏ_i
 };
 

@@ -133,7 +133,7 @@ double LaneTranscription::checked_horizon(const Eigen::VectorXd& parameters) con
       continue;
     }
     throw Error("the formulas contain the parameter " + problem.parameters()[static_cast<std::size_t>(i)].name +
-                "; to change it, keep it open when the transcription is made");
+                "; to change it, keep it open when the transcription is created");
   }
   const auto bounds_with = [&](const Eigen::VectorXd& values) {
     const ParameterScope scope(problem, values);

@@ -101,9 +101,9 @@ void require_same_structure(const Problem& problem, const ProgramBounds& before,
     return true;
   };
   if (same(before.variables, now.variables) && same(before.constraints, now.constraints)) return;
-  throw Error(
-      problem.name() +
-      ": with these values a bound appears, vanishes, or joins or leaves its opposite; make a new transcription");
+  throw Error(problem.name() +
+              ": with these values a bound becomes finite or infinite, or starts or ceases to equal the opposite "
+              "bound; create a new transcription");
 }
 
 ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
@@ -114,7 +114,7 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
   require_bounds_of_formulas(problem, bounds, traced.path_constraint_count(), traced.integral_count());
   const Bounds path = bounds.of_path(traced.path_constraint_count());
   require_path_constraints_at_ends(problem, traced, bounds, horizon);
-  require_holonomic_constraints_at_ends(problem, traced, bounds);
+  require_motion_constraints_at_ends(problem, traced, bounds);
   const std::size_t last_node = blocks.intervals();
   const Bounds first_momentum = end_momentum(ends.first_clamped, bounds.first, 0.0, traced, problem, "start");
   const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last, horizon, traced, problem, "end");

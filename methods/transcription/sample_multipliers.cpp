@@ -134,11 +134,12 @@ double horizon_of(const Transcription& program, double of_motion) {
 }
 
 void write_stage(const SampledCostates& sampled, PointDerivatives& at_point, NodeState family, Eigen::Index row,
-                 double t, Eigen::Index stages, double weight, MultiplierWriter& writer) {
+                 double t, Eigen::Index stages, double h, double b, MultiplierWriter& writer) {
   const Eigen::Index k = row / stages;
   const Eigen::Index i = row % stages;
   const AdjointPoint point = sampled.stage(row, t);
-  writer.write(Equation::first_order, i, k, -weight * point.psi_y);
+  const double weight = h * b;
+  writer.write(Equation::first_order, i, k, -(family == NodeState::configuration ? b : weight) * point.psi_y);
   if (family == NodeState::configuration && i + 1 == stages) return;  // the last stage rate is eliminated
   at_point.evaluate(point.motion, t);
   if (family == NodeState::velocity) {
@@ -200,7 +201,7 @@ Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& tra
   for (Eigen::Index row = 0; has_stages && row < widths.size() * s; ++row) {
     const Eigen::Index k = row / s;
     const Eigen::Index i = row % s;
-    write_stage(sampled, at_point, family, row, times[k] + rates.c[i] * widths[k], s, widths[k] * rates.b[i], writer);
+    write_stage(sampled, at_point, family, row, times[k] + rates.c[i] * widths[k], s, widths[k], rates.b[i], writer);
   }
   // z_{k+1} - z_k - cost = 0 carries the scaled cost from node to node, and integrals likewise.
   writer.write_all(Equation::cost, Eigen::VectorXd::Constant(1, -1.0 / program.cost_scale()));

@@ -59,15 +59,15 @@ SingleShooting::SingleShooting(Transcription& program)
   if (blocks.unknown(Quantity::integral).width > 0)
     throw Error("single shooting does not support integral constraints; use multiple_shooting");
   if (program.functions().has_stage_unknowns || blocks.unknown(Quantity::cost).width > 0) {
-    throw Error("single shooting takes programs of multiple shooting in Bolza form only");
+    throw Error("single shooting supports only programs of multiple shooting in Bolza form");
   }
   sort_unknowns();
   sort_rows();
   const Eigen::Index entries = std::ssize(simulated_) * std::ssize(kept_);
   if (entries > most_entries) {
     throw Error(
-        fmt::format("single shooting keeps a dense matrix of {} states by {} unknowns, of at most {} entries; use "
-                    "fewer intervals, or multiple_shooting",
+        fmt::format("single shooting keeps a dense matrix of {} states by {} unknowns, which may have at most {} "
+                    "entries; use fewer intervals, or multiple_shooting",
                     simulated_.size(), kept_.size(), most_entries));
   }
   set_structures();

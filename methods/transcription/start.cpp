@@ -57,7 +57,7 @@ Eigen::VectorXd guessed_unknowns(const Transcription& transcription) {
   return transcription.parameter_values()(std::vector<Eigen::Index>(numbers.begin(), numbers.end()));
 }
 
-/// Gives the point of an end node the components that the problem gives: those that holonomic constraints determine are
+/// Gives the point of an end node the components that the problem gives: those that constraints determine are
 /// free in the program.
 void move_to_end(const Transcription& transcription, Eigen::Index k, MotionPoint& point) {
   const bool is_first = k == 0;
@@ -91,7 +91,7 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
   if (transcription.node_state() == NodeState::momentum) legendre.emplace(problem);
   for (Eigen::Index k = 0; k < tables.node_times.size(); ++k) {
     MotionPoint node = point_at(tables.node_times[k]);
-    if (problem.holonomic_count() > 0) move_to_end(transcription, k, node);
+    if (problem.constraint_count() > 0) move_to_end(transcription, k, node);
     tables.q.row(k) = node.q.transpose();
     tables.v.row(k) = node.v.transpose();
     if (node.y.size() > 0) tables.y.row(k) = node.y.transpose();

@@ -24,7 +24,7 @@ namespace dmocbench {
 /// A trajectory of any method in the unknowns of a transcription on the same grid with the same tableau: nodes q with p
 /// or v, interior rates Q̇_j with Ṗ_j = (L_q + f)(stage j) or V̇_j from the equations of motion, controls, each by the
 /// polynomial through the stages where its unknowns are at other times; where they are unknowns, velocities of the
-/// ends, parameters and the horizon; multipliers of holonomic constraints by least squares to the rows. Nothing is
+/// ends, parameters and the horizon; multipliers of constraints by least squares to the rows. Nothing is
 /// moved to meet bounds or constraints: the residuals of the constraints show how far two methods agree (th:equi). For
 /// the Bolza form. Throws `Error` if grid or stages differ.
 [[nodiscard]] Eigen::VectorXd embed(const Problem& problem, Transcription& transcription, const Trajectory& trajectory);

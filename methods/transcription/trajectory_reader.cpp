@@ -30,7 +30,7 @@ void add_velocities(const TracedProblem& problem, Trajectory& trajectory) {
             .velocity(trajectory.q.row(k).transpose(), trajectory.p.row(k).transpose(), trajectory.node_times[k],
                       trajectory.stage_v.row(nearby).transpose(), Trajectory::row_of(trajectory.y, k))
             .transpose();
-    if (problem.holonomic_count() == 0) continue;
+    if (problem.constraint_count() == 0) continue;
     const MotionPoint node = trajectory.node(k);
     trajectory.p.row(k) = legendre.momentum(node.q, node.v, trajectory.node_times[k], node.y).transpose();
   }
@@ -174,13 +174,27 @@ BoundMultipliers bound_multipliers(Transcription& program, const Eigen::VectorXd
 
 namespace {
 
-/// The forced discrete Legendre transforms at all nodes.
-Eigen::MatrixXd read_momenta(Transcription& transcription, const Eigen::VectorXd& primal, Eigen::Index n) {
+/// The forced discrete Legendre transforms at all nodes, and impulses, which `move_impulses` completes.
+void read_momenta(Transcription& transcription, const Eigen::VectorXd& primal, Eigen::Index n, Trajectory& trajectory) {
   const Eigen::MatrixXd sides = transcription.tabulate(transcription.functions().momenta, primal);
-  Eigen::MatrixXd p(sides.rows() + 1, n);
-  p.topRows(sides.rows()) = sides.leftCols(n);
-  p.row(sides.rows()) = sides.row(sides.rows() - 1).rightCols(n);
-  return p;
+  trajectory.p.resize(sides.rows() + 1, n);
+  trajectory.p.topRows(sides.rows()) = sides.leftCols(n);
+  trajectory.p.row(sides.rows()) = sides.row(sides.rows() - 1).middleCols(n, n);
+  if (sides.cols() == 2 * n) return;
+  trajectory.left_impulses = sides.middleCols(2 * n, n);
+  trajectory.right_impulses = sides.middleCols(3 * n, n);
+  const Eigen::Index s = sides.cols() / n - 4;  // stages with forces of constraint
+  trajectory.stage_constraint_forces.resize(sides.rows() * s, n);
+  for (Eigen::Index i = 0; i < s; ++i) {
+    trajectory.stage_constraint_forces(Eigen::seqN(i, sides.rows(), s), Eigen::all) = sides.middleCols((4 + i) * n, n);
+  }
+}
+
+/// From the momenta of the intervals, larger by `gaps`, to the projected ones.
+void move_impulses(const Eigen::MatrixXd& gaps, Trajectory& trajectory) {
+  if (trajectory.left_impulses.size() == 0) return;
+  trajectory.left_impulses += gaps.topRows(trajectory.intervals());
+  trajectory.right_impulses -= gaps.bottomRows(trajectory.intervals());
 }
 
 void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Trajectory& trajectory) {
@@ -271,16 +285,18 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   trajectory.integrals = table_of(blocks.unknown(Quantity::integral), primal, nodes).bottomRows(1).transpose();
   trajectory.unknowns = transcription.unknown_parameters(primal);
   transcription.set_unknown_parameters(trajectory.unknowns);
-  trajectory.p = read_momenta(transcription, primal, n);
+  read_momenta(transcription, primal, n, trajectory);
   read_stages(transcription, primal, trajectory);
   take_out_turns(transcription, trajectory);
   const Eigen::MatrixXd raw_momenta = trajectory.p;
   add_velocities(transcription.traced_problem(), trajectory);
+  const Eigen::MatrixXd gaps = raw_momenta - trajectory.p;
+  move_impulses(gaps, trajectory);
   trajectory.cost = transcription.objective(primal) / transcription.cost_scale();
   if (static_cast<std::size_t>(multipliers.size()) == transcription.constraint_count()) {
     Costates psi = costates(transcription, primal, multipliers, trajectory.v);
     if (transcription.functions().multipliers > 0) {
-      move_to_projected_momenta(transcription.traced_problem(), raw_momenta - trajectory.p, trajectory, psi);
+      move_to_projected_momenta(transcription.traced_problem(), gaps, trajectory, psi);
     }
     trajectory.psi_q = std::move(psi.psi_q);
     trajectory.psi_p = std::move(psi.psi_p);

@@ -39,7 +39,7 @@ void require_equalities_fit(const Problem& problem, const TracedProblem& traced,
     if (controls.stages() < tableau.stages()) {
       throw Error(
           fmt::format("{}: {} makes path_constraints[{}] an equality at {} points of an interval, more than its {} "
-                      "control nodes; use as many --control-nodes",
+                      "control nodes; use at least as many --control-nodes",
                       problem.name(), member_name("bounds().path"), i, tableau.stages(), controls.stages()));
     }
     const bool is_same = controls.shares_controls || !traced.constraints_read_controls()[static_cast<std::size_t>(i)];
@@ -50,15 +50,18 @@ void require_equalities_fit(const Problem& problem, const TracedProblem& traced,
                     problem.name(), member_name("bounds().path"), i));
   }
   if (equalities <= traced.control_size()) return;
-  throw Error(fmt::format("{}: {} makes {} path constraints equalities; there can be as many as controls, {}",
+  throw Error(fmt::format("{}: {} makes {} path constraints equalities; there can be at most as many as controls, {}",
                           problem.name(), member_name("bounds().path"), equalities, traced.control_size()));
 }
 
-/// A path constraint that holds with equality at an end by a boundary condition would be imposed twice where a stage is
-/// at that end.
-void require_conditions_once(const Problem& problem, const TracedProblem& traced, const Tableau& tableau) {
-  if (tableau.c.maxCoeff() < 1.0 || traced.path_constraint_count() == 0 || traced.boundary_condition_count() == 0)
-    return;
+/// A path constraint that vanishes at an end by a boundary condition is not imposed a second time by a stage at that
+/// end: there its bounds become ones that 0 does not reach.
+void release_conditions_of_ends(const TracedProblem& traced, double horizon, const Tableau& tableau,
+                                const ProgramBlocks& blocks, Bounds& rows) {
+  const Eigen::Index last_stage = tableau.stages() - 1;
+  const bool has_first = tableau.c[0] == 0.0;
+  const bool has_last = tableau.c[last_stage] == 1.0;
+  if (!(has_first || has_last) || traced.path_constraint_count() * traced.boundary_condition_count() == 0) return;
   InputCounter inputs(static_cast<std::size_t>(traced.unknown_count()) + traced.open_parameters().size());
   const auto state = [&](const Expression& t) {
     State x{inputs.take(traced.configuration_size()), inputs.take(traced.configuration_size()), t};
@@ -66,19 +69,21 @@ void require_conditions_once(const Problem& problem, const TracedProblem& traced
     return x;
   };
   const State first = state(0.0);
-  const State last = state(problem.horizon());
+  const State last = state(horizon);
   const ExpressionVector conditions = traced.at_ends(first, last).conditions;
-  for (const State& end : {first, last}) {
+  const auto release = [&](const State& end, Eigen::Index stage, std::size_t interval) {
     const ExpressionVector constraints = traced.at(end).path_constraints;
     for (Eigen::Index i = 0; i < constraints.size(); ++i) {
       const auto is_same = [&h = constraints[i]](const Expression& r) { return r.is_same(h) || r.is_same(-h); };
-      if (std::ranges::none_of(conditions, is_same)) continue;
-      throw Error(fmt::format(
-          "{}: path_constraints[{}] is a condition of the end too, which the stage there would impose a second time; "
-          "take --tableau gauss",
-          problem.name(), i));
+      if (traced.constraints_read_controls()[static_cast<std::size_t>(i)] || std::ranges::none_of(conditions, is_same))
+        continue;
+      const Eigen::Index row = blocks.row(Equation::path, stage).later(interval).index(i);
+      rows.lower[row] = std::min(rows.lower[row], -1.0);
+      rows.upper[row] = std::max(rows.upper[row], 1.0);
     }
-  }
+  };
+  if (has_first) release(first, 0, 0);
+  if (has_last) release(last, last_stage, blocks.intervals() - 1);
 }
 
 constexpr std::array cost_forms{Named<CostForm>{"bolza", CostForm::bolza}, Named<CostForm>{"mayer", CostForm::mayer}};
@@ -97,7 +102,7 @@ void require_changeable(const Problem& problem, const TracedProblem& traced, con
 
 void require_same_velocities(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
   if (before.bounded_velocities() == now.bounded_velocities()) return;
-  throw Error(problem.name() + ": other velocities than before have bounds; make a new transcription");
+  throw Error(problem.name() + ": bounds apply to other velocities than before; create a new transcription");
 }
 
 void require_same_times(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
@@ -106,7 +111,7 @@ void require_same_times(const Problem& problem, const ProblemBounds& before, con
   };
   if (std::ranges::equal(before.interior, now.interior, is_same)) return;
   throw Error(problem.name() + ": " + member_name("bounds().interior") +
-              " has other times than before, or bounds on other velocities; make a new transcription");
+              " has other times than before, or bounds on other velocities; create a new transcription");
 }
 
 }  // namespace
@@ -145,7 +150,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
           jacobian_entries(functions_, blocks_.row_places(), blocks_.unknown_places(), grid.intervals()))),
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, blocks_.unknown_places(), grid.intervals()))) {
   require_equalities_fit(problem, traced_, tableau_, functions_.controls, problem_bounds_);
-  require_conditions_once(problem, traced_, tableau_);
+  release_conditions_of_ends(traced_, guessed_horizon_, tableau_, blocks_, bounds_.constraints);
   require_enough_intervals(problem, element);
   if (!problem_bounds_.interior.empty()) traced_.require_no_constraints("a program with bounds between the ends");
   check_constraint_windows(problem, traced_, tableau_, grid_);
@@ -361,8 +366,8 @@ void Transcription::set_horizon(double horizon) {
 /// Where the velocity of an end, or T, is not an unknown, the formulas of the ends contain its value.
 void Transcription::require_readable_ends(const Values& values) const {
   const auto refuse = [&](const char* what) {
-    throw Error(
-        fmt::format("{}: a condition or a cost of the ends contains {}, which cannot change", problem_->name(), what));
+    throw Error(fmt::format("{}: the boundary conditions or the final cost contain {}, which cannot be changed",
+                            problem_->name(), what));
   };
   if (!end_functions_) return;
   const bool gives_velocities = end_rules_.node_state != NodeState::velocity;
@@ -396,6 +401,7 @@ void Transcription::use(Values values) {
   require_same_times(*problem_, problem_bounds_, values.bounds);
   require_readable_ends(values);
   ProgramBounds bounds = program_bounds(*problem_, traced_, values.bounds, values.horizon, end_rules_, blocks_, grid_);
+  release_conditions_of_ends(traced_, values.horizon, tableau_, blocks_, bounds.constraints);
   require_same_structure(*problem_, bounds_, bounds);
   // Nothing below throws, except std::bad_alloc.
   problem_bounds_ = std::move(values.bounds);

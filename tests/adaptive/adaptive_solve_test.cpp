@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
@@ -149,6 +150,21 @@ TEST(AdaptiveSolve, NarrowsAllIntervalsInWhichControlsSwitchAtOnce) {
     ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << method << ": " << answer.message;
     EXPECT_EQ(answer.grids.front().status, Status::violates_between_stages) << method;
     EXPECT_LE(answer.grids.size(), 8U) << method;
+  }
+}
+
+/// The winch of the crane is at its bounds, and no longer, on most of the way: narrower intervals do not end that.
+TEST(AdaptiveSolve, TakesControlsThatKeepTheirBoundsWhereNarrowIntervalsDoNotHelp) {
+  const auto problem = make_problem("container_crane");
+  AdaptiveOptions options;
+  options.accuracy = 0.1;
+  for (const Refinement refinement : {Refinement::h, Refinement::hp}) {
+    options.refinement = refinement;
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 2, 16), options);
+    ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
+    EXPECT_EQ(answer.grids.front().status, Status::violates_between_stages);
+    EXPECT_EQ(answer.grids.back().stages, 1);
+    EXPECT_TRUE(violation_between_stages(*problem, answer.program->traced_problem(), answer.trajectory).is_motion());
   }
 }
 

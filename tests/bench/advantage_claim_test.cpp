@@ -46,16 +46,16 @@ JudgedClaim judged(const std::string& claim, std::initializer_list<Row> rows) {
 
 TEST(ExpenseClaim, IsJudgedByTheTimesOfEverySolver) {
   const auto verdict = [](double ipopt, double sparse) {
-    return judged("collocation_more_expensive", {ratio("", "seconds_per_iteration", 128, ipopt),
-                                                 ratio("intervals", "seconds_per_linear_system", 128, 1.3),
-                                                 ratio("sparse", "seconds_per_linear_system", 128, sparse)})
+    return judged("collocation_takes_longer", {ratio("", "seconds_per_iteration", 128, ipopt),
+                                               ratio("intervals", "seconds_per_linear_system", 128, 1.3),
+                                               ratio("sparse", "seconds_per_linear_system", 128, sparse)})
         .verdict;
   };
   EXPECT_EQ(verdict(1.9, 1.2), ClaimVerdict::reproduced);
   EXPECT_EQ(verdict(1.9, 0.95), ClaimVerdict::differs);
   EXPECT_EQ(verdict(1.9, 1.0), ClaimVerdict::undecided);
   EXPECT_EQ(verdict(0.9, 1.2), ClaimVerdict::differs);
-  EXPECT_EQ(judged("collocation_more_expensive", {}).verdict, ClaimVerdict::not_judged);
+  EXPECT_EQ(judged("collocation_takes_longer", {}).verdict, ClaimVerdict::not_judged);
 }
 
 TEST(ExpenseClaim, TakesTheCoarseGridsTogether) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/choose.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "tests/support/problems_for_tests.hpp"
 
 namespace dmocbench {
@@ -98,6 +99,13 @@ TEST(Advice, OffersAHorizonThenASolverThenAStartThenAGuess) {
   EXPECT_TRUE(names(advice(problem, Status::iteration_limit, "ipopt"), "--solver auto"));
   EXPECT_TRUE(names(advice(problem, Status::iteration_limit, "auto"), "--start common"));
   EXPECT_TRUE(names(advice(problem, Status::iteration_limit, "auto", "common"), "guess"));
+}
+
+TEST(Advice, OffersLongerPhasesWhereTheHorizonIsARelativeTime) {
+  const auto moved = std::make_shared<Moved>(1.0, "m");
+  const auto phases = std::make_shared<PhasedProblem>(std::vector<PhasedProblem::Phase>{{"there", moved}});
+  EXPECT_EQ(advice(phases, Status::infeasible, "auto"),
+            "Try longer phases, or wider bounds: the ends may be out of reach.");
 }
 
 TEST(Advice, IsGivenForFailuresOnly) {

@@ -38,7 +38,7 @@ TEST(AgreementOfRoutes, ConfirmsAReferenceAsFarAsItGoes) {
 
 TEST(AgreementOfRoutes, ConfirmsNoMoreThanIsKeptFromGridToGrid) {
   const std::vector<double> routes{6.0 + 1e-5, 6.0 + 1e-5};  // both impose a bound at the same points
-  EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16)).confirmed, "not settled by one grid");
+  EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16)).confirmed, "undecided: one grid is not enough");
   EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16), 5).confirmed, "to 5 digits");
   EXPECT_EQ(agreement_of_routes(routes, stated(6.1, 16), 5).confirmed, "no");
   EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16), 9).confirmed, "no");

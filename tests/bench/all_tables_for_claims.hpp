@@ -82,9 +82,9 @@ inline Rows truncation_rows(const char* problem, const std::vector<std::string>&
   for (const std::string& quantity : quantities) {
     for (const char* truncation : {"2", "4", "6"}) {
       const bool is_tangent = std::string(method) == "tangent" || quantity == "gap_to_work";
-      rows.push_back(
-          row_of_texts({"problem", "method", "tableau", "stages", "quantity", "truncation", "slope", "standard_error"},
-                       {problem, method, "gauss", "1", quantity, truncation, is_tangent ? "2" : truncation, "0.01"}));
+      rows.push_back(row_of_texts(
+          {"problem", "method", "tableau", "stages", "quantity", "truncation", "slope", "standard_error", "mass"},
+          {problem, method, "gauss", "1", quantity, truncation, is_tangent ? "2" : truncation, "0.01", "moving"}));
     }
   }
   return rows;
@@ -125,8 +125,9 @@ inline Rows rotation_rows() {
 }
 
 inline Rows transform_rows() {
-  return rows_of_texts({"problem", "h", "left_defect", "right_defect", "largest_momentum"},
-                       {{orbit, "0.1", "1e-13", "1e-13", "2"}});
+  return rows_of_texts(
+      {"problem", "h", "left_defect", "right_defect", "largest_momentum", "force_error", "force_error_curl"},
+      {{orbit, "0.1", "1e-13", "1e-13", "2", "1e-4", "1e-12"}});
 }
 
 inline Rows smoothness_rows() {
@@ -249,6 +250,30 @@ inline Rows phase_rows() {
   return rows;
 }
 
+/// Impacts with and without force by all conditions, or their orders.
+inline Rows impact_rows(bool are_orders) {
+  Rows rows;
+  for (const char* force : {"none", "drag"}) {
+    for (const char* condition : {"momenta", "steps", "steps_and_work"}) {
+      for (const char* stages : {"1", "2"}) {
+        const bool has_full_order = force == std::string("none") || condition == std::string("momenta");
+        const std::string order = has_full_order                      ? stages == std::string("1") ? "2.01" : "4.01"
+                                  : condition == std::string("steps") ? "0.99"
+                                                                      : "1.97";
+        rows.push_back(are_orders ? row_of_texts({"problem", "method", "tableau", "stages", "force", "condition",
+                                                  "quantity", "slope", "standard_error"},
+                                                 {"bouncing_particle", "dmoc", "gauss", stages, force, condition,
+                                                  "state_error", order, "0.01"})
+                                  : row_of_texts({"problem", "method", "tableau", "stages", "force", "condition",
+                                                  "steps", "energy_change"},
+                                                 {"bouncing_particle", "dmoc", "gauss", stages, force, condition, "64",
+                                                  condition == std::string("momenta") ? "1e-16" : "1e-3"}));
+      }
+    }
+  }
+  return rows;
+}
+
 /// Costs of order 4 in both statements of four problems.
 inline Rows constrained_cost_rows() {
   Rows rows;
@@ -303,9 +328,21 @@ inline Rows jump_rows() {
 }
 
 inline Rows currency_rows() {
-  return rows_of_texts({"problem", "method", "tableau", "stages", "derivatives", "tolerance", "intervals", "currency",
-                        "ratio_at_equal_accuracy"},
-                       {{orbit, "tangent", "gauss", "1", "tape", "1e-06", "64", "ipopt_iterations", "1.2"}});
+  const ColumnNames columns{"problem",
+                            "method",
+                            "tableau",
+                            "stages",
+                            "derivatives",
+                            "tolerance",
+                            "intervals",
+                            "currency",
+                            "ratio_at_equal_intervals",
+                            "ratio_at_equal_accuracy"};
+  return rows_of_texts(columns,
+                       {{orbit, "tangent", "gauss", "1", "tape", "1e-06", "64", "ipopt_iterations", "1", "1.2"},
+                        {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "64", "factor_nonzeros", "2.1", ""},
+                        {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "128", "factor_nonzeros", "2.2", ""},
+                        {orbit, "hamiltonian", "gauss", "1", "tape", "1e-06", "64", "kkt_nonzeros", "1.9", ""}});
 }
 
 inline Rows cold_start_rows() {
@@ -503,10 +540,17 @@ inline std::map<std::string, Rows> all_rows() {
   rows["equivalence_constrained"] = constrained_rows("gauss");
   rows["equivalence_constrained_lobatto"] = constrained_rows("lobatto");
   rows["consistency_constrained"] = rows["consistency"];
+  rows["equivalence_velocity_constraints"] = constrained_rows("gauss");
+  rows["consistency_velocity_constraints"] = rows["consistency"];
+  rows["convergence_velocity_constraints_slopes"] =
+      galerkin_slope_rows("gauss", {{"dmoc", "1", "2.01"}, {"tangent", "1", "1.98"}});
   rows["equivalence_phases"] = phase_rows();
   rows["consistency_phases"] = rows["consistency"];
+  rows["invariants_impacts"] = impact_rows(false);
+  rows["invariants_impacts_slopes"] = impact_rows(true);
   rows["convergence_phases_slopes"] =
       galerkin_slope_rows("gauss", {{"dmoc", "1", "2.01"}, {"dmoc", "2", "3.99"}, {"tangent", "2", "4.0"}});
+  rows["objective_mayer"] = rows["objective"];
   rows["objective_constrained"] = constrained_cost_rows();
   rows["objective_forms"] = constraint_form_rows();
   rows["convergence_indirect_jumps"] = jump_rows();
@@ -528,6 +572,8 @@ inline std::map<std::string, Rows> all_rows() {
   rows["convergence_galerkin_shared_slopes"] = galerkin_slope_rows("gauss", {{"galerkin_2_2_shared", "3", "4.04"}});
   rows["convergence_galerkin_lobatto_slopes"] = galerkin_slope_rows("lobatto", {{"galerkin_2_1", "3", "2.02"}});
   rows["consistency_galerkin"] = galerkin_momentum_rows();
+  rows["equivalence_galerkin"] = galerkin_form_rows();
+  rows["equivalence_galerkin_lobatto"] = galerkin_form_rows();
   rows["cold_start_shooting_shares"] = shooting_cold_rows();
   rows["savings_by_solver_shooting"] = shooting_cost_rows();
   rows["profile"] = profile_rows();

@@ -125,14 +125,22 @@ TEST(Words, CarryTheNumbersThatTheyState) {
 
 TEST(ClaimsTable, CountsThePapersStatementsApartFromOursAndFromMisprints) {
   EXPECT_EQ(closing_lines(some), (std::vector<std::string>{"the paper's statements and remarks: 1 reproduced, 2 differ",
-                                                           "findings of ours: 1 differs", "misprints: 1 differs"}));
+                                                           "our findings: 1 differs", "misprints: 1 differs"}));
+}
+
+TEST(ClaimsTable, CountsThePapersStatementsBySection) {
+  std::vector<JudgedClaim> claims = some;
+  claims[2].where = "sections 2.2 and 3.4, equ_L_RK";
+  claims[4].where = "section 2.2";
+  EXPECT_EQ(section_lines(claims), (std::vector<std::string>{"section 2.2: 2 differ", "section 4: 1 reproduced"}));
+  EXPECT_EQ(section_in("th:pontryagin, below"), "th:pontryagin");
 }
 
 TEST(ClaimsTable, HasATableForEachSourceAndNoBarThatWouldBeginAColumn) {
   const std::string text = claims_markdown(some);
   const auto place = [&](const char* part) { return text.find(part); };
   EXPECT_LT(place("## The paper's statements and remarks\n"), text.rfind("a/one"));
-  EXPECT_LT(text.rfind("e/five"), place("## Findings of ours"));
+  EXPECT_LT(text.rfind("e/five"), place("## Our findings"));
   EXPECT_LT(text.rfind("b/two"), place("## Misprints"));
   EXPECT_LT(place("## Misprints"), text.rfind("d/four"));
   EXPECT_EQ(place("## Extensions"), std::string::npos);

@@ -31,7 +31,8 @@ TEST(Claims, TablesThatAgreeWithThePaperAreReproduced) {
        {"state_slope", "control_slope", "momentum_consistency", "equal_solutions", "tangent_differs", "variable_ratio",
         "objective_evolution", "order_of_convergence", "order_of_adjoint_scheme", "reference_step",
         "minor_iteration_ratio", "minor_iterations_equal_variable_ratio", "minor_iterations_saved_in_phase_1",
-        "automatic_differentiation_more_robust", "automatic_differentiation_faster", "replay_beside_tangent"}) {
+        "automatic_differentiation_more_robust", "automatic_differentiation_faster",
+        "automatic_differentiation_saves_time", "replay_beside_tangent"}) {
     EXPECT_EQ(verdict_on(claim, tables()), ClaimVerdict::reproduced) << claim;
   }
 }
@@ -154,6 +155,20 @@ TEST(Claims, OrdersOfWhichNoneRisesAboveTheFloorAreNeitherReproducedNorRefuted) 
   EXPECT_EQ(verdict_on("order_of_convergence", floored), ClaimVerdict::floor);
 }
 
+TEST(Claims, AnOrderOfLowTableausThatFinerGridsContradictDoesNotHideBehindTheOthers) {
+  for (const std::string quantity : {"state", "costate"}) {
+    for (const char* const stages : {"2", "3"}) {
+      const ResultTables doctored = tables("convergence_indirect_slopes", [&](Row& row) {
+        if (row.text("tableau") != "lobatto" || row.text("stages") != stages || row.text("quantity") != quantity)
+          return;
+        row.set("slope", 1.0);
+        row.set("fine_end", "orders");
+      });
+      EXPECT_EQ(verdict_on("order_of_convergence", doctored), ClaimVerdict::floor) << quantity << stages;
+    }
+  }
+}
+
 TEST(Claims, AnAdjointSchemeWithAResidualOrWithoutAControlDiffers) {
   const auto doctored = [](const char* column, double value) {
     return tables("equivalence", [=](Row& row) {
@@ -230,7 +245,7 @@ TEST(Claims, RobustnessIsJudgedBySolvesOfTheSameProgram) {
 
 TEST(Claims, TimesAreJudgedByWholeIntervals) {
   const auto verdict = [](const std::string& seconds) {
-    return verdict_on("automatic_differentiation_faster", tables("derivatives_quasi_newton", [&](Row& row) {
+    return verdict_on("automatic_differentiation_saves_time", tables("derivatives_quasi_newton", [&](Row& row) {
                         if (is_difference(row)) row.set("round_seconds", seconds);
                       }));
   };
@@ -250,7 +265,7 @@ TEST(Claims, DifferencesThatSolveNothingAreNotSlower) {
     }
     results.add(name, tests::declared_table(name, changed));
   }
-  EXPECT_EQ(verdict_on("automatic_differentiation_faster", results), ClaimVerdict::not_judged);
+  EXPECT_EQ(verdict_on("automatic_differentiation_saves_time", results), ClaimVerdict::not_judged);
 }
 
 TEST(Claims, AMissingFieldIsNotYetJudged) {
@@ -294,6 +309,15 @@ TEST(Claims, ASlipTellsTheRowThatItWasJudgedBy) {
   EXPECT_EQ(judged.front().rows.front().records, std::vector<std::size_t>{3});
   for (const char* const column : {"value_as_printed", "value_as_meant", "required_value"})
     EXPECT_EQ(std::ranges::count(judged.front().rows.front().columns, column), 1) << column;
+}
+
+TEST(Claims, OfOursHaveOneStatementThatHoldsOnSomeProblemsAndNotOnOthers) {
+  std::map<std::string, std::string> statements;
+  for (const JudgedClaim& claim : judge_claims(tables())) {
+    if (claim.whose != Whose::ours) continue;
+    EXPECT_EQ(statements.try_emplace(claim.name, claim.states).first->second, claim.states) << claim.id();
+  }
+  EXPECT_GT(statements.size(), 30U);
 }
 
 TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {

@@ -113,6 +113,16 @@ TEST(FittedOrders, OfACurveWithoutFourGridsAreNoneAndGetANote) {
   EXPECT_NE(none.notes[0].find("no order is fitted (few grids: 3 grids"), std::string::npos) << none.notes[0];
 }
 
+TEST(FittedOrders, OfErrorsThatStopFallingFarAboveRoundOffAreNoneAndTheNoteNamesTheLevel) {
+  const auto stuck = [](double n) { return 0.012 + 1e-4 * std::fmod(n, 3.0); };
+  const FittedOrders none =
+      fit_orders(convergence_of({{.error = stuck}}, sixteen_to_1024), std::nullopt, exact_reference);
+  EXPECT_EQ(slope_of(none, "state").text("verdict"), "floor");
+  ASSERT_EQ(none.notes.size(), 1U);
+  EXPECT_NE(none.notes[0].find("the state error stops falling at 1.2e-02, and 0 grids are"), std::string::npos)
+      << none.notes[0];
+}
+
 TEST(FittedOrders, OfGridsThatDisagreeAreNone) {
   const auto jumping = [](double n) { return std::pow(n, -2.0) * (std::fmod(std::log2(n), 2.0) < 0.5 ? 1.0 : 1.4); };
   const FittedOrders none =

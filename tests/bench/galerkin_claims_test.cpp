@@ -28,14 +28,17 @@ TEST(GalerkinClaims, OnOrdersTurnWithTheSlopesOfTheSpacesThatTheyAreAbout) {
             ClaimVerdict::floor);
 }
 
-TEST(GalerkinClaims, OnOrdersAreNotTurnedWhereFinerGridsContradictTheRangeOfTheFit) {
-  const auto before_the_asymptotics = [](Row& row) {
-    row.set("slope", "5.8");
-    row.set("fine_end", "orders");
-  };
-  EXPECT_EQ(verdict_on_spaces("control_space_too_small", "convergence_galerkin_slopes", "galerkin_2_1",
-                              before_the_asymptotics),
-            ClaimVerdict::floor);
+TEST(GalerkinClaims, OnOrdersAreNeitherTurnedNorSupportedWhereFinerGridsContradictTheRangeOfTheFit) {
+  for (const char* const slope : {"5.8", "2.0"}) {
+    const auto before_the_asymptotics = [slope](Row& row) {
+      row.set("slope", slope);
+      row.set("fine_end", "orders");
+    };
+    EXPECT_EQ(verdict_on_spaces("control_space_too_small", "convergence_galerkin_slopes", "galerkin_2_1",
+                                before_the_asymptotics),
+              ClaimVerdict::floor)
+        << slope;
+  }
 }
 
 TEST(GalerkinClaims, OnDmocTurnWithAnotherOptimum) {
@@ -54,6 +57,16 @@ TEST(GalerkinClaims, OnMomentumTurnWithTheLargestDefect) {
   EXPECT_EQ(verdict_on_spaces("galerkin_momentum", "consistency_galerkin", "galerkin_2_1",
                               sets("momentum_defect_max", "1e-6")),
             ClaimVerdict::differs);
+}
+
+TEST(GalerkinClaims, OnTheControlLagrangianTurnWithOneTripleAndWithATestThatFindsNoMistake) {
+  const std::string claim = "variation_and_discretisation_commute";
+  EXPECT_EQ(verdict_on_spaces(claim), ClaimVerdict::reproduced);
+  for (const auto& [column, number] :
+       {std::pair("galerkin_form_difference", "1e-9"), std::pair("straight_form_difference", "1e-15")}) {
+    EXPECT_EQ(verdict_on_spaces(claim, "equivalence_galerkin_lobatto", "galerkin_2_1", sets(column, number)),
+              ClaimVerdict::differs);
+  }
 }
 
 }  // namespace

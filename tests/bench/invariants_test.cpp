@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/experiments/invariants/energy_tables.hpp"
+#include "bench/experiments/invariants/impact_tables.hpp"
 #include "bench/experiments/invariants/long_time_energy.hpp"
 #include "bench/experiments/invariants/momentum_tables.hpp"
 #include "bench/experiments/invariants/simulated_tables.hpp"
@@ -54,6 +55,25 @@ TEST(SymplecticityTable, OnlyTangentWithAMovingMassIsNotSymplectic) {
     EXPECT_EQ(symplectic, row.text("method") != "tangent" || row.text("problem") == "kepler")
         << row.text("problem") << " " << row.text("method") << " " << row.text("stages");
   }
+}
+
+TEST(ImpactTables, EnergiesOfTheNeighbouringStepsHaveOrderOneAsSoonAsForcesAct) {
+  const ImpactTables tables = impact_tables({16, 32, 64, 128, 256});
+  for (const Row& row : tables.impacts.rows()) {
+    if (row.text("condition") != "momenta") continue;
+    EXPECT_LT(number(row, "energy_change"), 1e-14) << row.text("force") << ' ' << row.text("steps");
+  }
+  std::size_t orders_of_states = 0;
+  for (const Row& row : tables.orders.rows()) {
+    const std::string condition = row.text("condition");
+    const double order_of_method = 2.0 * number(row, "stages");
+    const bool has_full_order = row.text("force") == "none" || condition == "momenta";
+    const double expected = has_full_order ? order_of_method : condition == "steps" ? 1.0 : 2.0;
+    EXPECT_NEAR(number(row, "slope"), expected, 0.2)
+        << row.text("quantity") << ' ' << row.text("force") << ' ' << condition << ' ' << order_of_method;
+    if (row.text("quantity") == "state_error") ++orders_of_states;
+  }
+  EXPECT_EQ(orders_of_states, 12U);  // forces, conditions, stages
 }
 
 TEST(OrthogonalForces, KeepTheMomentumOfOptimalMotionsUnlessTheyAreCollocatedInTangentSpace) {

@@ -87,7 +87,7 @@ TEST(LibraryTable, ReadsAsMarkdownWithALinePerProblemAndAColumnPerMethod) {
   for (const char* line :
        {"\n## gauss 2, ipopt, tape\n", "\n| problem | N | reference | dmoc | tangent |\n|---|---|---|---|---|\n",
         "\n| known | 128 | -4 (13 digits) | -4.04 (-1.0e-02) | iteration limit |\n",
-        "\nSolved by all: 1 of 3 problems; with success by all: 1.\n",
+        "\nSolved with all methods: 1 of 3 problems; successful with all methods: 1.\n",
         "\n| unknown | 64 | unknown | 2 elsewhere |  |\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << "is not in\n" << text;
   }

@@ -96,6 +96,14 @@ TEST_F(MotionFile, HoldsPhasesOneAfterTheOther) {
     EXPECT_EQ(read.stage_u, motion.stage_u);
     EXPECT_EQ(read.unknowns, motion.unknowns);
     EXPECT_EQ(read.y, motion.y);
+    // Without the columns of durations they are the ones of the rows.
+    std::vector<std::string> header = nodes.columns();
+    std::erase_if(header, [](const std::string& column) { return column.starts_with("duration_"); });
+    EXPECT_LT(header.size(), nodes.columns().size());
+    Table without(header);
+    for (const Row& row : nodes.rows()) without.append(row);
+    write_file(nodes_file(), without.csv());
+    EXPECT_LT((read_motion_tables(*problem, nodes_file()).unknowns - motion.unknowns).cwiseAbs().maxCoeff(), 1e-14);
   }
   const auto ball = make_problem("bouncing_ball");
   const Trajectory motion = tests::confirmed(*ball, {"dmoc", 1}, 8, guessed_motion(*ball), 1e-9).motion;

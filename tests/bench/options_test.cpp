@@ -34,8 +34,9 @@ TEST(Intervals, ARangeDoublesUpToItsEnd) {
 TEST(Intervals, ARangeThatDoublingDoesNotEndIsStatedWithTheNumbersThatItTakes) {
   for (const char* text : {"8:1024", "7:7", "3:12,48", "16,48,64"})
     EXPECT_EQ(remark_on_ranges("--intervals", text), "");
-  EXPECT_EQ(remark_on_ranges("--intervals", "5,16:100,8:17"),
-            "--intervals 16:100 takes 16, 32, 64; --intervals 8:17 takes 8, 16: a range doubles its start");
+  EXPECT_EQ(
+      remark_on_ranges("--intervals", "5,16:100,8:17"),
+      "--intervals 16:100 takes 16, 32, 64; --intervals 8:17 takes 8, 16: a range contains its start and its doubles");
 }
 
 TEST(Intervals, AListIsSortedAndEachEntryOccursOnce) {
@@ -60,6 +61,7 @@ TEST(Intervals, RefusesAnythingElseAndQuotesIt) {
   }
   expect_error_naming({"--intervals", "8:4"}, [] { static_cast<void>(intervals("8:4")); });
   expect_error_naming({"--intervals", "64:100", "64,100"}, [] { static_cast<void>(intervals("64:100")); });
+  expect_error_naming({"--intervals", "8-64", "8:64"}, [] { static_cast<void>(intervals("8-64")); });
   expect_error_naming({"--fit", "\"x\""}, [] { static_cast<void>(parse_intervals("--fit", "x")); });
 }
 

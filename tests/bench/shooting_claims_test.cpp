@@ -39,6 +39,9 @@ TEST(ShootingClaims, OnColdStartsTurnWithTheCountsAndAreUndecidedNearEqualOnes) 
     EXPECT_EQ(verdict_on_shooting(claim), ClaimVerdict::reproduced);
     EXPECT_EQ(verdict_on_shooting(claim, table, weaker, sets("confirmed", "50")),
               weaker == by_nodes ? ClaimVerdict::undecided : ClaimVerdict::differs);
+    EXPECT_EQ(verdict_on_shooting(claim, table, weaker, sets("solved", "50")),
+              weaker == by_nodes ? ClaimVerdict::undecided : ClaimVerdict::differs)
+        << "confirmed less often, but solved as often";
     EXPECT_EQ(verdict_on_shooting(claim, table, weaker, sets("confirmed", "51")), ClaimVerdict::not_judged);
   }
   const std::string claim = "multiple_shooting_more_robust_than_single";

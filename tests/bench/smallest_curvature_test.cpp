@@ -9,9 +9,10 @@
 namespace dmocbench {
 namespace {
 
-double curvature_of(const Problem& problem, const tests::Scheme& scheme, Eigen::Index intervals) {
+double curvature_of(const Problem& problem, const tests::Scheme& scheme, Eigen::Index intervals,
+                    EndVariation end = EndVariation::stated) {
   tests::Solved solved = tests::solve(problem, scheme, Grid::uniform(intervals), guessed_motion(problem));
-  return tests::value_of(smallest_curvature(*solved.transcription, solved.solution));
+  return tests::value_of(smallest_curvature(*solved.transcription, solved.solution, end));
 }
 
 TEST(SmallestCurvature, OfHalfTheSquareOfTheControlIsOneOnEveryGridByEveryMethod) {
@@ -50,6 +51,19 @@ TEST(SmallestCurvature, IsThatOfTheClampedBeamInTheLimit) {
   const double fine = curvature_of(Repelled(c), {"dmoc", 1}, 128);
   EXPECT_NEAR(fine, 0.5, 1e-3);
   EXPECT_LT(std::abs(fine - 0.5), 0.1 * std::abs(coarse - 0.5));
+}
+
+TEST(SmallestCurvature, OfVariationsThatMoveTheEndIsThatOfTheClampedAndFreeBeamAndMayBeNegative) {
+  // Clamped at one end and free at the other, cos k cosh k = -1, k = 1.875104069: c above k^4 makes the form
+  // indefinite.
+  constexpr double k = 1.875104068711961;
+  for (const double of_limit : {0.5, 3.0}) {
+    const double c = of_limit * k * k * k * k;
+    for (const char* const method : {"dmoc", "hamiltonian"}) {
+      EXPECT_NEAR(curvature_of(Repelled(c), {method, 1}, 128, EndVariation::free), 1.0 - of_limit, 2e-3) << method;
+    }
+    EXPECT_GT(curvature_of(Repelled(c), {"dmoc", 1}, 128), 0.0) << "the stated end is clamped";
+  }
 }
 
 }  // namespace

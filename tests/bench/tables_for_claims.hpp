@@ -180,6 +180,7 @@ inline Rows derivative_rows(const std::string& tolerance) {
            row.set("tolerance", tolerance);
            row.set("round_seconds", rounds_around(exact ? 0.01 : 0.03));
            row.set("variables", 50LL);
+           row.set("major_iterations", exact ? 10LL : 12LL);
            row.set("jacobian_over_residual", exact ? 1.5 : 10.0);
            row.set("hessian_over_residual", exact ? 2.0 : 40.0);
            row.set("jacobian_error", exact ? 1e-16 : 1e-8);

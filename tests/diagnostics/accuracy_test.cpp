@@ -77,6 +77,28 @@ TEST(Accuracy, FindsACostThatOscillatesAsFastAsTheGrid) {
   EXPECT_TRUE(error_on(512).is_motion());
 }
 
+/// f = u + a sin(2π w t + 0.5): by one stage on as many intervals as periods it is one constant, which u cancels.
+TEST(Accuracy, FindsWhatAForceThatOscillatesAsFastAsTheGridAddsToTheCost) {
+  constexpr double amplitude = 0.5;
+  class Waves final : public ForwardingProblem {
+   public:
+    explicit Waves(const Problem& base) : ForwardingProblem(base) {}
+    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+      return x.u + ExpressionVector::Constant(1, amplitude * sin(2.0 * std::numbers::pi * 16.0 * x.t + 0.5));
+    }
+  };
+  const tests::DoubleIntegrator base;
+  const Waves problem(base);
+  const auto solved_on = [&](Eigen::Index intervals) {
+    return tests::solve(problem, {"dmoc", 1}, Grid::uniform(intervals), guessed_motion(problem)).trajectory;
+  };
+  const double right = solved_on(2048).cost;
+  const Trajectory coarse = solved_on(16);
+  const Accuracy found = accuracy(problem, coarse);
+  EXPECT_NEAR(found.cost_miss, std::abs(coarse.cost - right) / coarse.cost, 0.1 * found.cost_miss);
+  EXPECT_LT(accuracy(problem, solved_on(512)).cost_miss, 1e-3);
+}
+
 TEST(Accuracy, DoesNotJudgeACostThatIsRoundOff) {
   const tests::DoubleIntegrator problem;
   Trajectory motion = exact_optimum(problem, 8);

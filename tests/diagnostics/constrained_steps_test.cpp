@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/traced_newton.hpp"
-#include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "methods/transcription/elements/dmoc_element.hpp"
 #include "problems/satellite_directors.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
@@ -75,7 +75,7 @@ class ConstrainedSteps : public testing::TestWithParam<tests::Scheme> {};
 TEST_P(ConstrainedSteps, KeepTheSphereAndTheMomentumAboutTheVerticalToRounding) {
   const SphericalPendulumCartesian problem;
   FreeSteps motion(problem, GetParam().tableau(), problem.initial_state());
-  HolonomicConstraints constraints(motion.traced());
+  MotionConstraints constraints(motion.traced());
   const auto about_vertical = [&] {
     const Eigen::VectorXd q = motion.q();
     return q[0] * motion.p()[1] - q[1] * motion.p()[0];

@@ -2,10 +2,17 @@
 // tangent-space collocation's those of its form q'' = a (midpoint rule).
 #include "methods/diagnostics/control_lagrangian.hpp"
 
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/judgement/polish.hpp"
+#include "methods/transcription/elements/galerkin_element.hpp"
+#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -102,6 +109,57 @@ TEST(ControlLagrangian, RefusesSeveralStagesAndMissingCostates) {
   two.psi_q.resize(0, 0);
   tests::expect_error_naming({"needs costates"},
                              [&] { (void)control_lagrangian_residual(problem, two, acceleration); });
+}
+
+/// Unknowns and multipliers that satisfy no equation: the start, and entries of either sign.
+GalerkinForm form_at_a_start(const Problem& problem, const std::string& method, const Tableau& quadrature,
+                             MultiplierPath path = MultiplierPath::polynomial) {
+  Transcription program(problem, *make_element(method), quadrature, tests::graded_grid(12));
+  const Eigen::VectorXd x = sample(program, tests::common_start(problem));
+  const auto count = static_cast<Eigen::Index>(program.constraint_count());
+  const Eigen::VectorXd multipliers =
+      Eigen::VectorXd::NullaryExpr(count, [](Eigen::Index i) { return std::sin(1.0 + 2.0 * static_cast<double>(i)); });
+  return galerkin_form(program, x, multipliers, path);
+}
+
+TEST(GalerkinForm, IsTheLagrangianOfTheProgramForEveryDegreeQuadratureAndControlSpace) {
+  for (const auto& problem : tests::problems()) {
+    for (const auto& [family, stages] : {std::pair("gauss", 1),
+                                         {"gauss", 2},
+                                         {"gauss", 3},
+                                         {"gauss", 4},
+                                         {"lobatto", 2},
+                                         {"lobatto", 3},
+                                         {"lobatto", 4}}) {
+      std::vector<std::string> methods{"dmoc"};
+      for (int degree = 1; degree <= std::min(stages, 3); ++degree) {
+        for (int nodes = 1; nodes <= std::min(stages, 3); ++nodes) {
+          for (const bool is_continuous : {false, true}) {
+            if (nodes > 1 || !is_continuous) methods.push_back(galerkin_name(degree, nodes, is_continuous));
+          }
+        }
+      }
+      for (const std::string& method : methods) {
+        EXPECT_LT(form_at_a_start(*problem, method, make_tableau(family, stages)).difference(), 1e-13)
+            << problem->name() << ", " << method << ", " << family << " " << stages;
+      }
+    }
+  }
+}
+
+TEST(GalerkinForm, NeedsAMultiplierOfTheDegreeOfTheConfiguration) {
+  const Gyroscopic problem;
+  const auto straight = [&](const char* method) {
+    return form_at_a_start(problem, method, make_tableau("gauss", 3), MultiplierPath::straight).difference();
+  };
+  EXPECT_LT(straight("galerkin_1_2"), 1e-13);
+  EXPECT_GT(straight("galerkin_2_2"), 1e-7);
+  EXPECT_GT(straight("dmoc"), 1e-7);
+}
+
+TEST(GalerkinForm, RefusesCollocation) {
+  tests::expect_error_naming({"dmoc or galerkin"},
+                             [] { (void)form_at_a_start(Gyroscopic(), "tangent", make_tableau("gauss", 1)); });
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(Identities, HoldOfGalerkinElementsWithEveryDegreeQuadratureAndControlSpace)
 
 TEST(Identities, DoNotHoldOfAnElementWhoseOrderIsOverstated) {
   const std::string words = in_words(broken_identities(*make_element("dmoc"), gauss_tableau(2), 5));
-  EXPECT_TRUE(words.starts_with("consistency: the error of a step of length h behaves like h^5.0")) << words;
+  EXPECT_TRUE(words.starts_with("consistency: the error of one step of length h decreases as h^5.0")) << words;
 }
 
 /// An element of the library whose formulas are changed afterwards.
@@ -128,7 +128,7 @@ TEST_P(SpoiltElement, IsToldOfAnEquationOfLowerOrder) {
 }
 
 TEST_P(SpoiltElement, IsToldOfACostOfLowerOrder) {
-  expect_only("consistency: the error of a step of length h behaves like h^2.0",
+  expect_only("consistency: the error of one step of length h decreases as h^2.0",
               [](IntervalTrace& trace, const IntervalUnknowns& unknowns) { trace.cost += unknowns.h * unknowns.h; });
 }
 

@@ -7,7 +7,7 @@
 
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/mechanics/forwarding_problem.hpp"
-#include "methods/mechanics/holonomic_constraints.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "problems/satellite_directors.hpp"
 
 namespace dmocbench {
@@ -55,7 +55,7 @@ TEST(LieGroupIntegrator, SatisfiesTheDiscreteEulerLagrangeEquationsOfDirectorsTo
   constexpr double h = 0.1;
   const Eigen::Vector3d spin(0.7, -0.4, 1.1);
   const std::vector<Eigen::Matrix3d> attitudes = free_body(inertia, inertia.cwiseProduct(spin), h, 50);
-  HolonomicConstraints constraints{TracedProblem(problem)};
+  MotionConstraints constraints{TracedProblem(problem)};
   const DiscreteLagrangian discrete(FreeDirectors(problem), make_tableau("gauss", 1));
   const auto between = [&](std::size_t k) {
     const auto q = [&](std::size_t node) { return LongVector(attitudes[node].reshaped().cast<long double>()); };

@@ -112,7 +112,7 @@ TEST_F(OptimumOfDoubleIntegrator, MissesByTheImpulseThatClippingTakesAway) {
   const double range = motion_.stage_u.maxCoeff() - motion_.stage_u.minCoeff();
   EXPECT_NEAR(strong.control.share, 8.0 / 24.0 / range, 1e-3);
   EXPECT_EQ(strong.intervals_of_control, (std::vector<Eigen::Index>{0, 7}));
-  EXPECT_NE(strong.words(motion_, 1.0).find("galerkin --control-nodes 1"), std::string::npos);
+  EXPECT_NE(strong.words(base_, motion_).find("galerkin --control-nodes 1"), std::string::npos);
   EXPECT_EQ(strong.state.share, 0.0);
   EXPECT_FALSE(strong.is_motion());
 }

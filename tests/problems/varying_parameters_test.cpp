@@ -190,7 +190,7 @@ TEST(OtherValues, ThatChangeTheStructureAreRefusedAndChangeNothing) {
   const Eigen::VectorXd lower = program->variable_lower();
   tests::expect_error_naming({"cart_pole", "cart_mass", "keep it open"},
                              [&] { program->set_parameter("cart_mass", 2.0); });
-  tests::expect_error_naming({"cart_pole", "bound", "make a new transcription"},
+  tests::expect_error_naming({"cart_pole", "bound", "create a new transcription"},
                              [&] { program->set_parameter("bounded", 0.0); });
   tests::expect_error_naming({"length", "nan"}, [&] { program->set_parameter("length", std::nan("")); });
   tests::expect_error_naming({"no parameter", "weight"}, [&] { program->set_parameter("weight", 1.0); });

@@ -401,3 +401,27 @@ class PointsAtGivenTimes(db.Problem):
 
     def running_cost(self, x):
         return x.u @ x.u
+
+
+class RollingDisk(db.Problem):
+    """upright disk rolls to a place ahead and aside, least control effort"""
+
+    name = "rolling_disk"
+    q = db.coordinates("x", "y", "theta", "phi")
+    u = db.controls("steering", "drive")
+    horizon = 2.0
+    start = db.at_rest([0.0, 0.0, 0.0, 0.0])
+    end = db.at_rest([1.0, 1.0, 0.0, db.free(2.0 * math.sqrt(2.0))])
+
+    def velocity_constraints(self, q, v):
+        rolled = 0.5 * v.phi
+        return [v.x - rolled * db.cos(q.theta), v.y - rolled * db.sin(q.theta)]
+
+    def lagrangian(self, x):
+        return 0.5 * (x.v.x**2 + x.v.y**2) + 0.125 * 0.25 * x.v.theta**2 + 0.25 * 0.25 * x.v.phi**2
+
+    def force(self, x):
+        return [0.0, 0.0, x.u.steering, x.u.drive]
+
+    def running_cost(self, x):
+        return 0.5 * x.u @ x.u

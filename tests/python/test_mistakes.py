@@ -66,7 +66,7 @@ class Mistakes(unittest.TestCase):
 
     def test_no_return(self):
         self.refused("lagrangian: returns None; is a \"return\" missing", variant(lagrangian=lambda self, x: None))
-        self.refused("force: entry 0 of what it returns is None", variant(force=lambda self, x: [None]))
+        self.refused("force: entry 0 of the returned value is None", variant(force=lambda self, x: [None]))
 
     def test_wrong_types(self):
         self.refused("running_cost: returns str", variant(running_cost=lambda self, x: "u"))
@@ -104,7 +104,7 @@ class Mistakes(unittest.TestCase):
         self.refused("lacks first_order_rates", variant(y=y, start=start, end=end))
         self.refused("first_order_rates has 2 entries, expected 1",
                      variant(y=y, start=start, end=end, first_order_rates=lambda self, x: [x.u.tau, 1.0]))
-        self.refused("start: y has 1 entries, expected 0", variant(start=start))
+        self.refused("start: y has 1 entry, expected 0", variant(start=start))
         self.refused("y has no entry voltage; it has current", variant(**{**rates, "force": lambda self, x: [x.y.voltage]},
                                                                        start=start, end=end), AttributeError)
 
@@ -132,7 +132,7 @@ class Mistakes(unittest.TestCase):
         self.refused("tableau=\"gauss\", stages=1", "cart_pole_cartesian", method="dmoc", stages=2)
 
     def test_unknowns_that_nothing_reads(self):
-        self.refused("nothing reads|no formula reads", variant(stiffness=db.unknown(1.0, lower=0.0, upper=2.0)))
+        self.refused("nothing reads|no formula depends on", variant(stiffness=db.unknown(1.0, lower=0.0, upper=2.0)))
         with self.assertRaisesRegex(db.Error, "stiffness must be a number in \\[0, 2\\]"):
             db.solve(variant(stiffness=db.unknown(3.0, lower=0.0, upper=2.0)))
 
@@ -141,7 +141,7 @@ class Mistakes(unittest.TestCase):
             return [x.u.tau**2]
 
         self.refused("bounds\\['integrals'\\] has nothing to bound", variant(bounds={"integrals": (0.0, 1.0)}))
-        self.refused("bounds of integrals has 2 entries, and integrands has 1",
+        self.refused("bounds of integrals has 2 entries, but integrands has 1",
                      variant(integrands=integrands, bounds={"integrals": ([0.0, 1.0], [2.0, 2.0])}))
         self.refused("integrals", variant(integrands=integrands))
         self.refused("1 lower and 3 upper|2 lower and 3 upper",
@@ -184,7 +184,7 @@ class Mistakes(unittest.TestCase):
             solution.column("phi")
 
     def test_controls_that_nothing_reads(self):
-        self.refused("no formula reads the control tau",
+        self.refused("no formula depends on the control tau",
                      variant(force=lambda self, x: [0.0], running_cost=lambda self, x: x.q[0] ** 2))
 
     def test_exceptions_of_the_user_keep_their_traceback(self):

@@ -128,6 +128,18 @@ class Experiments(unittest.TestCase):
             for slope in fitted:
                 self.assertAlmostEqual(slope, 2.0, delta=0.1)
 
+    def test_are_solved_by_experiments_that_compare_many_solves(self):
+        options = {"derivatives": {}, "local_minima": {"starts": 2}, "savings_by_solver": {},
+                   "sequence": {"steps": 2, "over": "e=0.7:1"}}
+        for experiment, further in options.items():
+            with self.subTest(experiment), tempfile.TemporaryDirectory() as folder:
+                results = db.run(experiment, Ball, out=folder, method="dmoc", intervals=8, **further)
+                table = results if len(results) else results.further["sequence"]
+                rows = [row for row in table if row.get("derivatives", "tape") == "tape"]
+                self.assertTrue(rows)
+                self.assertEqual({row["status"] for row in rows}, {"solved"})
+                self.assertEqual({row.get("sequence", "homotopy") for row in rows}, {"homotopy"})
+
     def test_sweep_a_parameter(self):
         with tempfile.TemporaryDirectory() as folder:
             db.run("sweep", Ball, out=folder, over="e=0.7:1:2", intervals=32)
@@ -148,14 +160,14 @@ class Mistakes(unittest.TestCase):
             pass
 
         self.refused("nothing has no phases", Nothing)
-        self.refused("phase rise: its parameter gravity differs", variant(rise=rise(gravity=1.6)))
-        self.refused("has 1 entries", variant(fall_to_rise=lambda self, before, after: after.q - before.q))
+        self.refused("phase rise: the value, range or kind of its parameter gravity differs", variant(rise=rise(gravity=1.6)))
+        self.refused("has 1 entry,", variant(fall_to_rise=lambda self, before, after: after.q - before.q))
         self.refused("fall_to_moon is not between two phases", variant(fall_to_moon=lambda self, before, after: []))
         self.refused("follows names moon", variant(follows={"rise": "moon"}))
         with self.assertRaisesRegex(AttributeError, "there is no phase moon; there are fall, rise"):
             db.solve(variant(conditions=lambda self, first, last: [last.moon.t - 1.0]))
         self.refused("link: returns None", variant(fall_to_rise=lambda self, before, after: None))
-        self.refused("1 guards has 2 impulses|1 guards", variant(
+        self.refused("1 guard has 2 impulses", variant(
             fall_to_rise=lambda self, before, after: db.impact(before, after, lambda q: [q.z], 0.5, [1.0, 2.0])))
         with self.assertRaisesRegex(db.Error, "no parameter moon"):
             Ball(moon=1.0)

@@ -172,6 +172,12 @@ class Runs(unittest.TestCase):
         with self.assertRaisesRegex(db.Error, "^intervals: "):
             db.run("study", PendulumSwingUp(), out=self.out, intervals="x")
 
+    def test_of_a_file_that_raises_are_refused_in_one_line(self):
+        with open(os.path.join(self.out, "wrong.py"), "w") as file:
+            file.write("import dmocbench as db\nx = 1\nraise ValueError('no\\nnumber')\n")
+        done = self.command("equivalence", "wrong.py")
+        self.assertEqual((done.returncode, done.stderr), (2, "dmocbench: wrong.py, line 3: ValueError: no number\n"))
+
     def test_of_another_build_are_not_resumed(self):
         db.convergence(PendulumSwingUp(), out=self.out, method="dmoc", intervals=[16, 32], part="1/2")
         with open(os.path.join(self.out, "convergence.parts", "1-of-2.rows")) as rows, open(_core.__file__, "rb") as module:

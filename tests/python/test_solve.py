@@ -2,7 +2,9 @@
 
 import math
 import os
+import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -14,6 +16,46 @@ import restated
 from pendulum import PendulumSwingUp
 
 library = os.environ.get("DMOCBENCH_TEST_LIBRARY")
+
+
+class Decay(db.Problem):
+    """first-order states alone"""
+
+    u, y = db.controls("u"), db.first_order_states("x")
+    horizon, start, end = 1.0, db.state(y=[1.0]), db.state(y=[0.75])
+    waypoints = {0.75: db.state(y=[0.9])}
+
+    def first_order_rates(self, x):
+        return [x.u.u]
+
+    def running_cost(self, x):
+        return x.y.x**2 + x.u.u**2
+
+
+class FirstOrderStatesAlone(unittest.TestCase):
+    def test_have_their_closed_form_by_every_method(self):
+        part = lambda t, a, b: (a * a + b * b) / math.tanh(t) - 2 * a * b / math.sinh(t)
+        for method in ("dmoc", "hamiltonian", "tangent"):
+            solution = db.solve(Decay(), method, intervals=32, stages=2)
+            self.assertAlmostEqual(solution.cost, part(0.75, 1.0, 0.9) + part(0.25, 0.9, 0.75), delta=1e-7)
+            self.assertEqual(solution.picture[0], ["t_in_s", "x", "u"])
+
+    def test_have_nothing_to_compare(self):
+        for methods, says in (("dmoc,tangent", True), ("dmoc", False)):
+            with tempfile.TemporaryDirectory() as folder:
+                run = f"import dmocbench, test_solve; dmocbench.run('objective', test_solve.Decay, out={folder!r}, method={methods!r}, intervals=8)"
+                done = subprocess.run([sys.executable, "-c", run], cwd=os.path.dirname(__file__), capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            sentence = "decay has first-order states alone: all methods coincide, there is nothing to compare"
+            self.assertEqual(sentence in done.stdout, says, done.stdout)
+
+    def test_get_a_sentence_for_what_needs_coordinates(self):
+        for member in ("lagrangian", "force"):
+            wrong = type("Decay", (Decay,), {member: lambda self, x: [0.0]})
+            with self.assertRaisesRegex(db.Error, f"decay has {member}.self, ...., but no coordinates"):
+                db.solve(wrong())
+        with self.assertRaisesRegex(db.Error, "start has q or v, but there are no coordinates"):
+            db.solve(type("Decay", (Decay,), {"start": db.state([0.0], y=[1.0])})())
 
 
 class Pendulum(unittest.TestCase):
@@ -170,7 +212,8 @@ class RestatedProblems(unittest.TestCase):
     def test_of_the_library_have_its_costs(self):
         for cls, name in ((restated.CartPole, "cart_pole"), (restated.DoubleIntegrator, "double_integrator"),
                           (restated.Hovercraft, "hovercraft"), (restated.SphericalPendulum, "spherical_pendulum"),
-                          (restated.TwoLinkManipulator, "two_link_manipulator")):
+                          (restated.TwoLinkManipulator, "two_link_manipulator"),
+                          (restated.RollingDisk, "rolling_disk")):
             with self.subTest(name):
                 a, b = (db.solve(problem, intervals=64, solver="interior_point") for problem in (cls(), name))
                 self.assertTrue(a.is_solved, a)

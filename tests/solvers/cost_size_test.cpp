@@ -9,6 +9,7 @@
 #include "methods/judgement/confirm.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
+#include "methods/solvers/iteration_scope.hpp"
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/lane_transcription.hpp"
@@ -71,6 +72,18 @@ TEST(SmallCost, IsRefusedWhereTheProgramIsPrepared) {
   const Solution& solution = prepared.solve(sample(*program, guessed_motion(tiny)));
   EXPECT_EQ(solution.status, Status::not_confirmed);
   EXPECT_NE(solution.message.find("cost_scale"), std::string::npos) << solution.message;
+}
+
+TEST(SmallCost, IsReportedToAWatchWithoutTheFactorOfASecondSolve) {
+  const auto problem = make_problem("double_integrator");
+  const Restated tiny = with_cost_times(1e-20, *problem);
+  for (const char* solver : {"ipopt", "interior_point", "auto", "sqp"}) {
+    double last = 0.0;
+    const IterationScope watched([&](const Iteration& iteration) { last = iteration.objective; });
+    const Solution solution = solve(tiny, solver);
+    ASSERT_EQ(solution.status, Status::solved) << solver << ": " << solution.message;
+    EXPECT_NEAR(last, solution.objective, 1e-6 * solution.objective) << solver;
+  }
 }
 
 TEST(SmallCost, IsSolvedInABatchOnlyAtTheOptimum) {

@@ -1,6 +1,7 @@
 // Mechanisms by their embedding q = Φ(θ): the solutions are those of multipliers, with fewer unknowns.
 #include "methods/mechanics/embedded_problem.hpp"
 
+#include <concepts>
 #include <memory>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/link_chain_maximal.hpp"
+#include "problems/satellite_directors.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
 #include "problems/two_link_maximal.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -26,14 +28,30 @@ Answer solved(const Problem& problem, const Scheme& scheme) {
   return tests::confirmed(problem, scheme, intervals, guessed_motion(problem), 1e-9);
 }
 
+/// A satellite turns about no axis of its own.
+template <class Redundant>
+std::shared_ptr<const Problem> mechanism() {
+  auto problem = std::make_shared<Redundant>();
+  if constexpr (std::same_as<Redundant, SatelliteDirectors>) {
+    for (const auto& [name, value] : {std::pair("axis_2", 0.7), {"axis_3", -0.4}, {"angle", 2.6}}) {
+      problem->set_parameter(name, value);
+    }
+  }
+  return problem;
+}
+
 template <class Redundant>
 class EmbeddedProblemOf : public testing::Test {
  protected:
-  std::shared_ptr<const Problem> redundant = std::make_shared<const Redundant>();
+  [[nodiscard]] BoundaryState lifted(const Trajectory& motion, Eigen::Index k, const Eigen::VectorXd& rate) const {
+    return embedded.lifted(BoundaryState{.q = motion.q.row(k), .v = rate}, motion.node_times[k]);
+  }
+  std::shared_ptr<const Problem> redundant = mechanism<Redundant>();
   EmbeddedProblem embedded{redundant};
 };
 
-using Mechanisms = testing::Types<SphericalPendulumCartesian, CartPoleCartesian, TwoLinkMaximal, LinkChainMaximal>;
+using Mechanisms =
+    testing::Types<SphericalPendulumCartesian, CartPoleCartesian, TwoLinkMaximal, LinkChainMaximal, SatelliteDirectors>;
 TYPED_TEST_SUITE(EmbeddedProblemOf, Mechanisms);
 
 TYPED_TEST(EmbeddedProblemOf, HasTheSolutionsOfMultipliersByDmocAndByHamiltonianCollocation) {
@@ -42,8 +60,7 @@ TYPED_TEST(EmbeddedProblemOf, HasTheSolutionsOfMultipliersByDmocAndByHamiltonian
     const Trajectory by_embedding = solved(this->embedded, {method, 1}).motion;
     double of_q = 0.0;
     for (Eigen::Index k = 0; k <= intervals; ++k) {
-      const MotionPoint node = by_embedding.node(k);
-      const Eigen::VectorXd q = this->embedded.lifted(BoundaryState{.q = node.q, .v = node.v}).q;
+      const Eigen::VectorXd q = this->lifted(by_embedding, k, by_embedding.v.row(k)).q;
       of_q = std::max(of_q, (q - by_multipliers.q.row(k).transpose()).template lpNorm<Eigen::Infinity>());
     }
     EXPECT_LT(of_q, 1e-11 * by_multipliers.q.cwiseAbs().maxCoeff()) << method;
@@ -57,10 +74,10 @@ TYPED_TEST(EmbeddedProblemOf, HasTheMomentaOfMultipliersAlongTheManifold) {
   const Trajectory by_multipliers = solved(*this->redundant, {"dmoc", 1}).motion;
   const Trajectory by_embedding = solved(this->embedded, {"dmoc", 1}).motion;
   for (Eigen::Index k = 0; k <= intervals; k += 16) {
-    const MotionPoint node = by_embedding.node(k);
-    for (Eigen::Index i = 0; i < node.q.size(); ++i) {
-      const Eigen::VectorXd along =
-          this->embedded.lifted(BoundaryState{.q = node.q, .v = Eigen::VectorXd::Unit(node.q.size(), i)}).v;
+    const Eigen::Index freedoms = by_embedding.q.cols();
+    const Eigen::VectorXd of_chart = this->lifted(by_embedding, k, Eigen::VectorXd::Zero(freedoms)).v;
+    for (Eigen::Index i = 0; i < freedoms; ++i) {
+      const Eigen::VectorXd along = this->lifted(by_embedding, k, Eigen::VectorXd::Unit(freedoms, i)).v - of_chart;
       EXPECT_NEAR(by_embedding.p(k, i), by_multipliers.p.row(k).dot(along),
                   1e-10 * by_multipliers.p.cwiseAbs().maxCoeff());
     }
@@ -135,7 +152,7 @@ TEST(EmbeddedProblemRefuses, ThatMissAnEnd) {
 
 TEST(EmbeddedProblemRefuses, OfAnotherSizeOrNone) {
   EXPECT_EQ(refusal([](const Expression& theta) { return ExpressionVector{{theta}}; }),
-            "pendulum_by_rod: embedding has 1 entries, expected 2");
+            "pendulum_by_rod: embedding has 1 entry, expected 2");
   EXPECT_EQ(refusal([](const Expression&) { return ExpressionVector(); }),
             "pendulum_by_rod does not define embedding(theta); define it or use multipliers");
 }

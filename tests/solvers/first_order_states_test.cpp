@@ -12,7 +12,9 @@
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
+#include "methods/mechanics/first_order_problem.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/phased_problem.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/control_rate.hpp"
@@ -324,6 +326,61 @@ TEST(FirstOrderStatesRefused, ByShooting) {
   }
 }
 
+/// ẏ = u from 1 to the end, C = y² + u².
+class Decay final : public FirstOrderProblem {
+ public:
+  Decay(double from, double to, double horizon, bool starts_open = false)
+      : from_(from), to_(to), horizon_(horizon), starts_open_(starts_open) {}
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"x"}; }
+  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return x.y[0] * x.y[0] + x.u[0] * x.u[0];
+  }
+  [[nodiscard]] BoundaryState initial_state() const override { return at(Eigen::VectorXd::Constant(1, from_)); }
+  [[nodiscard]] BoundaryState final_state() const override { return at(Eigen::VectorXd::Constant(1, to_)); }
+  [[nodiscard]] double horizon() const override { return horizon_; }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = FirstOrderProblem::bounds();
+    if (starts_open_) bounds.first.free_first_order(0);
+    return bounds;
+  }
+  [[nodiscard]] double optimum() const {
+    return (from_ * from_ + to_ * to_) / std::tanh(horizon_) - 2.0 * from_ * to_ / std::sinh(horizon_);
+  }
+
+ private:
+  double from_;
+  double to_;
+  double horizon_;
+  bool starts_open_;
+};
+
+TEST(FirstOrderStatesAlone, HaveTheSameSolutionByAllMethods) {
+  const Decay decay(1.0, 0.75, 1.0);
+  for (const int stages : {1, 2}) {
+    const Trajectory dmoc = solved_tightly(decay, {"dmoc", stages}, 16, guessed_motion(decay)).motion;
+    const Trajectory fine = solved_tightly(decay, {"dmoc", stages}, 32, guessed_motion(decay)).motion;
+    EXPECT_NEAR(std::log2((dmoc.cost - decay.optimum()) / (fine.cost - decay.optimum())), 2.0 * stages, 0.1);
+    EXPECT_EQ(dmoc.q.cwiseAbs().maxCoeff(), 0.0);
+    for (const char* const method : {"hamiltonian", "tangent"}) {
+      const Trajectory other = solved_tightly(decay, {method, stages}, 16, guessed_motion(decay)).motion;
+      EXPECT_LT((other.y - dmoc.y).cwiseAbs().maxCoeff(), 1e-14) << method;
+      EXPECT_LT((other.stage_u - dmoc.stage_u).cwiseAbs().maxCoeff(), 1e-12) << method;
+      EXPECT_LT((other.psi_y - dmoc.psi_y).cwiseAbs().maxCoeff(), 1e-12) << method;
+    }
+  }
+}
+
+TEST(FirstOrderStatesAlone, MayHavePhases) {
+  const Decay first(1.0, 0.9, 0.75);
+  const Decay second(0.9, 0.75, 0.25, true);
+  const PhasedProblem both({{"first", std::make_shared<Decay>(first)}, {"second", std::make_shared<Decay>(second)}});
+  const Trajectory motion = solved_tightly(both, {"dmoc", 3}, 32, guessed_motion(both)).motion;
+  EXPECT_NEAR(motion.cost, first.optimum() + second.optimum(), 1e-12);
+  EXPECT_LT(replay_error(both, motion).norm(), 1e-7);
+}
+
 TEST(FirstOrderStatesRefused, WithRatesOfAnotherSize) {
   class Short final : public Problem {
    public:
@@ -343,7 +400,7 @@ TEST(FirstOrderStatesRefused, WithRatesOfAnotherSize) {
   EXPECT_EQ(tests::sentence_of_error([] {
               static_cast<void>(tests::transcribe(Short(), {"dmoc", 1}, Grid::uniform(8)));
             }),
-            "short: first_order_rates has 1 entries, expected 2");
+            "short: first_order_rates has 1 entry, expected 2");
 }
 
 }  // namespace

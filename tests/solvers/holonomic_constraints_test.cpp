@@ -1,6 +1,4 @@
 // Holonomic constraints: degrees of freedom, orders at the nodes, equal solutions, momenta, and what is refused.
-#include "methods/mechanics/holonomic_constraints.hpp"
-
 #include <cmath>
 #include <limits>
 #include <map>
@@ -16,6 +14,7 @@
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/judgement/polish.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
@@ -71,20 +70,6 @@ std::string label_of(const Scheme& scheme) {
   return scheme.method + "_" + scheme.family + std::to_string(scheme.stages);
 }
 
-/// The jacobian of the rows by the free variables, dense.
-Eigen::MatrixXd free_columns(Transcription& program, const Eigen::VectorXd& x) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(program.jacobian_structure().size()));
-  program.jacobian(x, values);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(program.constraint_count()), x.size());
-  program.jacobian_structure().for_each(
-      [&](Eigen::Index entry, int row, int column) { matrix(row, column) = values[entry]; });
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (!is_fixed(program, i)) columns.push_back(i);
-  }
-  return matrix(Eigen::all, columns);
-}
-
 class HolonomicConstraintsBy : public testing::TestWithParam<Scheme> {};
 
 template <class Redundant>
@@ -121,7 +106,7 @@ TEST_P(HolonomicConstraintsBy, LeaveRowsOfFullRankAndAsManyFreedomsAsTheMinimalS
                           Pendulum::Ends::free_first_velocity}) {
     const Pendulum problem(ends);
     const auto program = tests::transcribe(problem, GetParam(), Grid::uniform(intervals));
-    const Eigen::MatrixXd jacobian = free_columns(*program, sample(*program, guessed_motion(problem)));
+    const Eigen::MatrixXd jacobian = tests::free_columns(*program, sample(*program, guessed_motion(problem)));
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(jacobian);
     factors.setThreshold(1e-9);
     EXPECT_EQ(factors.rank(), jacobian.rows()) << static_cast<int>(ends);
@@ -199,7 +184,7 @@ TEST_P(HolonomicConstraintsBy, HaveTheOrderOfTheTableauOnTheCart) { expect_order
 TEST_P(HolonomicConstraintsBy, HoldAtTheNodesToRounding) {
   const auto& known = reference<CartPoleCartesian>();
   const Answer answer = solved(known.problem, GetParam(), 64, known.start);
-  HolonomicConstraints constraints(answer.program->traced_problem());
+  MotionConstraints constraints(answer.program->traced_problem());
   for (Eigen::Index k = 0; k <= 64; ++k) {
     constraints.evaluate(answer.motion.q.row(k).transpose());
     const double size = answer.motion.q.cwiseAbs().maxCoeff();

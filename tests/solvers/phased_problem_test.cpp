@@ -251,17 +251,22 @@ TEST(PhasedProblem, HoldsPathConstraintsAndTheirCounts) {
   EXPECT_GE(motion.stage_u.col(1).minCoeff(), -1.0 - 1e-9);
 }
 
-TEST(PhasedProblem, TakesItsGuardAsPathConstraintUnlessAStageIsAtTheSwitch) {
+TEST(PhasedProblem, TakesItsGuardAsPathConstraintAlsoWhereAStageIsAtTheSwitch) {
   auto below = sprung(start, half_way, 0.5);
   below->most_x = 0.45;
   Composed phased({{"a", below}, {"b", sprung(half_way, target, 0.5)}});
   phased.of_link = [](const PhaseEnd& before, const PhaseEnd& after) {
     return stacked({continuous(before, after), ExpressionVector{{0.45 - before.q[0]}}});
   };
-  EXPECT_NEAR(solved(phased, {"dmoc", 2}, 8).q(8, 0), 0.45, 1e-12);
-  tests::expect_error_naming({"path_constraints[0]", "condition of the end", "gauss"}, [&] {
-    static_cast<void>(tests::transcribe(phased, {"dmoc", 3, "lobatto"}, Grid::uniform(8)));
-  });
+  const double cost = solved(phased, {"dmoc", 3}, 16).cost;
+  for (const char* const method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const tests::Scheme& scheme : {tests::Scheme{method, 2}, {method, 2, "lobatto"}, {method, 3, "lobatto"}}) {
+      const Trajectory motion = solved(phased, scheme, 16);
+      EXPECT_NEAR(motion.q(16, 0), 0.45, 1e-12) << scheme.label();
+      EXPECT_LE(motion.q.col(0).maxCoeff(), 0.45 + 1e-12) << scheme.label();
+      EXPECT_NEAR(motion.cost, cost, 0.01 * cost) << scheme.label();
+    }
+  }
 }
 
 TEST(PhasedProblem, BranchesFromTheEndOfAnyPhaseBeforeIt) {
@@ -283,14 +288,14 @@ TEST(PhasedProblem, RefusesStatementsThatCannotBeMeant) {
     tests::expect_error_naming(parts, [&] { static_cast<void>(TracedProblem(PhasedProblem(phases))); });
   };
   expect_refused({"at least one phase"}, {});
-  expect_refused({"two phases are called a"}, {{"a", a}, {"a", b}});
-  expect_refused({"phase b", "lower bound 0", "positive"},
+  expect_refused({"two phases are named a"}, {{"a", a}, {"a", b}});
+  expect_refused({"phase b", "lower bound of its duration is 0", "positive"},
                  {{"a", a}, {"b", sprung(half_way, target, 0.5, {0.0, 2.0})}});
   expect_refused({"phase b", "follows phase 1"}, {{"a", a}, {"b", b, 1}});
   auto stiff = sprung(half_way, target, 0.5);
   stiff->set_parameter("stiffness", 3.0);
   expect_refused({"phase b", "stiffness"}, {{"a", a}, {"b", stiff}});
-  expect_refused({"link 0, from a to b, has 2 entries", "only 0 numbers"},
+  expect_refused({"the link from a to b has 2 entries", "only 0 numbers"},
                  {{"a", sprung(start, target, 0.5)}, {"b", sprung(start, target, 0.5)}});
   const auto expect_link_refused = [&](std::initializer_list<std::string> parts, const auto& link) {
     Composed phased({{"a", a}, {"b", b}});
@@ -298,9 +303,11 @@ TEST(PhasedProblem, RefusesStatementsThatCannotBeMeant) {
     tests::expect_error_naming(parts, [&] { static_cast<void>(TracedProblem(phased)); });
   };
   expect_link_refused(
-      {"has 1 entries", "2 numbers"},
+      {"has 1 entry", "2 numbers"},
       [](const PhaseEnd& before, const PhaseEnd& after) -> ExpressionVector { return after.q - before.q; });
-  expect_link_refused({"1 guards", "2 impulses"}, [](const PhaseEnd& before, const PhaseEnd& after) {
+  EXPECT_EQ(Composed({{"a", a}, {"b", b}}).condition_in_words(1), "the link from a to b, entry [1]");
+  EXPECT_EQ(time_in_words(Composed({{"a", a}, {"b", b}}), 0.0, a->horizon()), "0 to 1 of each phase");
+  expect_link_refused({"1 guard has 2 impulses"}, [](const PhaseEnd& before, const PhaseEnd& after) {
     return impact([](const ExpressionVector& q) { return q; }, 1.0, ExpressionVector{{1.0, 2.0}}, before, after);
   });
 }

@@ -190,7 +190,7 @@ TEST_F(WiderStatementsRefused, UnknownThatNoFormulaReads) {
     [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
     [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   };
-  EXPECT_EQ(sentence(Idle()), "idle: no formula reads the unknown a; leave it out");
+  EXPECT_EQ(sentence(Idle()), "idle: no formula depends on the unknown a; remove it");
 }
 
 TEST_F(WiderStatementsRefused, UnknownThatAFormulaReadsAsANumber) {
@@ -211,7 +211,7 @@ TEST_F(WiderStatementsRefused, BoundsOfAnotherSize) {
   EXPECT_EQ(restated([](Statement& s) { s.integrands = [](const ControlledState& x) { return one(x.q[0]); }; }),
             "double_integrator: bounds().integrals has 0 entries, and integrands has 1");
   EXPECT_EQ(restated([](Statement& s) { s.path = Bounds::all(2, 0.0, 1.0); }),
-            "double_integrator: bounds().path has 2 entries, and path_constraints has 0");
+            "double_integrator: bounds().path has 2 entries, but path_constraints has 0");
 }
 
 TEST_F(WiderStatementsRefused, BoundsThatContradictEachOther) {
@@ -223,16 +223,16 @@ TEST_F(WiderStatementsRefused, BoundsThatContradictEachOther) {
 }
 
 TEST_F(WiderStatementsRefused, MoreEqualitiesThanControls) {
-  EXPECT_EQ(
-      restated([](Statement& s) {
-        s.path_constraints = [](const ControlledState& x) {
-          ExpressionVector h(2);
-          h << x.u[0] - x.q[0], x.u[0] + x.v[0];
-          return h;
-        };
-        s.path = Bounds::all(2, 0.0, 0.0);
-      }),
-      "double_integrator: bounds().path makes 2 path constraints equalities; there can be as many as controls, 1");
+  EXPECT_EQ(restated([](Statement& s) {
+              s.path_constraints = [](const ControlledState& x) {
+                ExpressionVector h(2);
+                h << x.u[0] - x.q[0], x.u[0] + x.v[0];
+                return h;
+              };
+              s.path = Bounds::all(2, 0.0, 0.0);
+            }),
+            "double_integrator: bounds().path makes 2 path constraints equalities; there can be at most as many as "
+            "controls, 1");
 }
 
 TEST_F(WiderStatementsRefused, EqualitiesThatLeaveNothingFree) {

@@ -75,4 +75,17 @@ double row_residual(Transcription& transcription, const Eigen::VectorXd& x) {
   return (rows - transcription.constraint_lower()).lpNorm<Eigen::Infinity>();
 }
 
+Eigen::MatrixXd free_columns(Transcription& program, const Eigen::VectorXd& x) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  program.jacobian(x, values);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(program.constraint_count()), x.size());
+  program.jacobian_structure().for_each(
+      [&](Eigen::Index entry, int row, int column) { matrix(row, column) = values[entry]; });
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (!is_fixed(program, i)) columns.push_back(i);
+  }
+  return matrix(Eigen::all, columns);
+}
+
 }  // namespace dmocbench::tests

@@ -63,6 +63,9 @@ Grid graded_grid(Eigen::Index intervals);
 /// Largest magnitude of rows minus their bounds: the residual of a program whose rows are equalities.
 double row_residual(Transcription& transcription, const Eigen::VectorXd& x);
 
+/// The jacobian of the rows by the free variables, dense.
+Eigen::MatrixXd free_columns(Transcription& program, const Eigen::VectorXd& x);
+
 /// Sixteen even intervals and one between them that is a ten-millionth of the horizon.
 inline Grid grid_with_a_narrow_interval() {
   Eigen::VectorXd nodes(18);

@@ -306,6 +306,20 @@ TEST_P(ViolationInWords, NamesAConditionWhoseDerivativesVanishWhereTheSolveEnded
   EXPECT_PRED2(says, ended.words(), "boundary_conditions[0] is rank deficient: its derivatives vanish at node 12");
 }
 
+TEST_P(ViolationInWords, NamesNoVanishingDerivativeOfAConditionThatDoesNotHoldThere) {
+  const tests::Pendulum base;
+  const Restated conditioned(base, [](Statement& s) {
+    s.last.free_configuration(0);
+    s.conditions = [](const State& /*first*/, const State& last) {
+      return ExpressionVector::Constant(1, 2.0 - cos(last.q[0] - 1.0));  // at least 1
+    };
+  });
+  Ended ended(conditioned, GetParam(), Status::step_failed);
+  ended.solution.primal[ended.transcription->blocks().unknown(Quantity::configuration).index(0) + violation_intervals] =
+      1.0;
+  EXPECT_FALSE(says(ended.words(), "rank deficient")) << ended.words();
+}
+
 /// Two equations that say the same of the end, and differ by a constant from what both can meet.
 TEST_P(ViolationInWords, NamesConstraintsThatDependOnEachOther) {
   const tests::Pendulum base;

@@ -141,29 +141,29 @@ Columns<NeededGrid> needed_columns() {
   using N = NeededGrid;
   return scheme_columns<N>() +
          Columns<N>{
-             {"grid", "", "uniform, or adapted", &N::grid, in_key},
+             {"grid", "", "uniform or adapted", &N::grid, in_key},
              {"accuracy", "", "requested relative error of q, p and cost", &N::accuracy},
-             {"status", "", "status of the last solve, or why there is no such grid", &N::status},
+             {"status", "", "status of the last solve, or the reason why no such grid was found", &N::status},
              {"intervals", "", "number of intervals N", &N::intervals},
-             {"variables", "", "of the program", &N::variables},
+             {"variables", "", "number of variables of the program", &N::variables},
              {"variables_at_accuracy", "", "variables times (true error / accuracy)^(1/order)",
               &N::variables_at_accuracy},
-             {"true_error", "", "relative, against the certified optimum", &N::true_error},
-             {"estimated_error", "", "relative, by the estimate", &N::estimated_error},
+             {"true_error", "", "relative error, compared with the certified optimum", &N::true_error},
+             {"estimated_error", "", "estimated relative error", &N::estimated_error},
              {"largest_step", "", "h", &N::largest_step},
              {"smallest_step", "", "h", &N::smallest_step},
              {"grids", "", "number of grids, including the last one", &N::grids},
-             {"seconds", "s", "time of the whole refinement by interior_point, median of the rounds",
+             {"seconds", "s", "time of the whole refinement with interior_point, median over the rounds",
               [](const N& found) { return found.rounds.empty() ? std::nullopt : std::optional(median(found.rounds)); }},
-             {"round_seconds", "s", "time of every round",
+             {"round_seconds", "s", "time of each round, separated by spaces",
               [](const N& found) { return joined_numbers(found.rounds); }}};
 }
 
 Columns<StepOfGrid> step_columns() {
   return scheme_columns<StepOfGrid>() +
          Columns<StepOfGrid>{{"t", "", "time of a node", &StepOfGrid::t, in_key},
-                             {"step", "", "length of the interval that begins there", &StepOfGrid::step},
-                             {"motion", "", "first component of q over its largest value", &StepOfGrid::motion}};
+                             {"step", "", "length of the interval that begins at this node", &StepOfGrid::step},
+                             {"motion", "", "first component of q divided by its largest value", &StepOfGrid::motion}};
 }
 
 }  // namespace dmocbench

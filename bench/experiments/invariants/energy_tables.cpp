@@ -18,6 +18,7 @@
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/point_function.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
@@ -44,6 +45,21 @@ class FollowedEnergy {
 
   FollowedEnergy(const Problem& problem, const std::string& method)
       : traced_(problem), modified_(problem), map_(traced_, *make_element(method), gauss_tableau(1)) {}
+
+  /// Whether L_vv is the same at two configurations: "constant", otherwise "moving".
+  [[nodiscard]] const char* mass() const {
+    const Eigen::Index n = traced_.configuration_size();
+    const Eigen::Index m = traced_.control_size();
+    PointFunction function(n, m,
+                           [&](const ControlledState& x) { return ExpressionVector(traced_.at(x).mass.reshaped()); });
+    const auto at = [&](double q) {
+      Eigen::VectorXd mass(n * n);
+      const Eigen::VectorXd anywhere = Eigen::VectorXd::LinSpaced(n, q, 2.0 * q);
+      function.evaluate({anywhere, Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(m)}, 0.0, mass);
+      return mass;
+    };
+    return at(0.3).isApprox(at(1.1)) ? "constant" : "moving";
+  }
 
   /// One step per row of `controls`, from `start` at t = 0.
   [[nodiscard]] Deviations along(const BoundaryState& start, const Eigen::MatrixXd& controls, double h) const {
@@ -101,6 +117,7 @@ struct FittedQuantity {
   Scheme scheme;
   EnergyQuantity quantity;
   FittedOrder fit;
+  const char* mass;
 };
 
 constexpr auto quantity_of = &FittedQuantity::quantity;
@@ -109,17 +126,18 @@ const Columns<FittedQuantity> fitted_columns =
     scheme_columns<FittedQuantity>() +
     Columns<FittedQuantity>{
         {"quantity", "", "quantity that shrinks with the step", from(quantity_of, &EnergyQuantity::name), in_key},
-        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself",
+        {"truncation", "", "truncation order of the modified energy; 2 is the energy itself",
          from(quantity_of, &EnergyQuantity::truncation), in_key}} +
-    fitted_order_columns(&FittedQuantity::fit);
+    fitted_order_columns(&FittedQuantity::fit) +
+    Columns<FittedQuantity>{{"mass", "", "L_vv: constant, or moving with q", &FittedQuantity::mass}};
 
 /// Points of several curves of one scheme, by their quantities.
 class Curves {
  public:
   void add(const EnergyQuantity& quantity, double h, double error) { points_[quantity].push_back({h, error}); }
-  void fit_into(std::vector<FittedQuantity>& fits, const Scheme& scheme) const {
+  void fit_into(std::vector<FittedQuantity>& fits, const Scheme& scheme, const char* mass) const {
     for (const auto& [quantity, points] : points_) {
-      if (const auto order = asymptotic_order(points, 0.0)) fits.push_back({scheme, quantity, *order});
+      if (const auto order = asymptotic_order(points, 0.0)) fits.push_back({scheme, quantity, *order, mass});
     }
   }
 
@@ -139,7 +157,7 @@ const Columns<Drift> drift_columns =
     scheme_columns<Drift>() +
     Columns<Drift>{{"steps", "", "number of steps", &Drift::steps, in_key},
                    {"h", "", "step", &Drift::h},
-                   {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself",
+                   {"truncation", "", "truncation order of the modified energy; 2 is the energy itself",
                     &Drift::truncation, in_key},
                    {"drift", "", "max - min of the truncated modified energy over the trajectory", &Drift::drift}};
 
@@ -174,10 +192,9 @@ const Columns<Gap> gap_columns =
     Columns<Gap>{
         {"intervals", "", "number of intervals N", &Gap::intervals, in_key},
         {"h", "", "step", &Gap::h},
-        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself", &Gap::truncation,
-         in_key},
-        {"gap_to_work", "", "largest difference of its change and the virtual work over the nodes", &Gap::to_work},
-        {"gap_to_modified_work", "", "the same to the modified work, cut off at the same order",
+        {"truncation", "", "truncation order of the modified energy; 2 is the energy itself", &Gap::truncation, in_key},
+        {"gap_to_work", "", "largest difference between its change and the virtual work over the nodes", &Gap::to_work},
+        {"gap_to_modified_work", "", "the same difference for the modified work, truncated at the same order",
          &Gap::to_modified_work}};
 
 struct PlainGap {
@@ -234,7 +251,7 @@ void follow_optimal_motions(const std::shared_ptr<const Problem>& problem, const
   const FollowedEnergy followed(*problem, method);
   Case the_case{.problem = problem, .method = method, .tableau = "gauss", .solver = "ipopt"};
   Curves curves;
-  for (const long long intervals : {32, 48, 64, 96, 128, 192, 256}) {
+  for (const long long intervals : {16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 128, 192, 256}) {
     throw_if_interrupted();
     the_case.grid = Grid::uniform(intervals);
     const auto measured = measured_or_reason([&] { return energy_along(starts.solve(the_case), *problem, followed); });
@@ -255,7 +272,7 @@ void follow_optimal_motions(const std::shared_ptr<const Problem>& problem, const
       add({"gap_to_modified_work", truncations[i]}, gaps.from_modified_work[i], share_of_replay);
     }
   }
-  curves.fit_into(rows.fits, scheme);
+  curves.fit_into(rows.fits, scheme, followed.mass());
 }
 
 }  // namespace
@@ -277,7 +294,7 @@ ModifiedEnergyTables modified_energy_tables() {
           curves.add({"drift", truncations[i]}, h, range[i]);
         }
       }
-      curves.fit_into(fits, scheme);
+      curves.fit_into(fits, scheme, followed.mass());
     }
   }
   return {.drifts = table_of(drift_columns, drifts), .orders = table_of(fitted_columns, fits)};

@@ -63,11 +63,12 @@ Columns<Record> period_energy_columns(PeriodEnergy Record::*energy) {
 /// The columns of the energy over many periods, which is a member of a record.
 template <class Record>
 Columns<Record> energy_behaviour_columns(EnergyBehaviour Record::*energy) {
-  return {{"oscillation", "", "max - min over the first ten periods", from(energy, &EnergyBehaviour::oscillation)},
-          {"range", "", "max - min over all watched periods", from(energy, &EnergyBehaviour::range)},
-          {"drift_per_period", "", "of the mean, by least squares", from(energy, &EnergyBehaviour::drift_per_period)},
-          {"standard_error", "", "of the drift", from(energy, &EnergyBehaviour::standard_error)},
-          {"change", "", "last mean minus first mean", from(energy, &EnergyBehaviour::change)}};
+  return {
+      {"oscillation", "", "max - min over the first ten periods", from(energy, &EnergyBehaviour::oscillation)},
+      {"range", "", "max - min over all observed periods", from(energy, &EnergyBehaviour::range)},
+      {"drift_per_period", "", "slope of the mean, by least squares", from(energy, &EnergyBehaviour::drift_per_period)},
+      {"standard_error", "", "standard error of the drift", from(energy, &EnergyBehaviour::standard_error)},
+      {"change", "", "last mean minus first mean", from(energy, &EnergyBehaviour::change)}};
 }
 
 }  // namespace dmocbench

@@ -126,15 +126,15 @@ Table step_table(const std::vector<SequenceStep>& steps) {
           {"step", "", "number of the step, from 1", &SequenceStep::number, in_key},
           {"status", "", "of the warm solve", from(&SequenceStep::warm, &StepSolve::status)},
           {"iterations", "", "of the warm solve", from(&SequenceStep::warm, &StepSolve::iterations)},
-          {"microseconds", "us", "of the warm solve, the solver alone",
+          {"microseconds", "us", "time of the solver in the warm solve",
            from(&SequenceStep::warm, &StepSolve::microseconds)},
           {"start_barrier_parameter", "",
            "barrier parameter at the start of the warm solve; empty where the problem has no barrier",
            from(&SequenceStep::start_barrier_parameter)},
-          {"cold_status", "", "of a solve from the guess; empty if not requested", of_cold(&StepSolve::status)},
+          {"cold_status", "", "status of a solve from the guess; empty if not requested", of_cold(&StepSolve::status)},
           {"cold_iterations", "", "its iterations", of_cold(&StepSolve::iterations)},
           {"cold_microseconds", "us", "its time", of_cold(&StepSolve::microseconds)},
-          {"objective", "cost", "of the answer", from(&SequenceStep::objective)}};
+          {"objective", "cost", "cost of the solution", from(&SequenceStep::objective)}};
   return table_of(columns, steps);
 }
 

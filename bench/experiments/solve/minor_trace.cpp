@@ -28,7 +28,7 @@ Table trace_table(const std::vector<MinorIteration>& trace, Eigen::Index variabl
       {"phase", "", "1 or 2", [](const MinorIteration& minor) { return static_cast<int>(minor.phase); }},
       {"entering", "", "column that enters", named(&MinorIteration::entering)},
       {"leaving", "", "column that leaves", named(&MinorIteration::leaving)},
-      {"into_basis", "", "column that the basis takes up", named(&MinorIteration::into_basis)},
+      {"into_basis", "", "column that is added to the basis", named(&MinorIteration::into_basis)},
       {"step", "", "length of the step", &MinorIteration::step},
       {"infeasibility", "", "sum of infeasibilities", &MinorIteration::infeasibility},
       {"objective", "", "scaled objective of the quadratic program", &MinorIteration::objective},

@@ -88,10 +88,10 @@ SweptQuantity parse_over(const std::string& text, bool is_sampled) {
                             quantity.upper));
   }
   const bool has_count = second != std::string_view::npos;
-  if (has_count && is_sampled)
-    throw Error(fmt::format("{}: values are drawn with --samples, leave the count out", option));
+  if (has_count && is_sampled) throw Error(fmt::format("{}: --samples draws the values; omit the count", option));
   if (!has_count && is_sampled) return quantity;
-  if (!has_count) throw Error(fmt::format("{}: the count is missing; LOWER:UPPER:COUNT, or --samples", option));
+  if (!has_count)
+    throw Error(fmt::format("{}: the count is missing; write LOWER:UPPER:COUNT, or use --samples", option));
   const auto count = parsed<int>(range.substr(second + 1));
   if (!count || *count < 2 || *count > most_instances) {
     throw Error(fmt::format("{}: the count must be a whole number between 2 and {}, got \"{}\"", option, most_instances,
@@ -135,8 +135,8 @@ void require_quantities(const Problem& problem, const std::vector<SweptQuantity>
       continue;
     }
     if (entry->number >= problem.configuration_size()) {
-      throw Error(fmt::format("--over {}: the end states of {} have {} entries of q and of v", quantity.name,
-                              problem.name(), problem.configuration_size()));
+      throw Error(fmt::format("--over {}: the end states of {} have {} of q and of v", quantity.name, problem.name(),
+                              counted(problem.configuration_size(), "entry", "entries")));
     }
     const ProblemBounds bounds = problem.bounds();
     const EndBounds& end = entry->is_first ? bounds.first : bounds.last;

@@ -65,8 +65,9 @@ const Columns<PlannedMotion> columns{
     {"excess_after", "", "cost_after / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, cost_of(p.after)); }},
     {"total_seconds", "s", "roadmap, search, concatenation and full solve", &PlannedMotion::seconds},
-    {"starts", "", "starts of multi-start in the same time", from(&PlannedMotion::multi_start, &MultiStart::starts)},
-    {"solved_starts", "", "number of them that were solved", from(&PlannedMotion::multi_start, &MultiStart::solved)},
+    {"starts", "", "number of multi-start solves in the same time",
+     from(&PlannedMotion::multi_start, &MultiStart::starts)},
+    {"solved_starts", "", "number of these that were solved", from(&PlannedMotion::multi_start, &MultiStart::solved)},
     {"start_motions", "", "1 if the cheapest solution is confirmed, 0 otherwise",
      [](const PlannedMotion& p) { return p.multi_start.best ? 1 : 0; }},
     {"best_of_starts", "cost", "least cost of the starts whose solutions are confirmed",
@@ -90,8 +91,9 @@ struct PrimitivesOptions {
 
 void add_options(CommandLine& line, PrimitivesOptions& options) {
   options.asked.add_to(line);
-  line.option("--roadmap", options.roadmap, "reads the roadmap from this file instead of building it; one problem");
-  line.option("--store", options.store, "stores the roadmap in this file; one problem");
+  line.option("--roadmap", options.roadmap,
+              "read the roadmap from this file instead of building it; needs exactly one problem");
+  line.option("--store", options.store, "store the roadmap in this file; needs exactly one problem");
   line.number("--repeats", options.plan.repeats, 1, 100000, "number of timed searches");
   line.number("--seed", options.plan.seed, 0, 0xffffffffU, "seed of the perturbed guesses of multi-start");
   line.number("--amplitude", options.plan.amplitude, 0.0, 10.0,

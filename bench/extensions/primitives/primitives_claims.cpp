@@ -50,10 +50,10 @@ Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*
     if (!is_best(row)) others.push_back(row.text("problem"));
   }
   return found(ClaimVerdict::measured,
-               "on {} of {} problems the full solve from the path ends within {:g} % of the best known cost, and no "
-               "start among those that the same time allows in a lesser one",
+               "on {} of {} problems the full solve from the path ends within {:g} % of the best known cost, and "
+               "multi-start reaches no lower cost in the same time",
                best, rows.size(), Measurement{"bound on the excess of the cost", 100.0 * same_cost, "", "", "%"})
-      .also(worded("the path itself costs more than that by {}", shares_of(rows, "excess_before")))
+      .also(worded("the path itself exceeds this cost by {}", shares_of(rows, "excess_before")))
       .also(worded("the slowest plan takes {:.2g} to {:.2g} ms",
                    Measurement{"lower end of the slowest plan", slowest.needed("plan_lower"), "", "", "ms"},
                    Measurement{"upper end of the slowest plan", slowest.needed("plan_upper"), "", "", "ms"}))
@@ -71,9 +71,8 @@ Claims primitives_claims() {
            .states = "how often the best path of a roadmap of DMOC primitives leads to the best known optimum, and how "
                      "long it takes to find it",
            .judge = leads_to_global_minima,
-           .condition =
-               "a full solve from the path has to end at the best cost that is known; a search runs on a roadmap that "
-               "is there already; how many starts multi-start gets in the same time depends on the machine",
+           .condition = "a full solve from the path must end at the best known cost; a search uses an existing "
+                        "roadmap; the number of multi-start solves in the same time depends on the machine",
            .evidence = {"primitives.csv", "figures/orbital_transfer_primitives.svg"},
            .has_verdict = false}};
 }

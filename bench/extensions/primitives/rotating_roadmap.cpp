@@ -71,7 +71,7 @@ class TurningTrims {
     const Eigen::VectorXd axis = group_.velocity(state.q, Eigen::VectorXd::Ones(1));
     axis.cwiseAbs().maxCoeff(&turning_);
     if (axis != Eigen::VectorXd::Unit(axis.size(), turning_)) {
-      throw Error("trims that turn need a coordinate that is the angle about the axis");
+      throw Error("turning trims need a coordinate that is the angle about the axis");
     }
     shape_.clear();
     for (Eigen::Index i = 0; i < axis.size(); ++i) {

@@ -62,9 +62,10 @@ const Columns<Measured> columns =
         {"cost_error", "", "|J - J_ref| / J_ref", from(errors, &TransferErrors::cost)},
         {"state_error", "", "max over the nodes of |q - q_ref|", from(errors, &TransferErrors::state)},
         {"control_error", "", "max over the stages of |u - u_ref|", from(errors, &TransferErrors::control)},
-        {"momentum_defect", "", "largest change of an interval's angular momentum without work",
+        {"momentum_defect", "",
+         "largest difference between the change of angular momentum and the work of the thrust over an interval",
          from(errors, &TransferErrors::momentum)},
-        {"momentum_balance", "", "the same over the whole horizon", from(errors, &TransferErrors::balance)},
+        {"momentum_balance", "", "the same difference over the whole horizon", from(errors, &TransferErrors::balance)},
         {"replay_error", "", "distance from the final state when the control is replayed", &Measured::replay_error}};
 
 struct Reference {

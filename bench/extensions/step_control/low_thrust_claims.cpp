@@ -76,15 +76,16 @@ Finding pays_in_momentum_alone(const ResultTables& tables, const std::string& pr
           compared);
   return found(ClaimVerdict::measured, "on {} grids cost and replay errors differ by a factor of at most {:.2f}",
                compared, Measurement{"largest factor between cost or replay errors", farthest, "tangent"})
-      .also(worded("angular momentum over the whole horizon less work: of tangent-space collocation at least {:.1f} "
-                   "times DMOC's",
+      .also(worded("change of angular momentum minus work over the whole horizon: tangent-space collocation at least "
+                   "{:.1f} times DMOC",
                    Measurement{"least ratio of the momentum balance", least, "tangent"}));
 }
 
 Finding pays_beside_explicit(const ResultTables& tables, const std::string& problem) {
   const ErrorRatios ratios = ratios_of(tables, problem, "dmoc", explicit_midpoint, "state_error", 0.0);
-  return found(ratios.least > 1.0, "state error of {} over DMOC's on {} grids: {:.2f} to {:.2f}", explicit_midpoint,
-               ratios.count, Measurement{"least ratio of state errors", ratios.least, explicit_midpoint},
+  return found(ratios.least > 1.0, "ratio of state errors, {} to DMOC, on {} grids: {:.2f} to {:.2f}",
+               explicit_midpoint, ratios.count,
+               Measurement{"least ratio of state errors", ratios.least, explicit_midpoint},
                Measurement{"largest ratio of state errors", ratios.most, explicit_midpoint});
 }
 
@@ -92,8 +93,8 @@ Finding order_pays_more(const ResultTables& tables, const std::string& problem) 
   constexpr double from = 12.0;
   const ErrorRatios ratios = ratios_of(tables, problem, runge_kutta_4, "dmoc", "cost_error", from);
   return found(ratios.least > 1.0,
-               "cost error of DMOC over the one of {} on {} grids from {:g} steps on: {:.1f} to {:.1f}", runge_kutta_4,
-               ratios.count, Measurement{"fewest steps per revolution", from},
+               "ratio of cost errors, DMOC to {}, on {} grids from {:g} steps per revolution on: {:.1f} to {:.1f}",
+               runge_kutta_4, ratios.count, Measurement{"fewest steps per revolution", from},
                Measurement{"least ratio of cost errors", ratios.least, "dmoc"},
                Measurement{"largest ratio of cost errors", ratios.most, "dmoc"});
 }
@@ -107,9 +108,8 @@ Claims low_thrust_claims() {
        .problems = only_orbit,
        .where = "section 4.2.1, with many revolutions",
        .whose = Whose::extension,
-       .states =
-           "in polar coordinates, with 8 to 32 steps per revolution: by how much tangent-space collocation differs "
-           "from DMOC in the errors of cost and replay, and in the balance of momentum",
+       .states = "in polar coordinates, with 8 to 32 steps per revolution: differences between tangent-space "
+                 "collocation and DMOC in the errors of cost and replay and in the balance of momentum",
        .judge = pays_in_momentum_alone,
        .evidence = evidence,
        .has_verdict = false},
@@ -126,8 +126,8 @@ Claims low_thrust_claims() {
        .problems = only_orbit,
        .where = "section 4.2.1, with many revolutions",
        .whose = Whose::extension,
-       .states =
-           "from 12 steps per revolution on order pays more than structure: shooting by rk4 has the smaller cost error",
+       .states = "from 12 steps per revolution on, the order matters more than the structure: shooting by rk4 has the "
+                 "smaller cost error",
        .judge = order_pays_more,
        .condition = "coordinates in which a circular orbit is a straight line",
        .evidence = evidence}};

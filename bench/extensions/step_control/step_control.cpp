@@ -46,8 +46,8 @@ Columns<Record> choice_columns() {
   return {{"problem", "", "name of the problem", [](const Record& /*row*/) { return "kepler"; }, in_key},
           {"eccentricity", "", "eccentricity of the ellipse", eccentricity_of<Record>(), in_key},
           {"rule", "",
-           "uniform; h = pace * sigma as part of the principle (variational) or imposed on plain DMOC (imposed); "
-           "h = pace * sigma(q_k), known before the step (from_left)",
+           "uniform; h = pace * sigma as part of the principle (variational) or imposed on plain DMOC (imposed); h = "
+           "pace * sigma(q_k), computed before the step (from_left)",
            from(&Record::choice, &StepChoice::rule_name), in_key},
           {"sigma", "", "quantity on which the step function depends", from(&Record::choice, &StepChoice::sigma_name),
            in_key},
@@ -133,7 +133,8 @@ const Columns<Transfer> transfer_columns{
     {"state_error", "", "max over the nodes of |q - q*|, each at its own time",
      from(solved, transfer_errors, &StepsErrors::state)},
     {"control_error", "", "max over the stages of |u - u*|", from(solved, transfer_errors, &StepsErrors::control)},
-    {"momentum_defect", "", "largest change of an interval's angular momentum without work",
+    {"momentum_defect", "",
+     "largest difference between the change of angular momentum and the work of the thrust over an interval",
      from(solved, transfer_errors, &StepsErrors::momentum)},
     {"replay_error", "", "distance from the final state when the control is replayed",
      from(solved, transfer_errors, &StepsErrors::replay)}};

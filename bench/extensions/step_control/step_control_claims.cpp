@@ -23,19 +23,18 @@ Finding symplectic_by_principle(const ResultTables& tables, const std::string& /
   const char* const table = "step_control_symplecticity";
   const Selection rows = tables.rows(table);
   const auto defect = [](const Row& row) {
-    require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
+    require(row.needed("rounding") > 0.0, "{}, column rounding: the value must be positive", row.place());
     return row.needed("defect") / row.needed("rounding");
   };
   const double variational = std::max(0.0, by_rule(rows, "variational", table).max(defect));
   const double imposed = by_rule(rows, "imposed", table).max(defect);
   const double from_left = by_rule(rows, "from_left", table).max(defect);
-  return found(
-      variational < within_rounding && std::min(imposed, from_left) > within_rounding,
-      "D'ΩD - Ω of (q, t, p, -E) in units of round-off: variational at most {:.1f}, imposed up to {:.1e}, known "
-      "before the step up to {:.1e}",
-      Measurement{"largest defect in units of round-off", variational, "", "variational"},
-      Measurement{"largest defect in units of round-off", imposed, "", "imposed"},
-      Measurement{"largest defect in units of round-off", from_left, "", "from_left"});
+  return found(variational < within_rounding && std::min(imposed, from_left) > within_rounding,
+               "D'ΩD - Ω of (q, t, p, -E) in units of round-off: variational at most {:.1f}, imposed up to {:.1e}, "
+               "computed before the step up to {:.1e}",
+               Measurement{"largest defect in units of round-off", variational, "", "variational"},
+               Measurement{"largest defect in units of round-off", imposed, "", "imposed"},
+               Measurement{"largest defect in units of round-off", from_left, "", "from_left"});
 }
 
 Finding momentum_by_every_route(const ResultTables& tables, const std::string& /*problem*/) {
@@ -48,7 +47,7 @@ Finding momentum_by_every_route(const ResultTables& tables, const std::string& /
   const double least_work = -rows.max([](const Row& row) { return -std::abs(row.needed("work")); });
   return found(rows.max("defect") < rounding && least_work > some_work,
                "{} trajectories of 400 steps under arbitrary thrust, steps by distance, acceleration and thrust: "
-               "change of momentum less work at most {:.1e}",
+               "change of momentum minus work at most {:.1e}",
                rows.size(), Measurement{"largest defect", rows.max("defect")})
       .also(worded("work at least {:.1e}", Measurement{"least work", least_work}));
 }
@@ -108,11 +107,10 @@ Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*p
   const Quotients cost = quotients(by(optimal, "imposed"), by(optimal, "variational"), on_grids, "cost_error");
   const Quotients operations = quotients(by(passes, "variational"), by(passes, "imposed"), key, "operations");
   const Quotients variables = quotients(by(optimal, "variational"), by(optimal, "imposed"), on_grids, "variables");
-  require(
-      state.count >= 3 && cost.count >= 3 && operations.count >= 1,
-      "step_control.csv has {} and step_control_transfer.csv {} solved pairs of imposed and variational steps, three "
-      "are needed; step_control_slopes.csv has {}",
-      state.count, cost.count, operations.count);
+  require(state.count >= 3 && cost.count >= 3 && operations.count >= 1,
+          "step_control.csv has {} and step_control_transfer.csv {} solved pairs of imposed and variational steps, but "
+          "three are needed; step_control_slopes.csv has {}",
+          state.count, cost.count, operations.count);
   const auto least = [](const char* name, const Quotients& ratios) {
     return Measurement{std::string("least ratio of ") + name, ratios.least};
   };
@@ -120,11 +118,11 @@ Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*p
     return Measurement{std::string("largest ratio of ") + name, ratios.largest};
   };
   return found(state.least > 1.0 && cost.least > 1.0,
-               "with the same number of steps the imposed ones have {:.0f} to {:.0f} times the state error ({} pairs) "
+               "with the same number of steps, imposed steps have {:.0f} to {:.0f} times the state error ({} pairs) "
                "and {:.0f} to {:.0f} times the error of the optimal cost ({} pairs)",
                least("state errors", state), largest("state errors", state), state.count, least("cost errors", cost),
                largest("cost errors", cost), cost.count)
-      .also(worded("variational ones take {:.1f} to {:.1f} times the operations of a Newton pass and {:.2f} to {:.2f} "
+      .also(worded("variational steps take {:.1f} to {:.1f} times the operations of a Newton pass and {:.2f} to {:.2f} "
                    "times the variables",
                    least("operations", operations), largest("operations", operations), least("variables", variables),
                    largest("variables", variables)));
@@ -133,43 +131,40 @@ Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*p
 }  // namespace
 
 Claims step_control_claims() {
-  return {
-      {.id = "variational_steps_symplectic",
-       .problems = simulated,
-       .where = in_outlook,
-       .whose = Whose::extension,
-       .states = "steps tied to the trajectory leave the extended flow symplectic only if their constraint is part of "
-                 "the principle",
-       .judge = symplectic_by_principle,
-       .evidence = {"step_control_symplecticity.csv"}},
-      {.id = "steps_by_the_motion_keep_momentum",
-       .problems = simulated,
-       .where = in_outlook,
-       .whose = Whose::extension,
-       .states = "steps that are invariant under the group keep momentum in balance with forces, inside and outside "
-                 "of the principle",
-       .judge = momentum_by_every_route,
-       .evidence = {"step_control_momentum.csv"}},
-      {.id = "variational_steps_energy",
-       .problems = simulated,
-       .where = in_outlook,
-       .whose = Whose::extension,
-       .states = "with variational steps the energy oscillates, with steps known beforehand it drifts",
-       .judge = energy_by_principle,
-       .evidence = {"step_control_energy_behaviour.csv", "figures/step_control.svg"}},
-      {.id = "variational_steps_accuracy",
-       .problems = simulated,
-       .where = in_outlook,
-       .whose = Whose::extension,
-       .states =
-           "as part of the principle, steps tied to the trajectory leave smaller errors than the same number of them "
-           "outside of it",
-       .judge = accuracy_by_principle,
-       .condition =
-           "along Kepler ellipses of eccentricity 0.3 to 0.8, steps by distance or acceleration, E_0 the energy "
-           "of the start",
-       .evidence = {"step_control.csv", "step_control_slopes.csv", "step_control_transfer.csv",
-                    "figures/step_control.svg"}}};
+  return {{.id = "variational_steps_symplectic",
+           .problems = simulated,
+           .where = in_outlook,
+           .whose = Whose::extension,
+           .states = "step sizes that depend on the trajectory keep the extended flow symplectic only if their "
+                     "constraint is part of the variational principle",
+           .judge = symplectic_by_principle,
+           .evidence = {"step_control_symplecticity.csv"}},
+          {.id = "steps_by_the_motion_keep_momentum",
+           .problems = simulated,
+           .where = in_outlook,
+           .whose = Whose::extension,
+           .states = "step sizes that are invariant under the group keep the balance of momentum and forces, whether "
+                     "or not they are part of the variational principle",
+           .judge = momentum_by_every_route,
+           .evidence = {"step_control_momentum.csv"}},
+          {.id = "variational_steps_energy",
+           .problems = simulated,
+           .where = in_outlook,
+           .whose = Whose::extension,
+           .states = "with variational steps the energy oscillates; with steps computed beforehand it drifts",
+           .judge = energy_by_principle,
+           .evidence = {"step_control_energy_behaviour.csv", "figures/step_control.svg"}},
+          {.id = "variational_steps_accuracy",
+           .problems = simulated,
+           .where = in_outlook,
+           .whose = Whose::extension,
+           .states = "step sizes that depend on the trajectory give smaller errors as part of the variational "
+                     "principle than as an imposed constraint with the same number of steps",
+           .judge = accuracy_by_principle,
+           .condition = "along Kepler ellipses of eccentricity 0.3 to 0.8, step sizes by distance or acceleration; E_0 "
+                        "is the initial energy",
+           .evidence = {"step_control.csv", "step_control_slopes.csv", "step_control_transfer.csv",
+                        "figures/step_control.svg"}}};
 }
 
 }  // namespace dmocbench

@@ -1,10 +1,11 @@
-"""python3 -m dmocbench EXPERIMENT [FILE.py ...] OPTIONS: an experiment, on the problems that the files state too.
+"""python3 -m dmocbench EXPERIMENT [FILE.py ...] OPTIONS: runs an experiment, also on the problems that the files state.
 python3 -m dmocbench figures RESULTS: draws the tables in a results folder."""
 
 import importlib.util
 import inspect
 import os
 import sys
+import traceback
 from pathlib import Path
 
 from . import _core
@@ -14,13 +15,19 @@ from .problem import Problem
 
 
 def problems_of(file):
-    """The problems that a file states, in its order: no phases of another one, and nothing that needs arguments."""
+    """The problems that a file states, in its order, except phases of another problem and classes that need arguments."""
     name = os.path.splitext(os.path.basename(file))[0]
     spec = importlib.util.spec_from_file_location(name, file)
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     sys.path.insert(0, os.path.dirname(os.path.abspath(file)))
-    spec.loader.exec_module(module)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        at = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == spec.origin]
+        line = at[-1] if at else getattr(error, "lineno", None)
+        place = f"{file}, line {line}" if line else file
+        raise _core.Error(f"{place}: {type(error).__name__}: {' '.join(str(error).split())}") from None
     found = [value for value in vars(module).values()
              if inspect.isclass(value) and issubclass(value, Problem) and value.__module__ == name
              and not any(argument.default is argument.empty and argument.kind is argument.POSITIONAL_OR_KEYWORD
@@ -28,16 +35,16 @@ def problems_of(file):
     parts = {type(phase) for cls in found if issubclass(cls, Phases) for phase in cls()._stated_phases().values()}
     found = [cls for cls in found if cls not in parts]
     if not found:
-        raise _core.Error(f"{file} states no problem: a class derived from dmocbench.Problem")
+        raise _core.Error(f"{file} states no problem; derive a class from dmocbench.Problem")
     return found
 
 
 _without_problems = {"claims", "misprints", "new", "report", "step_control"}
-"""Experiments that have no option --problem: the problems of files are known to them all the same."""
+"""Experiments without an option --problem; they know the problems of files nevertheless."""
 
 
 def draw(words):
-    """Becomes dmocbench-figures: of a wheel, of the build, or of an installation."""
+    """Becomes dmocbench-figures of a wheel, of the build, or of an installation."""
     for place in ("plots/figures", "../../dmocbench-figures", "../../../../bin/dmocbench-figures"):
         script = Path(__file__).parent / place
         if script.exists():
@@ -65,7 +72,7 @@ def main(words):
     is_named = any(word == "--problem" or word.startswith("--problem=") for word in rest)
     if names and not is_named and experiment not in _without_problems:
         if experiment == "study" and len(names) > 1:
-            raise _core.Error(f"study is about one problem; add --problem NAME, one of {', '.join(names)}")
+            raise _core.Error(f"study takes one problem; add --problem NAME, one of {', '.join(names)}")
         rest += ["--problem", ",".join(names)]
     return _core.run(experiment, rest, False)
 

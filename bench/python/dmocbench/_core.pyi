@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+no_configuration: str
 tag_of_python_code: str
 
 class Error(Exception): ...

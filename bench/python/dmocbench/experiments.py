@@ -1,4 +1,4 @@
-"""Experiments of the program dmocbench, in process, on problems of Python too."""
+"""Runs experiments of the program dmocbench in this process, also on problems stated in Python."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Table:
         return iter(self.rows)
 
     def __getitem__(self, key: int | str) -> Any:
-        """A row by its number, or a column by its name."""
+        """Returns a row by its number, or a column by its name."""
         if isinstance(key, str):
             if key not in self.columns:
                 raise Error(f"there is no column {key}; there are {', '.join(self.columns)}")
@@ -41,7 +41,7 @@ class Table:
         return self.rows[key]
 
     def to_pandas(self) -> Any:
-        """The same as a DataFrame of pandas."""
+        """The table as a pandas DataFrame."""
         import pandas
 
         return pandas.DataFrame(self.rows, columns=self.columns)
@@ -80,9 +80,9 @@ def _text(value):
 
 
 class Results(Table):
-    """The rows of an experiment. further: the other tables that it has written, by the ends of their names ("slopes");
-    orders: the fitted orders, where there are any; files: how the names of all files begin; is_complete: whether all is
-    solved. Experiments of several tables, such as invariants, have further ones only."""
+    """The rows of an experiment. further: the other tables that it wrote, by the ends of their names ("slopes");
+    orders: the fitted orders, if there are any; files: the common beginning of the names of all files; is_complete:
+    whether everything is solved. Experiments with several tables, such as invariants, have further tables only."""
 
     further: dict[str, Table]
     orders: Table | None
@@ -109,7 +109,7 @@ def _value(text):
 
 
 def read_table(file: str | os.PathLike[str], problems: Sequence[str] | None = None) -> Table:
-    """A table that dmocbench has written; with `problems` only the rows of these."""
+    """Reads a table that dmocbench wrote; with `problems`, only their rows."""
     with open(file, newline="") as stream:
         reader = csv.DictReader(stream)
         rows = [{name: _value(text) for name, text in row.items()} for row in reader]
@@ -120,8 +120,8 @@ def read_table(file: str | os.PathLike[str], problems: Sequence[str] | None = No
 
 
 def load_library(*files: str | os.PathLike[str]) -> None:
-    """Loads libraries of problems that dmocbench_add_problems has made in CMake; their problems are then known by name.
-    Problems that cannot be used are warned of and left out."""
+    """Loads libraries of problems that dmocbench_add_problems built in CMake; their problems are then known by name.
+    Warns of problems that cannot be used and leaves them out."""
     with in_words_of_python():
         reasons = _core.load_problem_libraries([os.fspath(file) for file in files])
     for reason in reasons:
@@ -180,7 +180,7 @@ def run(experiment: Experiment, problem: AnyProblem | Sequence[AnyProblem] | Non
     experiment: its name; help(dmocbench.names.Experiment) and `python3 -m dmocbench --help` list them. out: the folder of the
     files that it writes, as the program does; name: how their names begin.
     options as on the command line, without dashes: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False,
-    over=["length=0.9:1.1:3", "mass=1:2:2"]; run("solve", arguments=["--help"]) prints them all. arguments: further words of a
+    over=["length=0.9:1.1:3", "mass=1:2:2"]; run("solve", arguments=["--help"]) prints them all. arguments: further arguments of a
     command line. Throws Error where the program would print a sentence, KeyboardInterrupt on Ctrl-C.
     """
     known = [program for program, _ in _core.programs()]

@@ -1,4 +1,4 @@
-"""Problems of several phases: what a motion does between its switches, and the conditions there."""
+"""Problems of several phases: the motion between switches, and the conditions at the switches."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .problem import Problem, _members, _parameters_of
 
 
 class PhaseEnd(Point):
-    """The state at an end of a phase: q, v and y as of `Point`, p: the momentum, t: the time of the whole motion."""
+    """The state at an end of a phase: q, v and y as of `Point`, p: the momentum; t: the time since the start of the first phase."""
 
     __slots__ = ("p",)
 
@@ -53,13 +53,13 @@ class Phases(Problem):
 
     NAME_to_NAME(self, before, after) = 0: the conditions of a switch between two phases; link(self, before, after): of
     all other switches. Default: `continuous`. There are also `momentum_kept`, `impact`, `dropped` and `new_foothold`.
-    conditions(self, first, last) = 0: conditions that read several ends, as last.NAME.q or last[-1].t, which is the
-    total time.
+    conditions(self, first, last) = 0: conditions that read several ends, such as last.NAME.q or last[-1].t, the total
+    time.
     follows = {"name": "name of the phase before"}: for branches.
     Any number of parameters, and of `unknown`s such as impulses. source, reference, name.
 
-    Coordinates, first-order states and controls of a solution are called NAME_ of the phase and their name;
-    `Solution.phases` has the motion of every phase. Phases share parameters of one name.
+    Coordinates, first-order states and controls of a solution have the name of the phase, `_` and their own name;
+    `Solution.phases` has the trajectory of every phase. Phases share parameters of the same name.
     """
 
     _values: dict[str, float]

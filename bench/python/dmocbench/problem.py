@@ -160,8 +160,8 @@ class parameter:
 
 
 class unknown(parameter):
-    """A parameter that a solve chooses in its range, from `guess` on: `Solution.unknowns` has what it found. Formulas
-    must read it; start, end, horizon and bounds see the guess."""
+    """A parameter that a solve chooses within its range, starting at `guess`; `Solution.unknowns` has its value. Formulas
+    must depend on it; start, end, horizon and bounds use the guess."""
 
     def __init__(self, guess: float, unit: str = "", meaning: str = "", lower: float = -_infinity,
                  upper: float = _infinity):
@@ -193,10 +193,11 @@ class state:
     """A state at an end of the horizon, or at a waypoint: configuration q, rates v and first-order states y, each a list or a dict by
     names.
 
-    Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None is at rest.
+    Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None is at rest. A problem without
+    coordinates has y alone.
     """
 
-    def __init__(self, q: Any, v: Any = None, y: Any = None):
+    def __init__(self, q: Any = None, v: Any = None, y: Any = None):
         self.q = q
         self.v = v
         self.y = y
@@ -245,7 +246,7 @@ def _fixed(value, what):
 
 
 class motion:
-    """A guess from arrays: between the times t it is linear. q: len(t) x n; v: by default the slopes of q; u: by
+    """A guess from arrays, linear between the times t. q: len(t) x n; v: by default the slopes of q; u: by
     default 0; y: by default the straight line between the ends. Times are the problem's; for another horizon the motion
     is stretched."""
 
@@ -276,6 +277,7 @@ def _table(values, t, name):
 _declared = {"q", "u", "y", "start", "end", "horizon", "bounds", "waypoints", "guess", "cost_scale", "name", "source",
              "time_unit", "reference", "path_constraint_names", "boundary_condition_names"}
 _formulas = {"lagrangian", "force", "running_cost", "first_order_rates", "integrands", "path_constraints", "constraints",
+             "velocity_constraints",
              "boundary_conditions", "final_cost", "symmetry", "picture"}
 _members = _declared | _formulas
 
@@ -285,7 +287,8 @@ class Problem:
 
     Derive a class from it and state
 
-    q = coordinates("theta", ...), u = controls("tau", ...) (may be left out), any number of `parameter`s;
+    q = coordinates("theta", ...), u = controls("tau", ...) (may be left out), any number of `parameter`s; without q, y
+    alone, where all methods have the same solution;
     horizon: a number, or between(lower, upper, guess) for one that is free;
     start, end: a `state` or `at_rest`;
     lagrangian(self, x): L(q, v, t); force(self, x): the generalised force, n entries (may be left out);
@@ -294,12 +297,13 @@ class Problem:
     Optional:
 
     final_cost(self, last): a cost of the end, where last.t is the horizon; boundary_conditions(self, first, last) = 0;
-    constraints(self, q) = 0 of a mechanism in redundant coordinates;
+    constraints(self, q) = 0 of a mechanism in redundant coordinates; velocity_constraints(self, q, v) = 0, linear in v, of
+    wheels and blades;
     path_constraints(self, x) >= 0, or between bounds = {"path": (lower, upper)}; equal bounds make an equality;
-    waypoints: a dict of shares of the horizon to state(...), what holds at these times; parts and entries that are left out
+    waypoints: a dict of shares of the horizon to state(...), conditions at these times; parts and entries that are left out
     are open;
     integrands(self, x): their integrals over the horizon are between bounds = {"integrals": (lower, upper)};
-    y = first_order_states("mass", ...) with first_order_rates(self, x), read as x.y.mass: what has a rate, but no
+    y = first_order_states("mass", ...) with first_order_rates(self, x), read as x.y.mass: quantities with a rate, but no
     inertia; L is varied with y held fixed;
     any number of `unknown`s: parameters that a solve chooses;
     bounds: a dict of "q", "v", "u", "y", "path" or "integrals" to (lower, upper), for the latter two and for bounds that
@@ -335,7 +339,7 @@ class Problem:
         return f"{type(self).__name__}({values})"
 
     def handle(self) -> _core.ProblemHandle:
-        """The problem as C++ sees it, checked. Throws Error with a sentence if something is missing or does not fit."""
+        """The checked problem for C++. Throws Error with a sentence if something is missing or does not fit."""
         return _core.ProblemHandle(self)
 
     def parameters(self) -> dict[str, float]:
@@ -364,7 +368,10 @@ class Problem:
         return name if isinstance(name, str) else re.sub(r"(?<!^)(?<!_)(?=[A-Z])", "_", type(self).__name__).lower()
 
     def _coordinate_names(self):
-        return list(self.q.names)
+        return list(self._coordinates().names)
+
+    def _coordinates(self):
+        return getattr(self, "q", None) or coordinates(_core.no_configuration)
 
     def _control_names(self):
         return list(self._controls().names)
@@ -399,18 +406,23 @@ class Problem:
         return _number(self._value_of(name), name)
 
     def _point(self, q, v, u, t, y):
-        names = self.q.names
+        names = self._coordinates().names
         control = None if u is None else named(u, self._controls().names, "u")
         return Point(named(q, names, "q"), named(v, names, "v"), control, t, named(y, self._first_order_names(), "y"))
 
-    def _coordinates_at(self, q):
-        return named(q, self.q.names, "q")
+    def _coordinates_at(self, q, letter="q"):
+        return named(q, self._coordinates().names, letter)
 
     def _end(self, name):
         end = self._value_of(name)
         if not isinstance(end, state):
             raise Error(f"{name} is {end!r}, expected state(...) or at_rest(...)")
-        return end.resolved(self.q.names, self._first_order_names(), name)
+        if getattr(self, "q", None) is None:  # a configuration that rests
+            if end.q is not None or end.v is not None:
+                raise Error(f"{name} has q or v, but there are no coordinates; write state(y=...)")
+            rest = 0.0 if name == "start" else free()
+            end = state([rest], [rest], end.y)
+        return end.resolved(self._coordinate_names(), self._first_order_names(), name)
 
     def _horizon(self):
         horizon = self._value_of("horizon")
@@ -422,7 +434,7 @@ class Problem:
         return number, number, number
 
     def _bounds(self):
-        declared = {"q": self.q, "v": self.q, "u": self._controls(), "y": self._first_order_states()}
+        declared = {"q": self._coordinates(), "v": self._coordinates(), "u": self._controls(), "y": self._first_order_states()}
         bounds = {part: vector.limits(part) for part, vector in declared.items()}
         stated = self._value_of("bounds") if getattr(self, "bounds", None) is not None else {}
         if not isinstance(stated, dict):
@@ -452,7 +464,7 @@ class Problem:
             if not isinstance(at, state):
                 raise Error(f"{where} is {at!r}, expected state(...)")
             parts = {}
-            for part, given, names in (("q", at.q, self.q.names), ("v", at.v, self.q.names),
+            for part, given, names in (("q", at.q, self._coordinate_names()), ("v", at.v, self._coordinate_names()),
                                        ("y", at.y, self._first_order_names())):
                 if given is None:
                     continue
@@ -497,6 +509,8 @@ class Problem:
         if not isinstance(point, (tuple, list)) or not 2 <= len(point) <= 4:
             raise Error(f"guess returns {type(point).__name__}, expected (q, v), (q, v, u) or (q, v, u, y)")
         q, v, u, y = (*point, None, None)[:4]
+        if getattr(self, "q", None) is None:
+            q = v = 0.0
         if u is None:
             u = np.zeros(len(self._controls().names))
         if y is None:
@@ -523,7 +537,7 @@ class Problem:
             **self._words(),
             "guess": " ".join((guess or "as stated").split()) if not isinstance(
                 getattr(self, "guess", None), motion) else "linear between given points",
-            "configuration_units": self.q.units if any(self.q.units) else [],
+            "configuration_units": self._coordinates().units if any(self._coordinates().units) else [],
             "control_units": self._controls().units if any(self._controls().units) else [],
             "time_unit": tuple(getattr(self, "time_unit", ("s", 1.0))),
             "path_constraint_names": list(getattr(self, "path_constraint_names", [])),
@@ -532,7 +546,7 @@ class Problem:
 
     def _picture(self, x):
         if getattr(self, "picture", None) is None:
-            pairs = [(self.q, x.q), (self._first_order_states(), x.y), (self._controls(), x.u)]
+            pairs = [(getattr(self, "q", None) or coordinates(), x.q), (self._first_order_states(), x.y), (self._controls(), x.u)]
             return [(name, unit, value) for declared, values in pairs
                     for name, unit, value in zip(declared.names, declared.units, values)]
         quantities = self.picture(x)
@@ -550,17 +564,22 @@ def _parameters_of(cls):
 
 def _check_members(problem):
     name = problem._problem_name()
-    for member, kind in (("q", "q = coordinates(\"theta\")"), ("lagrangian", "lagrangian(self, x)"),
-                         ("start", "start = at_rest(...)"), ("end", "end = at_rest(...)"), ("horizon", "horizon = 1.0")):
+    has_configuration = getattr(problem, "q", None) is not None or getattr(problem, "y", None) is None
+    of_configuration = (("q", "q = coordinates(\"theta\")"), ("lagrangian", "lagrangian(self, x)"))
+    for member, kind in ((of_configuration if has_configuration else ()) +
+                         (("start", "start = at_rest(...)"), ("end", "end = at_rest(...)"), ("horizon", "horizon = 1.0"))):
         if getattr(problem, member, None) is None:
             raise Error(f"{name} lacks {member}; write {kind}")
+    for member in () if has_configuration else ("lagrangian", "force", "constraints", "symmetry"):
+        if getattr(problem, member, None) is not None:
+            raise Error(f"{name} has {member}(self, ...), but no coordinates; write q = coordinates(\"theta\")")
     for member, maker in (("q", "coordinates"), ("u", "controls"), ("y", "first_order_states")):
         value = getattr(problem, member, None)
         if value is not None and not isinstance(value, _Vector):
             raise Error(f"{name}: {member} is {value!r}, expected {maker}(\"name\", ...)")
-    if not problem.q.names:
+    if has_configuration and not problem.q.names:
         raise Error(f"{name}: q = coordinates() has no names")
-    if getattr(problem, "u", None) is not None and getattr(problem, "force", None) is None:
+    if has_configuration and getattr(problem, "u", None) is not None and getattr(problem, "force", None) is None:
         raise Error(f"{name} has controls but lacks force(self, x)")
     if getattr(problem, "y", None) is not None and getattr(problem, "first_order_rates", None) is None:
         raise Error(f"{name} has first-order states but lacks first_order_rates(self, x)")

@@ -133,15 +133,15 @@ class Prices:
 
 
 class Solution:
-    """An answer: numbers, and arrays of the motion with a row per node (a row per stage in `stages`).
+    """A solution: numbers, and arrays of the trajectory with a row per node (a row per stage in `stages`).
 
     status, message, is_solved; cost, iterations, seconds, setup_seconds, kkt_residual, constraint_violation,
     relative_jump, replay_error (norm of the distance from the end when the controls are replayed; printed by unit),
-    largest_violation (of bounds and path constraints anywhere on the motion); t, q, v, p, psi_q, psi_p,
+    largest_violation (of bounds and path constraints along the whole trajectory); t, q, v, p, psi_q, psi_p,
     psi = (psi_q, psi_p); stages.t, .q, .v, .u, .p.
     With first-order states y, psi_y and stages.y; unknowns: a dict of the parameters that the solve chose; integrals, and
     integral_prices: by how much the least cost grows per unit of the bound that acts; prices: of all other bounds (`Prices`).
-    None where the solve ended without it. Arrays are views of C++ results; they may outlive the solution.
+    None if the solve ended without it. Arrays are views of C++ results; they may outlive the solution.
     """
 
     problem: str
@@ -203,7 +203,7 @@ class Solution:
         return spelt(self._answer.message, arguments_of_solve)
 
     def estimated_error(self) -> float:
-        """The estimated relative error of q, p and cost, from this answer alone. Throws Error if the solve failed, the
+        """The estimated relative error of q, p and cost, from this solution alone. Throws Error if the solve failed, the
         horizon is free, bounds or path constraints are active, or there are first-order states, unknowns or integrals."""
         with in_words_of_python(arguments_of_solve):
             return self._answer.estimated_error()
@@ -218,12 +218,12 @@ class Solution:
 
     @property
     def phases(self) -> dict[str, PhaseMotion]:
-        """The motion of every phase of a problem of several phases, by its name."""
+        """The trajectory of every phase of a problem of several phases, by its name."""
         return {name: PhaseMotion(arrays) for name, arrays in self._answer.phases.items()}
 
     @property
     def prices(self) -> Prices:
-        """What bounds cost."""
+        """The multipliers of all bounds (`Prices`)."""
         return Prices(self._answer)
 
     @property
@@ -260,14 +260,14 @@ class Solution:
         return plotting.plot(self, *names)
 
     def animate(self, shape: Callable[[Any], Any] | None = None, *, frames: int = 100, seconds: float | None = None) -> Any:
-        """A matplotlib animation of the motion. shape: a function of a point x (`at`) that returns the points (x, y) of a
+        """A matplotlib animation of the trajectory. shape: a function of a point x (`at`) that returns the points (x, y) of a
         line, such as the joints of an arm; without one the points of the problem's picture. seconds: how long it plays, by
         default as long as the horizon. Keep a reference to what it returns; its save("motion.gif") writes a file, and
         IPython.display.HTML(animation.to_jshtml()) shows it in a notebook."""
         return plotting.animate(self, shape, frames=frames, seconds=seconds)
 
     def to_pandas(self, at: str = "nodes") -> Any:
-        """A DataFrame of pandas, by names. at="nodes": a row per node with t, q, rate_NAME, momentum_NAME, y and the controls
+        """A pandas DataFrame with named columns. at="nodes": a row per node with t, q, rate_NAME, momentum_NAME, y and the controls
         at the nodes (`at`); at="stages": a row per stage with t, q, rate_NAME, momentum_NAME, y and the controls as solved."""
         import pandas
 
@@ -291,7 +291,7 @@ class Solution:
         return Solution(self._answer)
 
     def __getstate__(self) -> dict[str, Any]:
-        """All numbers, and what is computed on first use. The problem is not part of it."""
+        """All numbers, including those computed on first use, but not the problem."""
         if isinstance(self._answer, _Kept):
             return dict(vars(self._answer))
         state = {name: getattr(self._answer, name) for name, value in vars(_core.Answer).items() if isinstance(value, property)}
@@ -342,7 +342,7 @@ _arrays = {"t", "q", "v", "p", "y", "psi_q", "psi_p", "psi_y", "integrals", "int
 
 
 class _Kept(types.SimpleNamespace):
-    """What a pickled solution consists of, in the place of the answer of C++."""
+    """The contents of a pickled solution, in place of the solution of C++."""
 
     def estimated_error(self):
         if isinstance(self.error, str):
@@ -350,7 +350,7 @@ class _Kept(types.SimpleNamespace):
         return self.error
 
 
-# What may help after a failed or doubtful solve, by the remedy that its answer names.
+# Advice after a failed or doubtful solve, by its remedy.
 _remedies = {
     "none": "",
     "more_time": "more time (most_seconds=) or fewer intervals.",
@@ -358,6 +358,7 @@ _remedies = {
     "radians": "radians: {coordinate} changes by {size:g}, which looks like an angle in degrees.",
     "other_units": "other units: {coordinate} is about {size:.1g}, {smallest} about {smallest_size:.1g}; sizes near 1 suit solvers.",
     "longer_horizon": "a longer horizon than T = {size:g}, or wider bounds: the ends may be out of reach.",
+    "longer_phases": "longer phases, or wider bounds: the ends may be out of reach.",
     "solver_auto": "solver=\"auto\".",
     "several_solvers": "solver=\"auto\": interior_point, then ipopt, then a feasible trajectory as the start.",
     "common_start": "another start: start= with a solution by another method.",
@@ -370,7 +371,7 @@ _remedies = {
 
 
 class Iteration(NamedTuple):
-    """One iteration of a solver, as a callback of `solve` gets it."""
+    """One iteration of a solver, as passed to the callback of `solve`."""
 
     solver: str
     """The solver that runs; "auto" tries several in turn."""
@@ -385,7 +386,7 @@ class Iteration(NamedTuple):
 
 
 Start = Union["Solution", motion, Sequence[Any]]
-"""Where a solve begins: a Solution, a `motion`, or the arrays (t, q), (t, q, v), (t, q, v, u) or (t, q, v, u, y)."""
+"""The start of a solve: a Solution, a `motion`, or the arrays (t, q), (t, q, v), (t, q, v, u) or (t, q, v, u, y)."""
 
 
 def _arrays_of(start, handle):
@@ -427,17 +428,17 @@ def solve(problem: AnyProblem, method: Method = "dmoc", *, intervals: int = 128,
     stages: s, the stages per interval: 1 to 4 with "gauss", 2 to 4 with "lobatto". The order is 2s or 2s - 2.
     solver: "auto" (interior_point, then ipopt, then another start), "interior_point" (ours, which uses the structure of the
         program), "ipopt", "sqp" (ours, an active-set method) or "nlopt" (SLSQP, for small programs).
-    start: where the solve begins, else at the guess of the problem: a Solution, also of another grid, method or problem with
+    start: the start of the solve, by default the guess of the problem: a Solution, also of another grid, method or problem with
         the same coordinates and controls, whose costates are used too; a `motion`; or arrays (t, q, v, u), of which v and u
         may be left out, t ascending, a row of the others per time.
     accuracy: the estimated relative error of q, p and cost at which to stop, 1e-14 to 0.1: the grid is refined until it is
-        reached, and iterations and seconds are of all grids together. None: one grid.
+        reached; iterations and seconds include all grids. None: one grid.
     refinement: what accuracy= refines: "h", the steps, or "hp", also the stages, up to three.
     nodes: relative times of the nodes from 0 to 1, ascending, in the place of intervals=.
     tolerance: for the residual of the optimality conditions of the scaled program, by default 1e-10.
-    most_iterations: of the solver, by default 500; then the status is "iteration limit".
-    most_seconds: of the call, its set-up and all grids together, 0 for no limit; then the status is "time limit", and the
-        solution the last one.
+    most_iterations: of the solver, by default 500; a solve that reaches it has the status "iteration limit".
+    most_seconds: of the call with its set-up and all grids, 0 for no limit; a solve that reaches it has the status "time limit"
+        and returns the last solution.
     derivatives: how the solver gets them: "tape" (exact, the fastest), "adolc" or "adolc_whole" (by ADOL-C, where it was
         built in), "finite_differences" (central), "forward_differences" or "dense_differences".
     form: how the cost is stated: "bolza" (a sum), or "mayer" (one more unknown per node, the cost so far).
@@ -462,7 +463,7 @@ def solve(problem: AnyProblem, method: Method = "dmoc", *, intervals: int = 128,
 
 
 class Batch:
-    """Answers to many instances, a row each: cost, status, is_solved, iterations; with motions=True also q (instances x
+    """Solutions of many instances, a row each: cost, status, is_solved, iterations; with motions=True also q (instances x
     nodes x n) and u (instances x stages of all intervals x m), NaN where there is none."""
 
     cost: np.ndarray

@@ -18,7 +18,7 @@ arguments_of_solve = {"seconds": "most_seconds", "iterations": "most_iterations"
 
 
 def spelt(sentence: str, renamed: Mapping[str, str] = {}) -> str:
-    """A sentence about options of a program as one about arguments; `renamed`: those with other names."""
+    """A sentence about options of a program, restated with arguments; `renamed`: options with other names."""
 
     def argument(match: re.Match[str]) -> str:
         name, value = match["name"].replace("-", "_"), match["value"]

@@ -74,12 +74,12 @@ void PrimitiveLibrary::require_made_for(const Problem& asked) const {
   }
   const auto expected = parameters_with_values(asked);
   if (parameters.size() != expected.size()) {
-    throw Error(fmt::format("the primitives of {} were made with other parameters; make them again", problem));
+    throw Error(fmt::format("the primitives of {} were computed with other parameters; compute them again", problem));
   }
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (parameters[i] == expected[i]) continue;
-    throw Error(fmt::format("the primitives of {} were made with {} = {:g}, not {} = {:g}; make them again", problem,
-                            parameters[i].first, parameters[i].second, expected[i].first, expected[i].second));
+    throw Error(fmt::format("the primitives of {} were computed with {} = {:g}, not {} = {:g}; compute them again",
+                            problem, parameters[i].first, parameters[i].second, expected[i].first, expected[i].second));
   }
   const Eigen::Index n = asked.configuration_size();
   constexpr double most_steps = 1e6;  // of a horizon
@@ -87,7 +87,7 @@ void PrimitiveLibrary::require_made_for(const Problem& asked) const {
   for (const BoundaryState& state : states) all_fit = all_fit && has_size(state.q, n, 1) && has_size(state.v, n, 1);
   for (const Primitive& each : primitives) all_fit = all_fit && fits(each, *this, n, asked.control_size());
   if (!all_fit)
-    throw Error(fmt::format("the primitives of {} are damaged: sizes do not fit; make them again", problem));
+    throw Error(fmt::format("the primitives of {} are damaged: their sizes do not match; compute them again", problem));
   require_true_costs(*this, asked);
 }
 

@@ -29,7 +29,7 @@ namespace {
 
 std::vector<Generator> generators_of(const Problem& problem) {
   if (!problem.symmetry(input_vector(0, problem.configuration_size()))) {
-    throw Error(fmt::format("{} states no symmetry, so there are no trims", problem.name()));
+    throw Error(fmt::format("{} defines no symmetry, so it has no trims", problem.name()));
   }
   return {[&problem](const ExpressionVector& q) { return problem.symmetry(q).value(); }};
 }
@@ -70,7 +70,7 @@ SymmetryGroup::SymmetryGroup(const Problem& problem) : SymmetryGroup(problem, ge
 
 SymmetryGroup::SymmetryGroup(const Problem& problem, std::vector<Generator> generators)
     : generators_(std::move(generators)) {
-  if (generators_.empty()) throw Error("a group of symmetries needs at least one generator");
+  if (generators_.empty()) throw Error("a symmetry group needs at least one generator");
   for (const Generator& each : generators_) affine_.push_back(affine_parts(problem, each));
 }
 

@@ -85,7 +85,8 @@ Trim TrimSolver::solve(const Trim& guess, const std::vector<Eigen::Index>& unkno
     const Eigen::VectorXd rates = point.segment(n_, group_.dimension());
     return {.q = q, .rates = rates, .u = point.tail(guess.u.size()), .state = {q, group_.velocity(q, rates)}};
   }
-  throw Error(fmt::format("Newton's method finds no relative equilibrium of {} from its guess", problem_.name()));
+  throw Error(
+      fmt::format("Newton's method did not converge to a relative equilibrium of {} from its guess", problem_.name()));
 }
 
 }  // namespace dmocbench

@@ -62,7 +62,8 @@ StepControlMap::StepControlMap(const Problem& problem, const Tableau& tableau, c
   const Expression on_left = sigma(in.left());
   if (rule == StepRule::from_left) {
     for (const Expression& by_right : gradient(on_left, in.right_q)) {
-      if (!by_right.is_zero()) throw Error("steps that are known before they are taken cannot depend on the velocity");
+      if (!by_right.is_zero())
+        throw Error("a step size that is computed before the step cannot depend on the velocity");
     }
   }
   sigma_ = Schedule(one(on_left));

@@ -25,11 +25,10 @@ void require_plain(const Problem& problem, const TracedProblem& traced) {
   const bool is_plain = bounds.first.all_fixed() && bounds.last.all_fixed() && !bounds.horizon.is_free() &&
                         !bounds.q.any() && !bounds.v.any() && !bounds.u.any() && traced.path_constraint_count() == 0 &&
                         traced.boundary_condition_count() == 0 && traced.integral_count() == 0 &&
-                        traced.unknown_count() == 0 && traced.first_order_size() == 0 && traced.holonomic_count() == 0;
+                        traced.unknown_count() == 0 && traced.first_order_size() == 0 && traced.constraint_count() == 0;
   if (is_plain) return;
   throw Error(
-      "steps inside the variational principle are supported for problems with fixed ends, a fixed horizon and no "
-      "constraints; " +
+      "variational step sizes are supported only for problems with fixed ends, a fixed horizon and no constraints; " +
       problem.name() + " is none");
 }
 

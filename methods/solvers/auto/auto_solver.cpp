@@ -49,7 +49,7 @@ class AutoRun final : public PreparedRun {
     if (moved.size() > 0) {
       continue_with(0, moved, solution);
       solution.failed_before =
-          "interior_point and ipopt failed; interior_point restarted next to the guess, where derivatives of a "
+          "interior_point and ipopt failed; interior_point restarted near the guess, at which derivatives of a "
           "violated path constraint vanish.";
       if (!leaves_hope(solution.status)) return;
     }

@@ -195,7 +195,7 @@ Solution BatchQueue::check(const BatchInstance& instance) const {
        {&instance.start, &instance.equality_values, &instance.multipliers, &instance.parameters}) {
     if (vector->allFinite()) continue;
     refused.status = Status::evaluation_failed;
-    refused.message = "A number of the instance is not finite.";
+    refused.message = "The instance contains a number that is not finite.";
   }
   return refused;
 }

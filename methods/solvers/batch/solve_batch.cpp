@@ -42,8 +42,8 @@ class PlainSource final : public BatchSource {
 
 Eigen::VectorXd usual_jacobian(NonlinearProgram& program, const Eigen::VectorXd& usual) {
   if (static_cast<std::size_t>(usual.size()) != program.variable_count()) {
-    throw Error(fmt::format("the usual start of a batch has {} entries, but the program has {} variables", usual.size(),
-                            program.variable_count()));
+    throw Error(fmt::format("the default start of a batch has {} entries, but the program has {} variables",
+                            usual.size(), program.variable_count()));
   }
   Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size()));
   program.jacobian(usual, jacobian);

@@ -44,5 +44,6 @@ inline constexpr double of_warm_start = 1e-6;  // a warm start's μ, and in plac
 inline constexpr double most_growth = 10.0;    // of the violation in one step: "Limit on the constraint violation"
 inline constexpr double short_step = 0.1;      // "Short steps", "Divergence of the multipliers": up to this
 inline constexpr double runaway = 1e6;         // multipliers above this are estimated again
+inline constexpr int most_near = 10;           // iterates in a row that are accepted before the last one is: "Stopping"
 
 }  // namespace dmocbench::interior_point::constants

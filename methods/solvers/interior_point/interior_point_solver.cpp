@@ -13,6 +13,7 @@
 #include <tl/expected.hpp>
 
 #include "methods/choose.hpp"
+#include "methods/judgement/confirm.hpp"
 #include "methods/judgement/least_violation.hpp"
 #include "methods/judgement/stop_rule.hpp"
 #include "methods/kkt/intervals/interval_kkt.hpp"
@@ -85,6 +86,7 @@ class InteriorPointRun final : public PreparedRun {
     length_ = 0.0;
     iterations_ = 0;
     descents_ = 0;
+    near_ = 0;
     was_short_ = false;
     message_.clear();
     const bool is_warm = multipliers.size() > 0;
@@ -107,7 +109,7 @@ class InteriorPointRun final : public PreparedRun {
   [[nodiscard]] std::optional<Status> iterate() {
     const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
     // Stop where E_0 <= ε, (5) and (6).
-    if (program_.meets(stop_rule_, errors, at_, gradient_, values_)) return Status::solved;
+    if (program_.meets(stop_rule_, errors, at_, gradient_, values_) || is_at_round_off(errors)) return Status::solved;
     if (const auto reason = reason_to_stop()) return reason;
     // Lower μ while E_μ <= κ_ε μ, (7).
     update_barrier_parameter(errors);
@@ -166,6 +168,13 @@ class InteriorPointRun final : public PreparedRun {
     return std::nullopt;
   }
 
+  /// Whether round-off alone may keep the iterates from the tolerance: `confirm` would accept each of the last ones.
+  [[nodiscard]] bool is_at_round_off(const OptimalityErrors& errors) {
+    const bool is_near = errors.of_barrier_problem(0.0) <= confirmation_factor * options_.tolerance;
+    near_ = is_near ? near_ + 1 : 0;
+    return near_ > constants::most_near;
+  }
+
   void update_barrier_parameter(const OptimalityErrors& errors) {
     if (!program_.has_bounds()) return;
     const double lowered = lowered_barrier_parameter(mu_, options_.tolerance, errors);
@@ -222,7 +231,7 @@ class InteriorPointRun final : public PreparedRun {
   /// constraints hold and, where these end, descent on the violation, which like section 3.3 needs no such place.
   [[nodiscard]] std::optional<Status> restoration_phase() {
     if (values_.theta <= options_.tolerance) {
-      message_ = "No step along the Newton direction is an improvement, although all constraints hold.";
+      message_ = "No step along the Newton direction improves the iterate, although all constraints hold.";
       return Status::step_failed;
     }
     line_search_.begin_restoration(values_);
@@ -249,7 +258,7 @@ class InteriorPointRun final : public PreparedRun {
       if (line_search_.may_return_to(values_, enough)) return std::nullopt;
       if (const auto reason = reason_to_stop()) return reason;
     }
-    message_ = "Neither the Newton step nor descent on the violation is an improvement.";
+    message_ = "Neither the Newton step nor descent on the violation improves the iterate.";
     return Status::step_failed;
   }
 
@@ -314,6 +323,7 @@ class InteriorPointRun final : public PreparedRun {
   double length_ = 0.0;  // of the last step
   int iterations_ = 0;
   int descents_ = 0;
+  int near_ = 0;            // iterates in a row within `confirmation_factor` of the tolerance
   bool was_short_ = false;  // the last Newton step
   std::string message_;
 };

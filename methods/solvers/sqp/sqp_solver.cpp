@@ -153,7 +153,7 @@ class SequentialRun {
                                    [this] { return reason_to_stop().has_value(); });
     if (!needed) {
       if (const auto reason = reason_to_stop()) return reason;
-      message_ = "The Hessian of the Lagrangian is not finite, or too large to work with.";
+      message_ = "The Hessian of the Lagrangian is not finite, or its entries are too large.";
       return Status::step_failed;
     }
     shift_ = std::max(*needed, cautious_shift_);

@@ -25,7 +25,7 @@ class AdolcTag {
     if (is_swept_in_reverse_ && swept_in_reverse() == most) {
       throw Error(
           "ADOL-C differentiates 32 recordings in reverse, two or three per program: use fewer programs at a time, or "
-          "another back end of derivatives");
+          "another derivative back end");
     }
     swept_in_reverse() += is_swept_in_reverse_ ? 1 : 0;
     while (used().contains(number_)) ++number_;

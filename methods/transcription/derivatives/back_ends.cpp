@@ -53,18 +53,18 @@ BackEndPtr make_differences(const LocalFunctions& functions, const DerivativePla
 
 // One line per back end, the default first.
 constexpr auto back_ends = std::to_array<Entry>({
-    {"tape", "exact: the formulas of one interval differentiated symbolically, evaluated for all", make_tape},
+    {"tape", "exact: the formulas of one interval differentiated symbolically, evaluated for all intervals at once",
+     make_tape},
 #ifdef DMOCBENCH_WITH_ADOLC
-    {"adolc", "exact: ADOL-C's drivers on the formulas of one interval, interval after interval",
-     make_adolc_derivatives},
-    {"adolc_whole", "exact: ADOL-C's drivers on the whole program recorded once, columns compressed by colours",
+    {"adolc", "exact: ADOL-C's drivers on the formulas of one interval, interval by interval", make_adolc_derivatives},
+    {"adolc_whole", "exact: ADOL-C's drivers on the whole program recorded once, columns compressed by colouring",
      make_adolc_whole_derivatives},
 #endif
-    {"finite_differences", "central differences of values, a local unknown of all intervals at once",
+    {"finite_differences", "central differences of values, perturbing a local unknown of all intervals at once",
      make_differences<DifferenceKind::central>},
-    {"forward_differences", "one-sided differences of values, half the evaluations and half the digits",
+    {"forward_differences", "one-sided differences of values, with half the evaluations and half the digits",
      make_differences<DifferenceKind::forward>},
-    {"dense_differences", "one-sided differences of the values of the whole program, one unknown after the other",
+    {"dense_differences", "one-sided differences of the values of the whole program, perturbing one unknown at a time",
      make_dense_differences},
 });
 
@@ -74,7 +74,7 @@ const Entry& entry_named(std::string_view name) {
   std::string refusal = "there is no derivative back end";
 #ifndef DMOCBENCH_WITH_ADOLC
   if (name.starts_with("adolc"))
-    refusal = "this build has no ADOL-C (install it and configure again), hence no derivatives by";
+    refusal = "this build lacks ADOL-C (install it and configure again), which is needed by";
 #endif
   return one_of(back_ends, back_end_name, name, refusal);
 }

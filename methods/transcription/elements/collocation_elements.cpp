@@ -15,7 +15,7 @@ ExpressionVector hidden_constraint(const TracedProblem& problem, const State& at
   const ExpressionVector velocity =
       solve_symmetric(values.mass, p - values.momentum,
                       "hamiltonian does not support constraints g(q) = 0 where L_vv is singular; use dmoc");
-  return problem.holonomic_at(at.q, none).jacobian * velocity;
+  return problem.constraints_at(at.q, none).jacobian * velocity;
 }
 
 /// The same interval with the momenta of its nodes as unknowns.
@@ -40,6 +40,11 @@ Eigen::Index HamiltonianElement::multipliers(const Tableau& tableau) const {
   throw Error("hamiltonian supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
 }
 
+std::vector<bool> HamiltonianElement::velocity_multipliers(const Tableau& tableau) const {
+  if (tableau.stages() == 1) return {true, true};
+  throw Error("hamiltonian supports velocity_constraints with --tableau gauss --stages 1 only");
+}
+
 IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tableau& tableau,
                                         const IntervalUnknowns& unknowns) const {
   if (problem.has_embedding()) return with_momenta(DmocElement().trace(problem, tableau, unknowns), unknowns);
@@ -49,20 +54,23 @@ IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tabl
   ExpressionVector left_p = unknowns.left_second;
   ExpressionVector right_p = unknowns.right_second;
   const bool has_impulses = !multipliers.empty() && rates_q.size() == 1;
+  IntervalTrace trace;
+  if (!multipliers.empty()) trace.left_impulse = trace.right_impulse = ExpressionVector(unknowns.left_q.size());
   if (has_impulses) {
-    left_p += 0.5 * h * constraint_force(problem, unknowns.left_q, multipliers[0]);
-    right_p -= 0.5 * h * constraint_force(problem, unknowns.right_q, multipliers[1]);
+    trace.left_impulse = 0.5 * h * constraint_force(problem, unknowns.left_q, multipliers[0]);
+    trace.right_impulse = 0.5 * h * constraint_force(problem, unknowns.right_q, multipliers[1]);
+    left_p += trace.left_impulse;
+    right_p -= trace.right_impulse;
   }
   const auto rates_p = stage_rates(left_p, right_p, unknowns.rates_second, tableau.b, h);
   const auto configurations = stage_values(unknowns.left_q, rates_q, tableau.a, h);
   const auto momenta = stage_values(left_p, rates_p, tableau.a_conjugate, h);
 
-  IntervalTrace trace;
   const Eigen::Index n = problem.configuration_size();
   const auto stages = static_cast<Eigen::Index>(rates_q.size());
   trace.stage_equations.resize(2 * n * stages);
   std::vector<TracedProblem::Values> values;
-  std::vector<ExpressionVector> conditions;  // of holonomic constraints
+  std::vector<ExpressionVector> conditions;  // of constraints
   for (Eigen::Index row = 0; row < stages; ++row) {
     const auto i = static_cast<std::size_t>(row);
     const Expression time = unknowns.t + Expression(tableau.c[row]) * h;
@@ -71,11 +79,15 @@ IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tabl
     trace.stage_equations.segment(2 * row * n, n) = momenta[i] - values[i].momentum;
     trace.stage_equations.segment((2 * row + 1) * n, n) = rates_p[i] - values[i].generalised_force;
     if (multipliers.empty() || has_impulses) continue;
-    trace.stage_equations.segment((2 * row + 1) * n, n) -= constraint_force(problem, configurations[i], multipliers[i]);
-    if (i > 0) conditions.push_back(problem.holonomic_at(configurations[i], rates_q[i]).residual);
+    trace.stage_forces.push_back(constraint_force(problem, configurations[i], multipliers[i]));
+    trace.stage_equations.segment((2 * row + 1) * n, n) -= trace.stage_forces.back();
+    if (i > 0) conditions.push_back(problem.constraints_at(configurations[i], rates_q[i]).residual);
   }
   if (!multipliers.empty()) {
-    if (has_impulses) conditions.push_back(problem.holonomic_at(unknowns.right_q, rates_q[0]).residual);
+    if (has_impulses) {
+      conditions.push_back(problem.constraints_at(unknowns.right_q, rates_q[0]).residual);
+      conditions.push_back(velocity_conditions(problem, configurations[0], rates_q[0]));
+    }
     const State right{unknowns.right_q, rates_q.back(), unknowns.t + h, unknowns.right_y};
     conditions.push_back(hidden_constraint(problem, right, unknowns.right_second));
     trace.stage_equations = stacked({trace.stage_equations, stacked(conditions)});
@@ -96,6 +108,12 @@ Eigen::Index TangentElement::multipliers(const Tableau& tableau) const {
         "or 3");
   }
   return s == 1 ? 2 : s + 2;
+}
+
+std::vector<bool> TangentElement::velocity_multipliers(const Tableau& tableau) const {
+  std::vector<bool> of_velocity(static_cast<std::size_t>(multipliers(tableau)), true);
+  of_velocity[static_cast<std::size_t>(tableau.stages())] = false;  // μ
+  return of_velocity;
 }
 
 IntervalTrace TangentElement::trace(const TracedProblem& problem, const Tableau& tableau,
@@ -119,8 +137,9 @@ IntervalTrace TangentElement::trace(const TracedProblem& problem, const Tableau&
   const Eigen::Index n = problem.configuration_size();
   const auto stages = static_cast<Eigen::Index>(rates_q.size());
   trace.stage_equations.resize(2 * n * stages);
+  if (!multipliers.empty()) trace.left_impulse = trace.right_impulse = ExpressionVector(n);
   std::vector<TracedProblem::Values> values;
-  std::vector<ExpressionVector> conditions;  // of holonomic constraints
+  std::vector<ExpressionVector> conditions;  // of constraints
   for (Eigen::Index row = 0; row < stages; ++row) {
     const auto i = static_cast<std::size_t>(row);
     const Expression time = unknowns.t + Expression(tableau.c[row]) * h;
@@ -132,14 +151,16 @@ IntervalTrace TangentElement::trace(const TracedProblem& problem, const Tableau&
     if (problem.first_order_size() > 0) momentum_rate += values[i].momentum_by_first_order * unknowns.rates_y[i];
     trace.stage_equations.segment((2 * row + 1) * n, n) = momentum_rate - values[i].generalised_force;
     if (multipliers.empty()) continue;
-    trace.stage_equations.segment((2 * row + 1) * n, n) -= constraint_force(problem, configurations[i], multipliers[i]);
-    const TracedProblem::HolonomicValues holonomic = problem.holonomic_at(configurations[i], velocities[i]);
-    if (s > 1) conditions.emplace_back(holonomic.jacobian * rates_v[i] + holonomic.curvature);
+    trace.stage_forces.push_back(constraint_force(problem, configurations[i], multipliers[i]));
+    trace.stage_equations.segment((2 * row + 1) * n, n) -= trace.stage_forces.back();
+    const TracedProblem::ConstraintValues at = problem.constraints_at(configurations[i], velocities[i]);
+    if (s > 1) conditions.emplace_back(at.jacobian * rates_v[i] + at.curvature);
   }
   if (!multipliers.empty()) {
-    const TracedProblem::HolonomicValues right = problem.holonomic_at(unknowns.right_q, unknowns.right_second);
+    const TracedProblem::ConstraintValues right = problem.constraints_at(unknowns.right_q, unknowns.right_second);
     conditions.push_back(right.residual);
-    conditions.emplace_back(right.jacobian * unknowns.right_second);
+    // In the order of the multipliers: λ_1 if it serves this one, otherwise ν, after μ.
+    conditions.insert(s > 1 ? conditions.end() : conditions.begin(), right.jacobian * unknowns.right_second);
     trace.stage_equations = stacked({trace.stage_equations, stacked(conditions)});
   }
   trace.cost = quadrature_of_cost(values, tableau.b, h);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "methods/transcription/elements/element.hpp"
 
@@ -16,14 +17,16 @@ namespace dmocbench {
 /// Holonomic constraints, by Gauss with one stage: p_k - (h/2) Gᵀ(q_k) λ⁺ and p_{k+1} + (h/2) Gᵀ(q_{k+1}) λ⁻ stand in
 /// the place of the momenta of the nodes. By Lobatto: the force -Gᵀ(Q_i) λ_i at every stage. Further equations: g = 0
 /// at Q_2 .. Q_s (Gauss: at q_{k+1}) and G H_p(q_{k+1}, p_{k+1}) = 0. L has to be quadratic in the velocity, L_vv needs
-/// nonzero leading minors. With an embedding in their place (one Gauss stage) the equations are p_k = p_k⁻ and
-/// p_{k+1} = p_{k+1}⁺, DMOC's momenta.
+/// nonzero leading minors. Velocity constraints A(q) q̇ = 0 (one Gauss stage) have the same multipliers and impulses,
+/// and A(Q_1) Q̇_1 = 0 in the place of g = 0. With an embedding in their place (one Gauss stage) the equations are p_k =
+/// p_k⁻ and p_{k+1} = p_{k+1}⁺, DMOC's momenta.
 class HamiltonianElement final : public Element {
  public:
   [[nodiscard]] std::string name() const override { return "hamiltonian"; }
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] NodeState node_state() const override { return NodeState::momentum; }
   [[nodiscard]] Eigen::Index multipliers(const Tableau& tableau) const override;
+  [[nodiscard]] std::vector<bool> velocity_multipliers(const Tableau& tableau) const override;
   [[nodiscard]] bool takes_embedding(const Tableau& tableau) const override { return tableau.stages() == 1; }
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const override;
@@ -41,13 +44,15 @@ class HamiltonianElement final : public Element {
 /// the quadratures, G at (q_k + q_{k+1})/2. Further equations: g = 0 and G v = 0 at the right node, which μ and ν
 /// serve, and the acceleration condition G V̇_i + Ġ V_i = 0 at every stage. Gauss with one stage has neither this nor ν:
 /// λ_1 serves G v = 0. (Hermite-Simpson collocation in DIRCON, by Posa, Kuindersma and Tedrake, has acceleration
-/// conditions at the nodes only and no ν; its order is the same.)
+/// conditions at the nodes only and no ν; its order is the same.) Velocity constraints have the same conditions and
+/// multipliers, without g = 0 and μ.
 class TangentElement final : public Element {
  public:
   [[nodiscard]] std::string name() const override { return "tangent"; }
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] NodeState node_state() const override { return NodeState::velocity; }
   [[nodiscard]] Eigen::Index multipliers(const Tableau& tableau) const override;
+  [[nodiscard]] std::vector<bool> velocity_multipliers(const Tableau& tableau) const override;
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const override;
 };

@@ -14,10 +14,15 @@ Eigen::Index DmocElement::multipliers(const Tableau& tableau) const {
   throw Error("dmoc supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
 }
 
+std::vector<bool> DmocElement::velocity_multipliers(const Tableau& tableau) const {
+  if (tableau.stages() == 1) return {true};
+  throw Error("dmoc supports velocity_constraints with --tableau gauss --stages 1 only");
+}
+
 IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& tableau,
                                  const IntervalUnknowns& unknowns) const {
-  const ExpressionVector left = problem.in_stages(unknowns.left_q);
-  const ExpressionVector right = problem.in_stages(unknowns.right_q);
+  const ExpressionVector left = problem.in_stages(unknowns.left_q, unknowns.t);
+  const ExpressionVector right = problem.in_stages(unknowns.right_q, unknowns.t + unknowns.h);
   const auto rates = stage_rates(left, right, unknowns.rates_q, tableau.b, unknowns.h);
   const auto configurations = stage_values(left, rates, tableau.a, unknowns.h);
   return lagrange_d_alembert(problem, tableau, unknowns, {configurations, rates, unknowns.controls}, tableau.b);
@@ -38,9 +43,11 @@ IntervalTrace lagrange_d_alembert(const TracedProblem& problem, const Tableau& t
     trace.stages.push_back({configurations[i], rates[i], controls[i], time, unknowns.stage_y(i)});
     values.push_back(problem.of_stages().at(trace.stages.back()));
     pairs.push_back({{configurations[i], values[i].generalised_force}, {rates[i], values[i].momentum}});
+    if (!unknowns.multipliers.empty() && rates.size() > 1) trace.stage_forces.emplace_back(configurations[i].size());
     if (i == 0 || i >= unknowns.multipliers.size()) continue;
-    pairs.back().push_back({configurations[i], constraint_force(problem, configurations[i], unknowns.multipliers[i])});
-    conditions.push_back(problem.holonomic_at(configurations[i], rates[i]).residual);
+    trace.stage_forces.back() = constraint_force(problem, configurations[i], unknowns.multipliers[i]);
+    pairs.back().push_back({configurations[i], trace.stage_forces.back()});
+    conditions.push_back(problem.constraints_at(configurations[i], rates[i]).residual);
   }
   const auto vary = [&](const ExpressionVector& x) { return variation(x, pairs, tableau.b, h); };
   trace.left_rows = vary(unknowns.left_q);
@@ -53,8 +60,11 @@ IntervalTrace lagrange_d_alembert(const TracedProblem& problem, const Tableau& t
   }
   if (!unknowns.multipliers.empty()) {
     const Expression weight = h * Expression(rates.size() == 1 ? 0.5 : tableau.b[0]);
-    trace.left_rows += weight * constraint_force(problem, unknowns.left_q, unknowns.multipliers.front());
-    conditions.push_back(problem.holonomic_at(unknowns.right_q, rates.back()).residual);
+    trace.left_impulse = weight * constraint_force(problem, unknowns.left_q, unknowns.multipliers.front());
+    trace.right_impulse = ExpressionVector(n);
+    trace.left_rows += trace.left_impulse;
+    conditions.push_back(problem.constraints_at(unknowns.right_q, rates.back()).residual);
+    conditions.push_back(velocity_conditions(problem, configurations.front(), rates.front()));
     trace.stage_equations = stacked({trace.stage_equations, stacked(conditions)});
   }
   trace.cost = quadrature_of_cost(values, tableau.b, h);

@@ -23,6 +23,8 @@ namespace dmocbench {
 /// b_1, so that λ_k refers to the step of its right interval; work is done by -Gᵀ(Q_i) λ_i at
 /// interior stages. Further equations of the interval: g(Q_i) = 0 there and g(q_{k+1}) = 0. Node N has a multiplier of
 /// its own (`end_functions`).
+/// Velocity constraints A(q) q̇ = 0 (one Gauss stage) have the same multipliers and forces -Aᵀ(q_k) λ_k; their further
+/// equation is A(Q_1) Q̇_1 = 0, in the middle.
 /// With an embedding q = Φ(θ) in their place (one Gauss stage) nodes carry θ: the interval reaches from Φ(θ_k) to
 /// Φ(θ_{k+1}), and its terms are derivatives by θ.
 /// Momenta: the forced discrete Legendre transforms (eq:varmech_dlegf), p_k = -(term at node k) and
@@ -34,6 +36,7 @@ class DmocElement final : public Element {
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] NodeState node_state() const override { return NodeState::configuration; }
   [[nodiscard]] Eigen::Index multipliers(const Tableau& tableau) const override;
+  [[nodiscard]] std::vector<bool> velocity_multipliers(const Tableau& tableau) const override;
   [[nodiscard]] bool takes_embedding(const Tableau& tableau) const override { return tableau.stages() == 1; }
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const override;

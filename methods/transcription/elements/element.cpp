@@ -10,6 +10,10 @@ Eigen::Index Element::multipliers(const Tableau& /*tableau*/) const {
   throw Error("constraints g(q) = 0 are not supported with --method " + name() + "; use dmoc, hamiltonian or tangent");
 }
 
+std::vector<bool> Element::velocity_multipliers(const Tableau& /*tableau*/) const {
+  throw Error("velocity_constraints are not supported with --method " + name() + "; use dmoc, hamiltonian or tangent");
+}
+
 bool Element::takes_embedding(const Tableau& /*tableau*/) const { return false; }
 
 IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem, const Element& element,
@@ -31,9 +35,13 @@ IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& probl
   for (Eigen::Index j = 0; j < interior && second > 0; ++j) unknowns.rates_second.push_back(counter.take(n));
   for (Eigen::Index j = 0; j < interior_y; ++j) unknowns.rates_y.push_back(counter.take(problem.first_order_size()));
   for (Eigen::Index i = 0; i < controls; ++i) unknowns.controls.push_back(counter.take(problem.control_size()));
-  const Eigen::Index c = problem.holonomic_count();
-  const Eigen::Index multipliers = c > 0 ? element.multipliers(tableau) : 0;
-  for (Eigen::Index i = 0; i < multipliers; ++i) unknowns.multipliers.push_back(counter.take(c));
+  if (problem.constraint_count() == 0) return unknowns;
+  std::vector<bool> of_velocity;
+  if (problem.velocity_constraint_count() > 0) of_velocity = element.velocity_multipliers(tableau);
+  of_velocity.resize(static_cast<std::size_t>(element.multipliers(tableau)), false);
+  for (const bool of_all : of_velocity) {
+    unknowns.multipliers.push_back(counter.take(of_all ? problem.constraint_count() : problem.holonomic_count()));
+  }
   return unknowns;
 }
 
@@ -41,8 +49,9 @@ bool has_stages_at_nodes(const Tableau& tableau) { return tableau.c.minCoeff() =
 
 bool takes_constraints(const Element& element, const TracedProblem& problem, const Tableau& tableau) {
   if (problem.has_embedding()) return element.takes_embedding(tableau);
-  if (problem.holonomic_count() == 0) return true;
+  if (problem.constraint_count() == 0) return true;
   try {
+    if (problem.velocity_constraint_count() > 0) static_cast<void>(element.velocity_multipliers(tableau));
     return element.multipliers(tableau) > 0;
   } catch (const Error&) {
     return false;
@@ -51,7 +60,13 @@ bool takes_constraints(const Element& element, const TracedProblem& problem, con
 
 ExpressionVector constraint_force(const TracedProblem& problem, const ExpressionVector& q,
                                   const ExpressionVector& multiplier) {
-  return -(problem.holonomic_at(q, ExpressionVector(q.size())).jacobian.transpose() * multiplier);
+  const ExpressionMatrix jacobian = problem.constraints_at(q, ExpressionVector(q.size())).jacobian;
+  return -(jacobian.topRows(multiplier.size()).transpose() * multiplier);
+}
+
+ExpressionVector velocity_conditions(const TracedProblem& problem, const ExpressionVector& q,
+                                     const ExpressionVector& v) {
+  return problem.constraints_at(q, v).jacobian.bottomRows(problem.velocity_constraint_count()) * v;
 }
 
 std::vector<ExpressionVector> stage_rates(const ExpressionVector& left, const ExpressionVector& right,

@@ -34,7 +34,8 @@ struct IntervalUnknowns {
   ExpressionVector right_y;                    ///< y_{k+1}
   std::vector<ExpressionVector> rates_y;       ///< Ẏ_1 .. Ẏ_s of which the last is eliminated; none without y
   std::vector<ExpressionVector> stages_y;      ///< Y_i = y_k + h Σ_j a_ij Ẏ_j; none without y
-  /// λ of the holonomic constraints, `Element::multipliers` vectors of c entries; none without constraints.
+  /// λ of the constraints, `Element::multipliers` vectors: of all c constraints, or of g(q) = 0 alone; none without
+  /// constraints.
   std::vector<ExpressionVector> multipliers;
   Expression h;  ///< the step
   Expression t;  ///< t_k
@@ -56,6 +57,11 @@ struct IntervalTrace {
   std::vector<ControlledState> stages;
   ExpressionVector left_momentum;   ///< p_k seen from this interval, n entries
   ExpressionVector right_momentum;  ///< p_{k+1} seen from this interval, n entries
+  /// The impulses of the forces of constraint at node k and at node k + 1 that belong to this interval, n entries each;
+  /// empty without constraints. With them p_{k+1}·ξ(q_{k+1}) - p_k·ξ(q_k) balances the work along a symmetry ξ.
+  ExpressionVector left_impulse;
+  ExpressionVector right_impulse;              ///< see `left_impulse`
+  std::vector<ExpressionVector> stage_forces;  ///< the forces of constraint at the stages; none where all are impulses
 };
 
 /// One interval of a direct transcription, for any Butcher tableau: the part that distinguishes methods.
@@ -117,6 +123,8 @@ class Element {
   /// How many multipliers each holonomic constraint has per interval: as many as its conditions among the stage
   /// equations. Throws `Error` if constraints are not offered with the tableau; default: with none.
   [[nodiscard]] virtual Eigen::Index multipliers(const Tableau& tableau) const;
+  /// For each of them, whether velocity constraints have it too, and its condition. Throws likewise.
+  [[nodiscard]] virtual std::vector<bool> velocity_multipliers(const Tableau& tableau) const;
   /// Whether nodes may carry θ of an embedding q = Φ(θ) instead (`EmbeddedProblem`); default: no.
   [[nodiscard]] virtual bool takes_embedding(const Tableau& tableau) const;
   /// The tableau at whose stages rates of q are unknowns, all but the last. Throws `Error` if the element cannot be
@@ -134,7 +142,7 @@ class Element {
 };
 
 /// The unknowns of an interval of an element as the next inputs of `counter`: nodes (q, p or v, y), rates of q, of p or
-/// v and of y, controls, multipliers of holonomic constraints. h, t, the last rate of y and its stages are left to the
+/// v and of y, controls, multipliers of constraints. h, t, the last rate of y and its stages are left to the
 /// caller.
 [[nodiscard]] IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem,
                                              const Element& element, const Tableau& tableau);
@@ -146,15 +154,19 @@ class Element {
 /// Whether a tableau has stages at both ends of an interval, as Lobatto's has.
 [[nodiscard]] bool has_stages_at_nodes(const Tableau& tableau);
 
-/// Whether a method has the holonomic constraints of a problem with a tableau, or takes its embedding; true of problems
-/// without.
+/// Whether a method has the constraints of the motion of a problem with a tableau, or takes its embedding; true of
+/// problems without.
 [[nodiscard]] bool takes_constraints(const Element& element, const TracedProblem& problem, const Tableau& tableau);
 
 // Formulas that the families share.
 
-/// -Gᵀλ at a configuration: the force of the holonomic constraints, n entries.
+/// -Gᵀλ at a configuration: the force of the constraints, n entries; λ of the first ones, or of all.
 [[nodiscard]] ExpressionVector constraint_force(const TracedProblem& problem, const ExpressionVector& q,
                                                 const ExpressionVector& multiplier);
+
+/// A(q) v of the velocity constraints, an entry each.
+[[nodiscard]] ExpressionVector velocity_conditions(const TracedProblem& problem, const ExpressionVector& q,
+                                                   const ExpressionVector& v);
 
 /// All s stage rates: the interior ones and the last, K_s = ((x_{k+1} - x_k)/h - Σ_{j<s} b_j K_j) / b_s.
 [[nodiscard]] std::vector<ExpressionVector> stage_rates(const ExpressionVector& left, const ExpressionVector& right,

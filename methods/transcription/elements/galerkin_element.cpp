@@ -29,7 +29,7 @@ Eigen::MatrixXd integrals_to(const Eigen::VectorXd& c, const Tableau& stages) {
 Tableau tableau_of_space(std::string_view family, int stages, std::string_view what) {
   const std::vector<int> offered = tableau_stages(family);
   if (std::ranges::count(offered, stages) > 0) return make_tableau(family, stages);
-  throw Error(fmt::format("galerkin: {} is one of {}, not {}", what, fmt::join(offered, ", "), stages));
+  throw Error(fmt::format("galerkin: {} must be one of {}, not {}", what, fmt::join(offered, ", "), stages));
 }
 
 /// `space` if the quadrature has enough points for it; `what` names its size, such as "degree 3".

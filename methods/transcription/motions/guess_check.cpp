@@ -10,8 +10,8 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/formulas_along_motion.hpp"
-#include "methods/mechanics/holonomic_constraints.hpp"
 #include "methods/mechanics/member_name.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
@@ -78,8 +78,8 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
 
   const Eigen::MatrixXd table = traced.table(points, times);
   GuessMagnitudes magnitudes;
-  std::optional<HolonomicConstraints> constraints;
-  if (traced.holonomic_count() > 0) constraints.emplace(traced);
+  std::optional<MotionConstraints> constraints;
+  if (traced.constraint_count() > 0) constraints.emplace(traced);
   FormulaCheck check(problem, FormulaCheck::Derivatives::second);
   for (Eigen::Index i = 0; i < table.rows(); ++i) {
     const Eigen::VectorXd values = table.row(i);
@@ -98,8 +98,9 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
     if (constraints) {
       constraints->evaluate(q);
       if (!is_invertible(saddle_matrix(mass, constraints->jacobian()))) {
-        throw Error(place_of(times[i], problem, grid) +
-                    "(L_vv, G'; G, 0) is singular: constraints, G = dg/dq, are dependent there, or L is not regular");
+        throw Error(
+            place_of(times[i], problem, grid) +
+            "(L_vv, G'; G, 0) is singular: constraints, G = dg/dq or A, are dependent there, or L is not regular");
       }
       if (!needs_mass) continue;
     }

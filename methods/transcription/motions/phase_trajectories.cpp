@@ -82,6 +82,9 @@ std::vector<PhaseTrajectory> phase_trajectories(const PhasedProblem& problem, co
     own.stage_v = columns(all.stage_v, part.q, 1.0 / share);
     own.stage_u = columns(all.stage_u, part.u);
     own.stage_p = columns(all.stage_p, part.q);
+    own.left_impulses = columns(all.left_impulses, part.q);
+    own.right_impulses = columns(all.right_impulses, part.q);
+    own.stage_constraint_forces = columns(all.stage_constraint_forces, part.q, 1.0 / share);
     own.y = columns(all.y, part.y);
     own.stage_y = columns(all.stage_y, part.y);
     own.stage_y_rates = columns(all.stage_y_rates, part.y, 1.0 / share);

@@ -52,11 +52,19 @@ struct Trajectory {
   Eigen::MatrixXd psi_q;
   Eigen::MatrixXd psi_p;  ///< see `psi_q`
   /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, where bounds on velocities,
-  /// path constraints and holonomic constraints have multipliers of their own there, and of shooting, whose stages are
-  /// not unknowns.
+  /// path constraints and constraints of the motion have multipliers of their own there, and of shooting, whose stages
+  /// are not unknowns.
   Eigen::MatrixXd stage_psi_q;
   Eigen::MatrixXd stage_psi_p;  ///< see `stage_psi_q`
   Eigen::MatrixXd stage_psi_y;  ///< of first-order states, N s × l; see `stage_psi_q`
+
+  /// The impulses of the forces of constraint at both nodes of interval k that act within it, N × n each; empty without
+  /// constraints. With the projected momenta, p_{k+1} = right_impulses + P_{k+1}, p_k = P_k - left_impulses, where P
+  /// are the momenta of the motion between both nodes without impulses at them (DMOC and Hamiltonian collocation).
+  Eigen::MatrixXd left_impulses;
+  Eigen::MatrixXd right_impulses;           ///< see `left_impulses`
+  Eigen::MatrixXd stage_constraint_forces;  ///< forces of constraint at the stages, N s × n; without rows where all of
+                                            ///< them are impulses
 
   double cost = 0.0;  ///< the true cost, not the scaled one
 

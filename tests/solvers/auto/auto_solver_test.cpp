@@ -169,7 +169,7 @@ TEST(AutoSolver, PassesAnObstacleStraightAheadOnOneSide) {
   const Solution solution = solved_past_a_circle(0.0);
   EXPECT_TRUE(is_solved(solution.status)) << solution.message;
   EXPECT_NEAR(solution.objective, 4.0, 1e-6);
-  EXPECT_THAT(solution.failed_before, testing::HasSubstr("next to the guess"));
+  EXPECT_THAT(solution.failed_before, testing::HasSubstr("near the guess"));
 }
 
 TEST(Settle, CallsOneOfManyTrajectoriesSolvedAndSaysThatThereAreOthers) {

@@ -77,7 +77,7 @@ void take_step(QuadraticIterate& iterate, const PricedColumn& entering, const Mi
   std::vector<Eigen::Index> moving = iterate.sets().basics();
   moving.push_back(entering.column);  // it may reach its own other bound
   const RatioTest test = ratio_test(iterate, moving, change, std::numeric_limits<double>::infinity());
-  if (!test.blocking) throw Breakdown("no constraint stops a column that lowers the infeasibility");
+  if (!test.blocking) throw Breakdown("no constraint limits a step that lowers the infeasibility");
 
   const Eigen::Index leaving = moving[*test.blocking];
   const bool crosses = leaving == entering.column;

@@ -1,33 +1,35 @@
-#include "methods/mechanics/holonomic_constraints.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 
 #include <cmath>
+#include <span>
 
 #include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
+#include "methods/expression/schedule.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 
-HolonomicConstraints::HolonomicConstraints(const TracedProblem& problem)
+MotionConstraints::MotionConstraints(const TracedProblem& problem)
     : n_(problem.configuration_size()),
-      c_(problem.holonomic_count()),
+      c_(problem.constraint_count()),
+      holonomic_(problem.holonomic_count()),
       function_(n_, problem.control_size(),
                 [&](const ControlledState& x) {
-                  const TracedProblem::HolonomicValues values = problem.holonomic_at(x.q, x.v);
-                  ExpressionVector outputs(c_ + c_ * n_ + c_ * n_ * n_);
+                  const TracedProblem::ConstraintValues values = problem.constraints_at(x.q, x.v);
                   const ExpressionVector entries = values.jacobian.reshaped();
-                  outputs << values.residual, entries, dmocbench::jacobian(entries, x.q).reshaped();
-                  return outputs;
+                  return stacked({values.residual, entries, dmocbench::jacobian(entries, x.q).reshaped()});
                 }),
       values_(function_.output_count()) {}
 
-void HolonomicConstraints::evaluate(const Eigen::VectorXd& q) {
+void MotionConstraints::evaluate(const Eigen::VectorXd& q) {
   function_.evaluate(q, Eigen::VectorXd::Zero(n_), Eigen::VectorXd(), 0.0, values_);
 }
 
-void HolonomicConstraints::project(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> v) {
+void MotionConstraints::project(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eigen::VectorXd> v) {
   constexpr int most_steps = 3;  // from near the manifold each doubles the digits
-  const auto least = [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {
-    const Eigen::MatrixXd by_q = jacobian();
+  const auto least = [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {  // of the first constraints
+    const Eigen::MatrixXd by_q = jacobian().topRows(change.size());
     return by_q.transpose() * solve_square(Eigen::MatrixXd(by_q * by_q.transpose()), change);
   };
   for (int step = 0; step < most_steps; ++step) {
@@ -38,7 +40,7 @@ void HolonomicConstraints::project(Eigen::Ref<Eigen::VectorXd> q, Eigen::Ref<Eig
   v -= least(jacobian() * v);
 }
 
-Eigen::MatrixXd HolonomicConstraints::hessian(const Eigen::VectorXd& mu) const {
+Eigen::MatrixXd MotionConstraints::force_by_configuration(const Eigen::VectorXd& mu) const {
   // Entry (a, i) of G stands in row a + c i, its derivative by q_j in column j.
   const auto second = values_.tail(c_ * n_ * n_).reshaped(c_ * n_, n_);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n_, n_);
@@ -46,6 +48,37 @@ Eigen::MatrixXd HolonomicConstraints::hessian(const Eigen::VectorXd& mu) const {
     for (Eigen::Index a = 0; a < c_; ++a) sum.row(i) += mu[a] * second.row(a + c_ * i);
   }
   return sum;
+}
+
+ExpressionVector constraint_multipliers(const Problem& problem, const ControlledState& x) {
+  constexpr std::size_t own = 4096;  // where inputs of these formulas begin, after the parameters
+  const Eigen::Index n = x.q.size();
+  InputCounter inputs(own);
+  ControlledState at{inputs.take(n), inputs.take(n), inputs.take(x.u.size()), {}};
+  at.y = inputs.take(x.y.size());
+  at.t = inputs.take();
+  const Expression lagrangian = problem.lagrangian(at.state());
+  const ExpressionVector momentum = gradient(lagrangian, at.v);
+  ExpressionVector right = gradient(lagrangian, at.q) + problem.force(at) - jacobian(momentum, at.q) * at.v;
+  right -= jacobian(momentum, ExpressionVector::Constant(1, at.t));
+  if (at.y.size() > 0) right -= jacobian(momentum, at.y) * problem.first_order_rates(at);
+  const ExpressionMatrix of_g = jacobian(problem.constraints(at.q), at.q);
+  const ExpressionMatrix of_rates = jacobian(problem.velocity_constraints(at.q, at.v), at.v);
+  ExpressionMatrix by_v(of_g.rows() + of_rates.rows(), n);  // G
+  by_v.topRows(of_g.rows()) = of_g;
+  by_v.bottomRows(of_rates.rows()) = of_rates;
+  const ExpressionMatrix mass = jacobian(momentum, at.v);
+  ExpressionMatrix moved(n, by_v.rows());  // L_vv⁻¹ Gᵀ
+  for (Eigen::Index a = 0; a < by_v.rows(); ++a) moved.col(a) = solve_symmetric(mass, by_v.row(a).transpose());
+  const ExpressionVector rate = by_v * solve_symmetric(mass, right) + jacobian(by_v * at.v, at.q) * at.v;
+  const Schedule formulas(solve_symmetric(by_v * moved, rate));
+  std::vector<Expression> point(own);
+  for (std::size_t i = 0; i < own; ++i) point[i] = Expression::input(i);
+  append(point, stacked({x.q, x.v, x.u, x.y}));
+  point.push_back(x.t);
+  const std::vector<Expression> result =
+      replay<Expression>(formulas, std::span<const Expression>(point).first(formulas.input_count()));
+  return Eigen::Map<const ExpressionVector>(result.data(), std::ssize(result));
 }
 
 std::vector<Eigen::Index> independent_columns(Eigen::MatrixXd jacobian, const std::vector<bool>& is_preferred) {
