@@ -115,6 +115,7 @@ TEST(VaryingParameters, GiveTheProgramThatIsTracedAnew) {
     const std::vector<std::string> open = varying_parameters(*problem);
     if (open.empty()) continue;
     for (const tests::Scheme& scheme : schemes()) {
+      if (!tests::takes_constraints(*problem, scheme)) continue;
       const auto program = transcribe(*problem, scheme, open);
       // Which components of the ends holonomic constraints determine is chosen when a program is set up.
       if (program->traced_problem().holonomic_count() > 0) continue;
