@@ -4,8 +4,10 @@
 #include <ostream>
 #include <string>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "methods/transcription/motions/interpolation.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
 #include "tests/support/value_of.hpp"
@@ -36,20 +38,42 @@ TEST_P(StatedReference, IsWhatGaussWithThreeStagesFinds) {
   EXPECT_NEAR(cost, reference.objective, tolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Smooth, StatedReference,
-    testing::Values(Instance{"double_integrator", 4, {}},
-                    Instance{"double_integrator", 4, {{"distance", 2.0}, {"horizon", 3.0}}},
-                    Instance{"particle_steering", 32, {}}, Instance{"brachistochrone", 16, {}},
-                    Instance{"cart_pole", 64, {}}, Instance{"planar_quadrotor", 48, {}},
-                    Instance{"planar_quadrotor_flip", 64, {}}, Instance{"orbital_transfer", 32, {}},
-                    Instance{"orbital_transfer", 128, {{"revolutions", 10.0}}}, Instance{"link_chain", 96, {}},
-                    Instance{"link_chain", 64, {{"links", 2.0}}}, Instance{"spherical_pendulum", 24, {}},
-                    Instance{"hovercraft", 32, {}}, Instance{"double_oscillator", 32, {}},
-                    Instance{"rigid_quadrotor", 32, {}}, Instance{"cannonball", 128, {}},
-                    Instance{"hanging_chain", 128, {}}, Instance{"two_link_with_motors", 128, {}},
-                    Instance{"waypoints", 6, {}}, Instance{"orbital_transfer_with_mass", 32, {}}),
-    [](const auto& instance) { return instance.param.problem + (instance.param.settings.empty() ? "" : "_as_set"); });
+INSTANTIATE_TEST_SUITE_P(Smooth, StatedReference,
+                         testing::Values(Instance{"double_integrator", 4, {}},
+                                         Instance{"double_integrator", 4, {{"distance", 2.0}, {"horizon", 3.0}}},
+                                         Instance{"particle_steering", 32, {}}, Instance{"brachistochrone", 16, {}},
+                                         Instance{"cart_pole", 64, {}}, Instance{"planar_quadrotor", 48, {}},
+                                         Instance{"planar_quadrotor_flip", 64, {}},
+                                         Instance{"orbital_transfer", 32, {}},
+                                         Instance{"orbital_transfer", 128, {{"revolutions", 10.0}}},
+                                         Instance{"link_chain", 96, {}}, Instance{"link_chain", 64, {{"links", 2.0}}},
+                                         Instance{"spherical_pendulum", 24, {}}, Instance{"hovercraft", 32, {}},
+                                         Instance{"double_oscillator", 32, {}}, Instance{"rigid_quadrotor", 32, {}},
+                                         Instance{"cannonball", 128, {}}, Instance{"hanging_chain", 128, {}},
+                                         Instance{"waypoints", 6, {}}, Instance{"orbital_transfer_with_mass", 32, {}}),
+                         [](const auto& instance) {
+                           return instance.param.problem + (instance.param.settings.empty() ? "" : "_as_set");
+                         });
+
+// From the guess each method and grid finds another minimum.
+TEST(References, OfTheArmWithMotorsIsTheMinimumNextToTheOptimumOfTheArm) {
+  const auto arm = make_problem("two_link_manipulator");
+  const tests::Solved solved = tests::solve(*arm, {"dmoc", 1}, Grid::uniform(64), guessed_motion(*arm));
+  const Motion of_arm = smooth_motion(solved.trajectory);
+  const auto with_currents = [&](double t) {
+    MotionPoint point = of_arm.at(t);
+    point.y = Eigen::Vector2d(point.u[0] + point.u[1], point.u[1]);  // torques are differences of currents
+    point.u = point.y + Eigen::Vector2d(point.v[0], point.v[1] - point.v[0]);
+    return point;
+  };
+  const auto problem = make_problem("two_link_with_motors");
+  const auto reference = tests::value_of(problem->card().reference);
+  for (const char* method : {"dmoc", "tangent"}) {
+    const tests::Solved found =
+        tests::solve(*problem, {method, 3}, Grid::uniform(128), {.at = with_currents, .horizon = of_arm.horizon});
+    EXPECT_NEAR(found.trajectory.cost, reference.objective, 1e-7 * reference.objective) << method;
+  }
+}
 
 TEST(References, SayHowTheyAreKnown) {
   for (const std::string& name : problem_names()) {
