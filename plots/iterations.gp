@@ -70,7 +70,7 @@ do for [name in "iterations iterations_limited_memory"] {
              linetype method_style(entry(curve, "method")) pointsize size(curve, 1)\
              title minor_label(name, where, curve, "minor_iterations"),\
            keyentry with lines linecolor rgb "white"\
-             title (words(crash) > 0 ? "{/:Bold from a first basis chosen for free}" : ""),\
+             title (words(crash) > 0 ? "{/:Bold from a first basis chosen without iterations}" : ""),\
            for [k = 1:words(crash)] rows(name, with_start(word(crash, k), "basis"), "minor_iterations")\
              using (column("intervals")):(column("minor_iterations")) with points\
              linetype method_style(entry(word(crash, k), "method")) pointsize size(word(crash, k), 0)\

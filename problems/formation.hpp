@@ -24,7 +24,7 @@ class Formation final : public Problem {
  public:
   Formation()
       : Problem({{"satellites", 3.0, "", "number k of satellites", 2.0, 12.0, true},
-                 {"distance", 0.5, "km", "the least distance d of two satellites", 0.0, 2.0},
+                 {"distance", 0.5, "km", "the least distance d between two satellites", 0.0, 2.0},
                  {"mean_motion", 1.0, "1/(1000 s)", "of the orbit", 0.0, 10.0},
                  {"attraction", 1.0, "", "weight c of the distances in the cost", 0.0, 1e3}}) {}
 

@@ -235,7 +235,7 @@ Claims flow_claims() {
        .states = "along the continuous flow the momentum changes by the integral of the force along the group action, "
                  "and not at all if the force is orthogonal to it",
        .judge = continuous_noether,
-       .condition = "trajectories integrated as replays are, by an adaptive method of order 7(8)",
+       .condition = "trajectories are integrated like replays, with an adaptive method of order 7(8)",
        .evidence = {"invariants_flow_momentum.csv"}},
       {.id = "lagrangian_form_preserved",
        .problems = simulated,

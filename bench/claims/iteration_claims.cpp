@@ -123,7 +123,7 @@ Finding minor_iterations_from_slacks(const ResultTables& tables, const std::stri
 Finding minor_iterations_from_a_crash_basis(const ResultTables& tables, const std::string& problem) {
   const SqpRatios ratios(sqp_rows(tables, problem, "basis"), "minor_iterations", published_range(problem));
   return found(verdict_on_interval(ratios.lowest(), ratios.highest(), 0.0, ratios.range.lowest),
-               "with the first basis chosen for free, collocation to DMOC {}", ratios.in_words("free basis"))
+               "with the first basis chosen without iterations, collocation to DMOC {}", ratios.in_words("free basis"))
       .also(ratios.rows_left_out());
 }
 
@@ -268,9 +268,8 @@ Claims iteration_claims() {
       {.id = "minor_iterations_saved_in_phase_1",
        .where = section,
        .figure = figure,
-       .states =
-           "the saving lies in phase 1 from the slack basis: from a basis chosen for free it is below the published "
-           "factor on every grid",
+       .states = "the saving lies in phase 1 from the slack basis: from a basis chosen without iterations it is below "
+                 "the published factor on every grid",
        .judge = minor_iterations_from_a_crash_basis,
        .evidence = evidence},
       {.id = "minor_iteration_ratio_with_active_bounds",
@@ -278,7 +277,7 @@ Claims iteration_claims() {
        .where = "section 4.2",
        .states = "minor iterations reflect the reduced number of variables also where bounds are active",
        .judge = minor_iterations_with_active_bounds,
-       .condition = "cold, from the guess; other problems than the paper's, whose controls have no bounds",
+       .condition = "cold, from the guess; problems other than the paper's, whose controls have no bounds",
        .cause = "a step that a bound cuts short costs one additional minor iteration, with collocation as with DMOC",
        .evidence = {"iterations_bounds.csv"}},
   };

@@ -136,8 +136,8 @@ Finding order_of_adjoint_scheme(const ResultTables& tables, const std::string& p
   const double residual = solves.max("adjoint_residual");
   const double plain = lobatto.min("adjoint_residual_by_plain_coefficients");
   return found(verdict_on_orders(orders, residual < rounding_of_costates && plain > far_above_rounding),
-               "costates from the multipliers of {} solves have a residual of at most {:.1e}, relative to the costates "
-               "(Lobatto with halves not exchanged: at least {:.1e})",
+               "costates from the multipliers of {} solves have a relative residual of at most {:.1e} (Lobatto with "
+               "halves not exchanged: at least {:.1e})",
                solves.size(), Measurement{"largest residual of the adjoint scheme", residual},
                Measurement{"smallest residual with coefficients that are not exchanged", plain})
       .also(left_out(all, solves))

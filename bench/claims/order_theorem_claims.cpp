@@ -10,7 +10,7 @@ namespace {
 
 /// One column over another.
 double quotient_of(const Row& row, const char* numerator, const char* denominator) {
-  require(row.needed(denominator) > 0.0, "{}, column {}: it has to be above zero", row.place(), denominator);
+  require(row.needed(denominator) > 0.0, "{}, column {}: the value must be positive", row.place(), denominator);
   return row.needed(numerator) / row.needed(denominator);
 }
 
@@ -63,7 +63,7 @@ Predicate all_hold_with_one_order(std::vector<Statement> statements) {
       words.push_back(
           worded("{}: {} ({})", statement.name, outcome_in_words(verdicts.back()), listed("{:.1f}", slopes)));
     }
-    return found(verdict_on_all(verdicts), "slopes over h by Gauss of order 2, 4, 6: {}", joined(words, "; "));
+    return found(verdict_on_all(verdicts), "slopes over h by Gauss schemes of orders 2, 4, 6: {}", joined(words, "; "));
   };
 }
 

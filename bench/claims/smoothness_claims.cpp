@@ -165,43 +165,42 @@ Claims coercivity_claims() {
 /// Optima that are not smooth, free final states.
 Claims smoothness_claims() {
   const std::vector<std::string> evidence{"smoothness_slopes.csv", "smoothness.csv", "figures/smoothness.svg"};
-  return {
-      {.id = "order_within_control_bounds",
-       .problems = examples,
-       .where = "section 3.6, second remark below main_theorem",
-       .whose = Whose::paper,
-       .states = "the order 2 also holds with constraints on the control",
-       .judge = order_2_within_control_bounds,
-       .evidence = evidence},
-      {.id = "order_with_a_free_end",
-       .problems = examples,
-       .where = "section 3.6, main_theorem",
-       .whose = Whose::paper,
-       .states = "without constraint on the final state, state, costate and u(x, psi) have the order of the method",
-       .judge = free_end_has_the_order,
-       .evidence = evidence},
-      {.id = "kinks_leave_order_2",
-       .problems = examples,
-       .where = "section 3.6, eq:conv_estimate",
-       .states = "where the optimal control has kinks, a method of order 4 has only about order 2",
-       .judge = kinks_leave_order_2,
-       .condition = "tau(d^3 u*/dt^3; h) of eq:conv_estimate does not exist there; of u* and its first derivative it "
-                    "does, which gives h^2",
-       .evidence = evidence},
-      {.id = "order_within_a_state_bound",
-       .problems = examples,
-       .where = "section 3.6, main_theorem",
-       .states =
-           "with a bound on the state that is active along an arc, state, psi^p and u(x, psi) keep order 2, stage "
-           "controls have order 1, and psi^q, which jumps, does not converge",
-       .judge = state_bound_orders,
-       .evidence = evidence},
-      {.id = "brachistochrone_not_coercive",
-       .problems = examples,
-       .where = "section 3.5, assumption of coercivity",
-       .states = "for a problem that is linear in its control, the constant of coercivity tends to 0",
-       .judge = not_coercive,
-       .evidence = {"coercivity.csv"}}};
+  return {{.id = "order_within_control_bounds",
+           .problems = examples,
+           .where = "section 3.6, second remark below main_theorem",
+           .whose = Whose::paper,
+           .states = "the order 2 also holds with constraints on the control",
+           .judge = order_2_within_control_bounds,
+           .evidence = evidence},
+          {.id = "order_with_a_free_end",
+           .problems = examples,
+           .where = "section 3.6, main_theorem",
+           .whose = Whose::paper,
+           .states = "without constraint on the final state, state, costate and u(x, psi) have the order of the method",
+           .judge = free_end_has_the_order,
+           .evidence = evidence},
+          {.id = "kinks_leave_order_2",
+           .problems = examples,
+           .where = "section 3.6, eq:conv_estimate",
+           .states = "where the optimal control has kinks, a method of order 4 has only about order 2",
+           .judge = kinks_leave_order_2,
+           .condition = "tau(d^3 u*/dt^3; h) of eq:conv_estimate does not exist there; it exists for u* and its first "
+                        "derivative, which gives h^2",
+           .evidence = evidence},
+          {.id = "order_within_a_state_bound",
+           .problems = examples,
+           .where = "section 3.6, main_theorem",
+           .states =
+               "with a bound on the state that is active along an arc, state, psi^p and u(x, psi) keep order 2, stage "
+               "controls have order 1, and psi^q, which jumps, does not converge",
+           .judge = state_bound_orders,
+           .evidence = evidence},
+          {.id = "brachistochrone_not_coercive",
+           .problems = examples,
+           .where = "section 3.5, assumption of coercivity",
+           .states = "for a problem that is linear in its control, the constant of coercivity tends to 0",
+           .judge = not_coercive,
+           .evidence = {"coercivity.csv"}}};
 }
 
 }  // namespace dmocbench

@@ -173,7 +173,7 @@ Finding bolza_is_mayer(const ResultTables& tables, const std::string& problem) {
   require(used.size() > 1, "objective.csv and objective_mayer.csv have {} programs of {} solved in both forms",
           used.size(), problem);
   return found(largest < rounding_of_costs,
-               "costs of {} programs by {} in both forms differ by at most {:.0e}, relative", used.size(),
+               "costs of {} programs by {} in both forms have relative differences of at most {:.0e}", used.size(),
                fmt::join(used.distinct("method"), ", "),
                Measurement{"largest relative difference of the costs", largest})
       .also(left_out(all, used, "not solved in both forms, in favour of"));
@@ -220,7 +220,7 @@ Finding costates_keep_their_momentum(const ResultTables& tables, const std::stri
   require(words.size() >= paper_families().size(),
           "equivalence_symmetric.csv has usable rows of {} methods; three are needed", words.size());
   return found(rows.max("costate_momentum_spread") < equal_costates_tolerance,
-               "largest spread of the momentum of the costates, relative: {}", joined(words, "; "))
+               "largest relative spread of the momentum of the costates: {}", joined(words, "; "))
       .also(left_out(all, rows));
 }
 
@@ -312,14 +312,14 @@ Claims solution_claims() {
        .whose = Whose::paper,
        .states = "DMOC and Hamiltonian collocation with the same tableau have equal solutions",
        .judge = equal_solutions,
-       .condition = "fixed ends, no inequality is active, solutions are refined by Newton steps",
+       .condition = "ends are fixed, no inequality is active, and solutions are refined by Newton steps",
        .evidence = equivalence},
       {.id = "bolza_is_mayer",
        .where = "sections 3.1, 3.2 and 3.4, eq:gDLOCP_mayer, eq:dHOCP1_mayer",
        .whose = Whose::paper,
        .states = "the transformation to Mayer form yields exactly the same problem",
        .judge = bolza_is_mayer,
-       .condition = "by the optimal costs of separate solves",
+       .condition = "judged by the optimal costs of separate solves",
        .evidence = {"objective.csv", "objective_mayer.csv"}},
       {.id = "equal_solutions_with_inequalities",
        .problems = examples,
@@ -328,8 +328,8 @@ Claims solution_claims() {
        .states = "DMOC and Hamiltonian collocation have equal solutions also where inequalities are active and the "
                  "horizon is free",
        .judge = equal_with_inequalities,
-       .condition = "odd N: on even ones the symmetric switches of robot_arm fall on nodes, no control is left between "
-                    "its bounds there, so multipliers are not unique",
+       .condition = "odd N: for even N the symmetric switches of robot_arm fall on nodes, where no control lies "
+                    "between its bounds, so multipliers are not unique",
        .evidence = {"equivalence_inequalities.csv"}},
       {.id = "costates_keep_their_momentum",
        .problems = examples,
@@ -342,7 +342,7 @@ Claims solution_claims() {
        .evidence = {"equivalence_symmetric.csv"}},
       {.id = "tangent_differs",
        .where = section,
-       .states = "collocation on the tangent space is another discretisation: its solutions differ from DMOC's",
+       .states = "collocation on the tangent space is a different discretisation: its solutions differ from DMOC's",
        .judge = tangent_differs,
        .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}},
       {.id = "dmoc_is_the_forced_form",

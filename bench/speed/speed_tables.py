@@ -80,10 +80,10 @@ threads integer number of threads
 instances integer number of instances
 repetitions integer number of repetitions
 seconds number [s] time per instance, the median
-seconds_lower number [s] lower end of the 99 % interval of this median
+seconds_lower number [s] lower 99 % confidence limit of this median
 seconds_upper number [s] upper end of this interval
 solves_per_second number [1/s] solves per second, by the median time
-rate_lower number [1/s] lower end of the 99 % interval of this rate
+rate_lower number [1/s] lower 99 % confidence limit of this rate
 rate_upper number [1/s] upper end of this interval
 ratio number seconds by the batch's on all threads, from the same start
 processor_seconds number [s] time of all processors per instance

@@ -217,7 +217,7 @@ SymplecticityTable symplecticity_table(const std::vector<MappedStates>& systems)
                                    from(&Unforced::defect, &SymplecticityDefect::largest)},
                                   {"rounding", "", "machine epsilon times the largest square of an entry of D",
                                    from(&Unforced::defect, &SymplecticityDefect::rounding)},
-                                  {"message", "", "why there is no defect", &Unforced::message}};
+                                  {"message", "", "reason for a missing defect", &Unforced::message}};
   return {.table = table_of(scheme_columns<Unforced>() + columns, rows),
           .unsolved = std::ranges::count_if(rows, [](const Unforced& row) { return !row.defect; })};
 }

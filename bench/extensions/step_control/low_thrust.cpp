@@ -137,8 +137,8 @@ int measure_all(CommandLine& line) {
   std::string revolutions_text = "10,20";
   std::string steps_text = "8,12,16,24,32";
   line.list("--problem", problems, "the transfer in polar coordinates, orbital_transfer, or in Cartesian ones");
-  line.option("--revolutions", revolutions_text, "numbers of revolutions, as 10,20,50 or 10:160");
-  line.option("--steps", steps_text, "numbers of steps per revolution, as 8,16 or 8:32");
+  line.option("--revolutions", revolutions_text, "numbers of revolutions, such as 10,20,50 or 10:160");
+  line.option("--steps", steps_text, "numbers of steps per revolution, such as 8,16 or 8:32");
   TableRun run("low_thrust", line);
   const std::vector<int> all_revolutions = whole_numbers("--revolutions", revolutions_text);
   const std::vector<int> all_steps = whole_numbers("--steps", steps_text);

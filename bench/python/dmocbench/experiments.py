@@ -36,7 +36,7 @@ class Table:
         """Returns a row by its number, or a column by its name."""
         if isinstance(key, str):
             if key not in self.columns:
-                raise Error(f"there is no column {key}; there are {', '.join(self.columns)}")
+                raise Error(f"there is no column {key}; choose one of {', '.join(self.columns)}")
             return [row[key] for row in self.rows]
         return self.rows[key]
 
@@ -148,7 +148,7 @@ _repeated = {"over", "set", "option", "library", "join"}
 
 _without_folder = {"list", "new"}
 _folder_of = {"report": "--from"}
-"""Options of programs in the place of --out."""
+"""Options of programs that replace --out."""
 
 
 def _word(value):
@@ -185,7 +185,7 @@ def run(experiment: Experiment, problem: AnyProblem | Sequence[AnyProblem] | Non
     """
     known = [program for program, _ in _core.programs()]
     if experiment not in known:
-        raise Error(f"there is no experiment {experiment}; there are {', '.join(known)}")
+        raise Error(f"there is no experiment {experiment}; choose one of {', '.join(known)}")
     words = [] if experiment in _without_folder else [_folder_of.get(experiment, "--out"), os.fspath(out)]
     words += [] if name is None else ["--name", name]
     problems = None

@@ -1,4 +1,4 @@
-"""How a problem is stated: a class derived from Problem, with declarative members and formulas."""
+"""The statement of a problem: a class derived from Problem, with declarative members and formulas."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class _Vector:
             if not isinstance(name, str) or not name.isidentifier():
                 raise Error(f"{kind} have names such as \"theta\", not {name!r}")
             if hasattr(Named, name):
-                raise Error(f"{kind} cannot be named {name}, which arrays of numpy have for something else")
+                raise Error(f"{kind} cannot be named {name}, which is already an attribute of numpy arrays")
         if len(set(names)) < len(names):
             raise Error(f"two {kind} have the same name: {', '.join(names)}")
         self.names = tuple(names)
@@ -71,7 +71,7 @@ def _require_known(given, names, what):
     for name in given:
         if name not in names:
             close = difflib.get_close_matches(str(name), names, 1)
-            hint = f"; did you mean {close[0]}?" if close else f"; there are {', '.join(names) or 'none'}"
+            hint = f"; did you mean {close[0]}?" if close else f"; the names are {', '.join(names) or 'none'}"
             raise Error(f"{what} has an entry {name}, which is not a name{hint}")
 
 
@@ -601,4 +601,4 @@ def _refuse_misspelt(problem, name):
                 continue
             close = difflib.get_close_matches(member, _members, 1, cutoff=0.85)
             if close and getattr(problem, close[0], None) is None:
-                raise Error(f"{name} has a member {member}, which nothing reads; did you mean {close[0]}?")
+                raise Error(f"{name} has a member {member}, which is not read; did you mean {close[0]}?")

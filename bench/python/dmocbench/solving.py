@@ -238,7 +238,7 @@ class Solution:
             if name in names:
                 return None if table is None else table[:, names.index(name)]
         there = self.coordinates + self.first_order_states + self.controls
-        raise Error(f"there is no {name}; there are {', '.join(there)}")
+        raise Error(f"there is no {name}; choose one of {', '.join(there)}")
 
     def at(self, t: Any) -> Point:
         """The trajectory at a time, or at an array of times, as a point x: x.q, x.v, x.u, x.y, by index or by name, as in
@@ -363,10 +363,10 @@ _remedies = {
     "several_solvers": "solver=\"auto\": interior_point, then ipopt, then a feasible trajectory as the start.",
     "common_start": "another start: start= with a solution by another method.",
     "another_guess": "another guess, or start= with a solution near the one you want.",
-    "finer_grid": "accuracy=1e-4, or more intervals: with these controls {coordinate} ends {size:.2g} of its range from where it "
-                  "should.",
-    "feedback": "feedback to follow this trajectory. The system is unstable: with these controls alone {coordinate} ends {size:.2g} of "
-                "its range from where it should.",
+    "finer_grid": "accuracy=1e-4, or more intervals: with these controls {coordinate} misses its final value by {size:.2g} of "
+                  "its range.",
+    "feedback": "feedback to follow this trajectory. The system is unstable: with these controls alone {coordinate} misses its final "
+                "value by {size:.2g} of its range.",
 }
 
 
