@@ -34,7 +34,7 @@ do for [problem_word in problems_of(name, "")] {
       || strlen(distinct(name, "method", problem_word, "costate_difference")) == 0) { continue }
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_equivalence", 800)
-    figure_title = title_text(problem_label(problem).": differences of collocation from DMOC by the same tableau",\
+    figure_title = title_text(problem_label(problem).": differences of collocation from DMOC with the same tableau",\
         paper_note(problem, "section 3.4, th:equi").conditions(name)\
         .", then Newton steps.",\
         "Largest difference over nodes and components, relative to the largest value of the quantity by DMOC.")

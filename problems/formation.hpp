@@ -44,7 +44,7 @@ class Formation final : public Problem {
                 *this, {.objective = 7.53865012201,
                         .digits = 12,
                         .certificate = "the flow of the linear boundary value problem up to T/2; DMOC and "
-                                       "tangent-space collocation by Gauss with 4 stages and bounds at T/2 agree"}),
+                                       "tangent-space collocation with 4 Gauss stages and bounds at T/2 agree"}),
             .path_constraint_names = pair_names(),
             .picture = [this](const ControlledState& x) -> Picture {
               Picture quantities;

@@ -105,8 +105,8 @@ class RobotArm : public Problem {
       return ReferenceOptimum{.objective = 7.84473,
                               .digits = 6,
                               .certificate =
-                                  "DMOC and tangent-space collocation by Gauss with 2 stages on 512 intervals, both "
-                                  "replayed, and the limits of both by the midpoint rule; no more digits, because "
+                                  "DMOC and tangent-space collocation with 2 Gauss stages on 512 intervals, both "
+                                  "replayed, and the limits of both with the midpoint rule; no more digits, because "
                                   "u_theta is singular in the middle of the trajectory",
                               .remark = "the published values belong to the equations without Coriolis terms"};
     }

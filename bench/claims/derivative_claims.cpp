@@ -223,7 +223,7 @@ std::vector<Measurement> ratios_by_program(const Setting& setting, const Rivals&
   for (const Row& row : by(rivals.differences)) {
     const Row& other = partner_of(row, exact);
     if (other.text("status").empty()) continue;
-    ratios.push_back({std::string(column) + " by differences over exact derivatives'", quotient(row, other, column),
+    ratios.push_back({std::string(column) + " by differences over exact derivatives", quotient(row, other, column),
                       row.text("method"), fmt::format("{}, N = {}", setting.name, row.text("intervals"))});
   }
   return ratios;

@@ -145,7 +145,7 @@ Claims galerkin_claims() {
   return {
       order("control_space_large_enough", "convergence_galerkin", is_large_enough,
             "with m >= s and any Gauss quadrature of r >= s points state and costates at the nodes have order 2s: "
-            "neither more control nodes nor more quadrature points gain order"),
+            "neither more control nodes nor more quadrature points raise it"),
       order("control_space_too_small", "convergence_galerkin", is_too_small,
             "with m < s the order of state and costates at the nodes is 2m"),
       order("control_space_continuous", "convergence_galerkin_shared", has_any,

@@ -131,8 +131,8 @@ Finding order_of_adjoint_scheme(const ResultTables& tables, const std::string& p
   require(!orders.empty(), "convergence_indirect_slopes.csv has no order of the costate of {}", problem);
   require_all(orders, {"costate"});
   require(!lobatto.empty() && lobatto.size() < solves.size(),
-          "equivalence.csv has {} solves of {} by Lobatto and {} by Gauss; both are needed", lobatto.size(), problem,
-          solves.size() - lobatto.size());
+          "equivalence.csv has {} solves of {} with Lobatto and {} with Gauss; both are needed", lobatto.size(),
+          problem, solves.size() - lobatto.size());
   const double residual = solves.max("adjoint_residual");
   const double plain = lobatto.min("adjoint_residual_by_plain_coefficients");
   return found(verdict_on_orders(orders, residual < rounding_of_costates && plain > far_above_rounding),
@@ -151,7 +151,7 @@ Finding stability_constant(const ResultTables& tables, const std::string& proble
     return is_structured(row) && row.text("tableau") == "gauss" && row.text("stages") == "1";
   });
   const Selection rows = all.where("verdict", "slope");
-  require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} by the midpoint rule among its {}",
+  require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} with the midpoint rule among its {}",
           problem, all.size());
   const auto words = [](const Row& row) {
     const auto ratio = [&](const char* column, const char* grid) {
@@ -190,7 +190,7 @@ Finding order_eight(const ResultTables& tables, const std::string& problem) {
         return row.text("tableau") == "gauss" && row.text("stages") == "4";
       });
   const Selection orders = fitted_of(all);
-  require(!all.empty(), "convergence_indirect_slopes.csv has no order for {} by gauss 4", problem);
+  require(!all.empty(), "convergence_indirect_slopes.csv has no order for {} with gauss 4", problem);
   const auto is_eight = [](const Row& row) { return verdict_on_order(row, 8.0); };
   const auto words = [](const Row& row) {
     const std::string& quantity = row.text("quantity");

@@ -157,7 +157,7 @@ Claims shooting_claims() {
   const std::vector<std::string> cold{"cold_start_shooting_shares.csv", "figures/{}_shooting.svg"};
   const char* const where = "section 3.3, direct methods";
   const char* const by_ipopt =
-      "by Ipopt on one grid; DMOC is of order 2, and shooting by rk4 with one step per interval";
+      "by Ipopt on one grid; DMOC is of order 2, and shooting uses rk4 with one step per interval";
   const auto succeeds_more_often = [](const char* first, const char* second) -> Predicate {
     return [=](const ResultTables& tables, const std::string& problem) {
       return more_often(tables, problem, first, second);

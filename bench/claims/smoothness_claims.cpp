@@ -49,7 +49,7 @@ Finding order_2_within_control_bounds(const ResultTables& tables, const std::str
     return verdict_on_interval(slope - half_width, slope + half_width, 2.0 - beside,
                                std::numeric_limits<double>::infinity());
   };
-  return found(verdict_on_all(orders, is_2), "slopes by the midpoint rule: {}", orders_in_words(orders));
+  return found(verdict_on_all(orders, is_2), "slopes with the midpoint rule: {}", orders_in_words(orders));
 }
 
 Finding kinks_leave_order_2(const ResultTables& tables, const std::string& /*problem*/) {
@@ -63,7 +63,7 @@ Finding kinks_leave_order_2(const ResultTables& tables, const std::string& /*pro
   };
   const auto kept = [](const Row& row) { return verdict_on_order(row, 4.0); };
   return found(verdict_on_all({verdict_on_all(kinked, lost), verdict_on_all(smooth, kept)}),
-               "slopes of the state by Gauss, s = 2, with kinks: {}", orders_in_words(kinked))
+               "slopes of the state with Gauss, s = 2, and kinks: {}", orders_in_words(kinked))
       .also(worded("without: {}", orders_in_words(smooth)));
 }
 
@@ -85,7 +85,7 @@ Finding state_bound_orders(const ResultTables& tables, const std::string& /*prob
   const auto has = [](double order) { return [=](const Row& row) { return verdict_on_order(row, order); }; };
   const ClaimVerdict verdict = verdict_on_all(
       {verdict_on_all(theorem, has(2.0)), verdict_on_all(control, has(1.0)), verdict_on_all(jumping, has(0.0))});
-  return found(verdict, "slopes by the midpoint rule: {}", orders_in_words(theorem))
+  return found(verdict, "slopes with the midpoint rule: {}", orders_in_words(theorem))
       .also(orders_in_words(control))
       .also(orders_in_words(jumping));
 }

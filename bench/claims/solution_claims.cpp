@@ -90,7 +90,7 @@ Finding momentum_consistency(const ResultTables& tables, const std::string& prob
   if (tables.has("consistency_tolerances")) rows.append(tables.rows("consistency_tolerances", problem));
   for (const Row& row : rows) static_cast<void>(row.needed("tolerance"));
   const std::vector<Selection> by_tolerance = rows.where(is_midpoint).sorted_by("tolerance").group_by({"tolerance"});
-  require(!by_tolerance.empty(), "consistency.csv has no row of {} by gauss 1 with a tolerance", problem);
+  require(!by_tolerance.empty(), "consistency.csv has no row of {} with gauss 1 and a tolerance", problem);
   const auto of_grids = [](const Selection& solves) { return MomentumBalance(solves.sorted_by("intervals")); };
   const MomentumBalance balance = of_grids(by_tolerance.front());
   std::vector<Words> others;
@@ -255,7 +255,7 @@ Finding tangent_differs(const ResultTables& tables, const std::string& problem) 
 Finding tangent_coincides(const ResultTables& tables, const std::string& problem) {
   const Selection all = tables.rows("equivalence", problem).where("method", "tangent").where("tableau", "gauss");
   const Selection rows = all.usable();
-  require(!rows.empty(), "equivalence.csv has no solved row of {} by tangent and Gauss", problem);
+  require(!rows.empty(), "equivalence.csv has no solved row of {} by tangent with Gauss", problem);
   const Differences largest(rows);
   return found(largest.are_rounding(), "largest relative difference from DMOC on {} grids: {:.0e}, costates {:.0e}",
                rows.size(), Differences::of("q, p, u and J", largest.primal),
@@ -347,8 +347,8 @@ Claims solution_claims() {
        .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}},
       {.id = "dmoc_is_the_forced_form",
        .where = "section 3.5",
-       .states = "by the midpoint rule the optimality conditions of DMOC and Hamiltonian collocation are the discrete "
-                 "Euler-Lagrange equations of the control Lagrangian C + xi (L_q + f) + xi' L_v",
+       .states = "with the midpoint rule, the optimality conditions of DMOC and Hamiltonian collocation are the "
+                 "discrete Euler-Lagrange equations of the control Lagrangian C + xi (L_q + f) + xi' L_v",
        .judge = dmoc_is_the_forced_form,
        .condition = "the multiplier xi is the costate of the momentum; ends are fixed and no inequality is active; "
                     "control Lagrangians are the topic of Leyendecker et al. (arXiv 2307.13402) and Konopik et al. "
@@ -368,13 +368,13 @@ Claims solution_claims() {
 
 /// Where tangent-space collocation has the solutions of DMOC.
 Claims coincidence_claims() {
-  return {{.id = "tangent_coincides",
-           .problems = Problems(1, oscillator),
-           .where = "section 3.4, ex:RK",
-           .states =
-               "where L_vv and L_vq are constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
-           .judge = tangent_coincides,
-           .evidence = {"equivalence.csv", "figures/{}_equivalence.svg"}}};
+  return {
+      {.id = "tangent_coincides",
+       .problems = Problems(1, oscillator),
+       .where = "section 3.4, ex:RK",
+       .states = "where L_vv and L_vq are constant, tangent-space collocation with Gauss is Hamiltonian collocation",
+       .judge = tangent_coincides,
+       .evidence = {"equivalence.csv", "figures/{}_equivalence.svg"}}};
 }
 
 }  // namespace dmocbench

@@ -55,7 +55,7 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
     return {
         {"factorisation", "", "factorisation of interior_point's linear systems", &Measured::factorisation, in_key},
         {"linear_systems", "", "number of linear systems solved", &Measured::linear_systems},
-        {"seconds_per_iteration", "s", "wall clock time of the solve divided by its iterations",
+        {"seconds_per_iteration", "s", "wall-clock time of the solve divided by its iterations",
          &Measured::per_iteration},
         {"linear_algebra_per_iteration", "s", "the same without evaluations", &Measured::linear_algebra_per_iteration},
         {"seconds_per_linear_system", "s", "factorisation and substitution", &Measured::per_linear_system},

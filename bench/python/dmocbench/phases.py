@@ -190,7 +190,7 @@ def impact(before: PhaseEnd, after: PhaseEnd, guard: Callable[[Any], Any], resti
 def new_foothold(before: PhaseEnd, after: PhaseEnd, lagrangian: Callable[[Point], Any], on_old_foot: Callable[[Any], Any],
                  on_new_foot: Callable[[Any], Any]) -> Sequence[Any]:
     """A new foot lands and stays, the old one leaves. lagrangian(x): of the body in coordinates in which no foot is held;
-    on_old_foot(q), on_new_foot(q): these coordinates, of the ones of the phases before and after."""
+    on_old_foot(q), on_new_foot(q): these coordinates as functions of the coordinates of the phases before and after."""
     return _core.new_foothold(before, after, lambda q, v, t, y: lagrangian(Point(named(q, (), "q"), named(v, (), "v"), None, t,
                                                                                  named(y, (), "y"))),
                               lambda q: on_old_foot(named(q, before.q._names, "q")),

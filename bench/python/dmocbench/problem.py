@@ -170,7 +170,7 @@ class unknown(parameter):
 
 
 class between:
-    """A number that is left open between two bounds. guess: where solves start, by default the middle."""
+    """A number that is left open between two bounds. guess: the value at which solves start, by default the middle."""
 
     def __init__(self, lower: float, upper: float, guess: float | None = None):
         self.lower = _number(lower, "between")
@@ -183,7 +183,7 @@ class between:
 
 
 class free(between):
-    """A number that is left open. guess: where solves start."""
+    """A number that is left open. guess: the value at which solves start."""
 
     def __init__(self, guess: float = 0.0):
         super().__init__(-_infinity, _infinity, guess)
@@ -339,7 +339,7 @@ class Problem:
         return f"{type(self).__name__}({values})"
 
     def handle(self) -> _core.ProblemHandle:
-        """The checked problem for C++. Throws Error with a sentence if something is missing or does not fit."""
+        """The checked problem for C++. Throws Error if something is missing or does not fit."""
         return _core.ProblemHandle(self)
 
     def parameters(self) -> dict[str, float]:
