@@ -79,7 +79,7 @@ do for [problem_word in problems_of(name, "")] {
     set xrange [x_low / 1.1:x_high * 1.1]
     set yrange [1e-17:10 * y_high]
     set ytics 1e3
-    set ylabel "largest residual of a step or stage, relative"
+    set ylabel "largest relative residual of a step or stage"
     set key at graph 1.02, graph 1 left top maxrows auto font ",12" samplen 2.5
     plot for [curve in curves_with("dmoc,tableau=lobatto", "adjoint_residual")]\
          rows(name, curve, "adjoint_residual_by_plain_coefficients")\

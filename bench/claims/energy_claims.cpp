@@ -92,7 +92,7 @@ Claims energy_claims() {
                "along optimal trajectories H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule change by the "
                "modified work up to h^2, h^4 and h^6",
            .judge = balances_modified_work,
-           .condition = "the work has to be modified as well, by terms that vanish with the force: against the virtual "
+           .condition = "the work must be modified as well, by terms that vanish with the force: against the virtual "
                         "work alone every truncation keeps a gap of order 2",
            .evidence = {"invariants_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
 }

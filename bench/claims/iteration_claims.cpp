@@ -224,7 +224,7 @@ Claims iteration_claims() {
                        "DMOC needs about 1.5 times fewer minor iterations"};
   const char* const condition =
       "by an SQP method with exact second derivatives that starts at the slack basis, cold, without active "
-      "inequalities; about means within 0.1 of the printed number, from N = 32 on";
+      "inequalities; \"about\" means within 0.1 of the printed number, from N = 32 on";
   return {
       {.id = "minor_iteration_ratio",
        .where = section,

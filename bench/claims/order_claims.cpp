@@ -280,7 +280,7 @@ Claims order_claims() {
        .states = "the factor by which consistency errors of the state equations enter the error of the optimum, as the "
                  "grid is refined",
        .judge = stability_constant,
-       .condition = "a lower bound on the constant of (abstract_result), for errors in this direction only; midpoint "
+       .condition = "a lower bound on the constant of (abstract_result), only for errors in this direction; midpoint "
                     "rule and fixed ends, because the reference, the indirect method, supports no others",
        .evidence = {"convergence_indirect_jumps.csv"},
        .has_verdict = false},

@@ -107,7 +107,7 @@ Curves timed_curves(const ResultTables& tables, const std::string& problem, cons
                              .where("solver", "ipopt")
                              .sorted_by("intervals");
   require(rows.size() > 1 && rows.are_usable(),
-          "savings_by_solver_shooting.csv: {} by {} is not solved on the wanted branch on several grids", problem,
+          "savings_by_solver_shooting.csv: {} by {} is not solved on the required branch on several grids", problem,
           method);
   Curves curves;
   for (const Row& row : rows) {

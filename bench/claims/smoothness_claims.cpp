@@ -154,7 +154,7 @@ Claims coercivity_claims() {
                      "on the space M of the paper, whose variations move the final state",
            .judge = at_end("free"),
            .condition = "x = (q, p) at T is free along the variations, and V = 0, as the cost has no final term and r "
-                        "is linear; the optimum is the one of the stated problem",
+                        "is linear; the optimum belongs to the stated problem",
            .cause = "M leaves out the fixed final state; variations that move it lower the cost to second order, so "
                     "that main_theorem does not cover this problem, although its optima converge with the order of "
                     "the theorem",

@@ -61,14 +61,14 @@ struct IndirectStarts {
 
 const Columns<IndirectStarts> indirect_columns{
     {"problem", "", "its name", &IndirectStarts::problem, in_key},
-    {"starts", "", "trajectories of the direct methods' cold starts, with costates 0", &IndirectStarts::starts},
-    {"converged", "", "number of trajectories from which two runs of the indirect method agree to 1e-6",
+    {"starts", "", "number of the direct methods' cold starts, used with costates 0", &IndirectStarts::starts},
+    {"converged", "", "number of these from which two runs of the indirect method agree to 1e-6",
      [](const IndirectStarts& of) { return static_cast<long long>(of.converged.hits); }},
     {"converged_lower", "", "lower 95 % confidence limit of their share",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).lower; }},
     {"converged_upper", "", "upper 95 % confidence limit of their share",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).upper; }},
-    {"best", "", "number of these whose cost does not exceed the certified cost",
+    {"best", "", "number of converged ones whose cost does not exceed the certified cost",
      [](const IndirectStarts& of) { return static_cast<long long>(of.best.hits); }}};
 
 /// Starts per case: a number for all solvers, SOLVER=NUMBER for one of them; 0 where neither is given.

@@ -69,7 +69,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
            columns_through<Measured>(&Measured::checks, check_columns());
   }
   void add_options(CommandLine& line) override {
-    line.number("--starts", starts_, 1, 100000, "starts per case: the guess, and perturbed ones");
+    line.number("--starts", starts_, 1, 100000, "starts per case: the guess and perturbed guesses");
     line.number("--seed", seed_, 0, 0xffffffffU, "seed of the random curves; the same seed gives the same starts");
     line.number("--amplitude", amplitude_, 0.0, 10.0,
                 "amplitude of the random curves, and of the perturbations of a plane, relative to the range of each "

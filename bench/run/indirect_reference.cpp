@@ -122,7 +122,7 @@ constexpr auto extremal_of = &IndirectSolution::extremal;
 const Columns<Entry> reference_columns{
     {"problem", "", "name of the problem", from(&Entry::problem), in_key},
     {"cost", "cost", "optimal cost", from(solution_of, &IndirectSolution::cost)},
-    {"certified_digits", "", "digits that two runs of different order and grid share",
+    {"certified_digits", "", "digits on which two runs of different order and grid agree",
      from(solution_of, &IndirectSolution::certified_digits)},
     {"state_agreement", "", "relative difference of their states",
      from(solution_of, agreement_of, &IndirectAgreement::state)},
@@ -134,7 +134,7 @@ const Columns<Entry> reference_columns{
      from(solution_of, agreement_of, &IndirectAgreement::cost)},
     {"hamiltonian_drift", "", "relative max - min of the Hamiltonian; empty if the problem depends on time",
      from(solution_of, &IndirectSolution::hamiltonian_drift)},
-    {"shooting_defect", "", "largest relative distance from a node when an integrator starts at the preceding one",
+    {"shooting_defect", "", "largest relative distance from a node when an integrator starts at the preceding node",
      from(&Entry::shooting_defect)},
     {"replay_error", "", "distance from the final state when the control is replayed", from(&Entry::replay_error)},
     {"stages", "", "Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},

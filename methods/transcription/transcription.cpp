@@ -94,8 +94,8 @@ void require_changeable(const Problem& problem, const TracedProblem& traced, con
     const auto number = static_cast<std::size_t>(i);
     if (now[i] == before[i] || !traced.are_constants()[number]) continue;
     throw Error(
-        fmt::format("{}: formulas of this transcription contain the parameter {} as {:g}; to change it, keep it "
-                    "open when the transcription is made",
+        fmt::format("{}: formulas of this transcription contain the parameter {} as {:g}; to change it, keep it open "
+                    "when the transcription is created",
                     problem.name(), problem.parameters()[number].name, before[i]));
   }
 }

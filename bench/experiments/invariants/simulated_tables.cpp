@@ -196,7 +196,7 @@ Table noether_table(int steps) {
       {"h", "", "step", &Forced::h, in_key},
       {"momentum_change", "", "J_N - J_0", &Forced::change},
       {"work", "", "sum of h b_i f·xi", &Forced::work},
-      {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); DMOC only",
+      {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); only DMOC",
        &Forced::work_of_discrete_forces},
       {"defect", "", "max over k of |J_k - J_0 - work|", &Forced::defect},
       {"defect_in_long_double", "",

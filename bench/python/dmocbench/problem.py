@@ -194,7 +194,7 @@ class state:
     names.
 
     Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None is at rest. A problem without
-    coordinates has y alone.
+    coordinates has only y.
     """
 
     def __init__(self, q: Any = None, v: Any = None, y: Any = None):
@@ -287,8 +287,8 @@ class Problem:
 
     Derive a class from it and state
 
-    q = coordinates("theta", ...), u = controls("tau", ...) (may be left out), any number of `parameter`s; without q, y
-    alone, where all methods have the same solution;
+    q = coordinates("theta", ...), u = controls("tau", ...) (may be left out), any number of `parameter`s; without q, only
+    y, where all methods have the same solution;
     horizon: a number, or between(lower, upper, guess) for one that is free;
     start, end: a `state` or `at_rest`;
     lagrangian(self, x): L(q, v, t); force(self, x): the generalised force, n entries (may be left out);

@@ -19,7 +19,7 @@ from .words import arguments_of_solve, in_words_of_python, spelt
 
 
 class NamedProblem:
-    """A problem that is built in, or that a library has, with values of its parameters: problem("cart_pole", mass=2)."""
+    """A built-in problem or a problem of a library, with values of its parameters: problem("cart_pole", mass=2)."""
 
     def __init__(self, name, **values):
         with in_words_of_python():
@@ -365,8 +365,8 @@ _remedies = {
     "another_guess": "another guess, or start= with a solution near the one you want.",
     "finer_grid": "accuracy=1e-4, or more intervals: with these controls {coordinate} misses its final value by {size:.2g} of "
                   "its range.",
-    "feedback": "feedback to follow this trajectory. The system is unstable: with these controls alone {coordinate} misses its final "
-                "value by {size:.2g} of its range.",
+    "feedback": "feedback to follow this trajectory. The system is unstable: with these controls alone {coordinate} misses its "
+                "final value by {size:.2g} of its range.",
 }
 
 
