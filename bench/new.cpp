@@ -122,8 +122,8 @@ int write_problem(CommandLine& line) {
 
 int run(int argc, char** argv) {
   return run_program("new",
-                     "Writes NAME.hpp, the skeleton of a problem, and a CMakeLists.txt that builds a library of it, "
-                     "into the current folder.",
+                     "Writes NAME.hpp, the skeleton of a problem, and a CMakeLists.txt that builds it as a library, to "
+                     "the current folder.",
                      argc, argv, write_problem);
 }
 

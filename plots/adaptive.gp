@@ -52,7 +52,7 @@ eval require("adaptive_effectivity", "problem,method,stages,grid,quantity,effect
 quantities = "state momentum costate objective"
 do for [kind in kinds] {
   eval begin_figure(kind, "adaptive_effectivity", 800)
-  figure_title = title_text("Estimated error over true error",\
+  figure_title = title_text("Ratio of the estimated to the true error",\
       "Paper: section 5. Every problem, s = 1 and 2, uniform grids with N = 64 and 128 and adapted grids.",\
       "True errors: against the indirect solution, above round-off; broken lines: 0.3 and 3.")
   eval panels(2, 2, 80, 25, 115, 20, 45)

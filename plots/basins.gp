@@ -40,7 +40,7 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
   has(where) = system(rows_awk("-v take=all -v distinct=problem -v where='".group.",".where."'", basins)) ne ""
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_basins", 490)
-    figure_title = title_text(problem_label(problem).": which minimum each starting point reaches",\
+    figure_title = title_text(problem_label(problem).": minimum that each starting point reaches",\
         paper_note(problem, "section 5").sprintf("Cold starts by %s: the guess with bulges sin(πt/T) in both coordinates; N = %s,"\
         ." %d × %d starts.",\
         solver_label(entry(word(distinct(basins, "solver", group, ""), 1), "solver")), entry(group, "intervals"), places, places),\

@@ -111,7 +111,7 @@ do for [kind in kinds] {
     eval begin_figure(kind, "library_cold_start", 150 + bottom + 34 * count)
     figure_title = title_text("Every problem: shares of cold starts by interior point, N = "\
         .word(values("intervals", where), 1), "Paper: section 5. ".what_is_counted, "95 % intervals (Wilson), "\
-        .word(drawn_starts(where.",problem=".word(all_problems, words(all_problems))), 1)." starts a problem and method, "\
+        .word(drawn_starts(where.",problem=".word(all_problems, words(all_problems))), 1)." starts per problem and method, "\
         .word(drawn_starts(where.",problem=".word(all_problems, 1)), 1)." on the paper’s problems.")
     eval title_above
     set label 1 notes at screen 0.02, screen upwards(bottom - 80) left font ",12"

@@ -34,7 +34,7 @@ do for [problem_word in problems_of(name, "")] {
       || strlen(distinct(name, "method", problem_word, "costate_difference")) == 0) { continue }
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_equivalence", 800)
-    figure_title = title_text(problem_label(problem).": differences of collocation from DMOC by the same tableau",\
+    figure_title = title_text(problem_label(problem).": differences of collocation from DMOC with the same tableau",\
         paper_note(problem, "section 3.4, th:equi").conditions(name)\
         .", then Newton steps.",\
         "Largest difference over nodes and components, relative to the largest value of the quantity by DMOC.")
@@ -79,7 +79,7 @@ do for [problem_word in problems_of(name, "")] {
     set xrange [x_low / 1.1:x_high * 1.1]
     set yrange [1e-17:10 * y_high]
     set ytics 1e3
-    set ylabel "largest residual of a step or stage, relative"
+    set ylabel "largest relative residual of a step or stage"
     set key at graph 1.02, graph 1 left top maxrows auto font ",12" samplen 2.5
     plot for [curve in curves_with("dmoc,tableau=lobatto", "adjoint_residual")]\
          rows(name, curve, "adjoint_residual_by_plain_coefficients")\

@@ -70,7 +70,7 @@ do for [name in "iterations iterations_limited_memory"] {
              linetype method_style(entry(curve, "method")) pointsize size(curve, 1)\
              title minor_label(name, where, curve, "minor_iterations"),\
            keyentry with lines linecolor rgb "white"\
-             title (words(crash) > 0 ? "{/:Bold from a first basis chosen for free}" : ""),\
+             title (words(crash) > 0 ? "{/:Bold from a first basis chosen without iterations}" : ""),\
            for [k = 1:words(crash)] rows(name, with_start(word(crash, k), "basis"), "minor_iterations")\
              using (column("intervals")):(column("minor_iterations")) with points\
              linetype method_style(entry(word(crash, k), "method")) pointsize size(word(crash, k), 0)\
@@ -105,7 +105,7 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
         for_paper(problem, "Paper: 1.7 in minor iterations (dashed), 5/3 in variables",\
             "Paper: 1.5 in minor iterations (dashed), 3/2 in variables")\
         .conditions(solves).". Above 1 DMOC takes less.",\
-        "Replay error: how far from the final state the continuous system ends under the computed control.")
+        "Replay error: distance from the final state at the end, in the continuous system under the computed control.")
     eval panels(1, 3, 80, 12, 150, 12, 0)
     paper_ratio = problem eq "orbital_transfer" ? 1.7 : problem eq "two_link_manipulator" ? 1.5 : NaN
     low = 1; high = 1

@@ -22,7 +22,7 @@ do for [problem_word in problems_of("sequence", "microseconds")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_sequence", 420 * words(sequences) + 90)
     figure_title = title_text(problem_label(problem).": time of a step that starts warm",\
-        "Each solve starts from unknowns and multipliers of the one before; interior point, N = ".grid.".",\
+        "Each solve starts from unknowns and multipliers of the previous one; interior point, N = ".grid.".",\
         "Medians of iterations and of times; the time of a step is the solver’s alone, the smallest of its repeats.")
     eval title_above
     do for [panel = 1:words(sequences)] {

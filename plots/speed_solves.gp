@@ -36,7 +36,7 @@ if (words(drawn) > 0) {
   do for [kind in kinds] {
     eval begin_figure(kind, "speed_solves", 600)
     figure_title = title_text("Time of a solve per interval and iteration", "",\
-        "One thread, tolerance 1e-10, from the problem's own guess; what was not solved is left out. Smaller is better.")
+        "One thread, tolerance 1e-10, from the problem's own guess; unsolved cases are left out. Smaller is better.")
     eval panels(1, words(drawn), 105, 25, 150, 30, 0)
     do for [p = 1:words(drawn)] {
       problem = word(drawn, p)
@@ -74,7 +74,7 @@ do for [problem in on_grids] {
 if (words(drawn) == 0) { exit }
 do for [kind in kinds] {
   eval begin_figure(kind, "speed_solves_ratio", 560)
-  figure_title = title_text("How many times longer Ipopt takes than interior\\_point", "",\
+  figure_title = title_text("Ratio of the times of Ipopt and interior\\_point", "",\
       "Medians of whole solves, one thread; only where both solved and their costs agree to 1e-9.")
   eval panels(1, words(drawn), 80, 25, 110, 30, 0)
   do for [p = 1:words(drawn)] {

@@ -94,7 +94,7 @@ class Acrobot : public Problem {
       return ReferenceOptimum{
           .objective = 43.08989,
           .digits = 6,
-          .certificate = "Gauss s = 3 on 800 and s = 4 on 500 intervals agree; replayed, the end met to 4e-4",
+          .certificate = "Gauss s = 3 on 800 and s = 4 on 500 intervals agree; the replay meets the end to 4e-4",
           .remark =
               "the best of about a hundred starts, many of them around it; not proven to be the global minimum; "
               "another minimum is 93.09407"};

@@ -22,26 +22,27 @@ class Beam : public Problem {
   [[nodiscard]] std::string name() const override { return "beam"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "elastic line between two clamps below a bound, least bending",
-            .title = "Beam below a bound",
-            .axis_units = {.state = "dimensionless",
-                           .control = "dimensionless",
-                           .momentum = "dimensionless",
-                           .energy = "dimensionless"},
-            .source =
-                "Bryson, Denham, Dreyfus (1963); Bryson, Ho: Applied Optimal Control, section 3.11; beam of "
-                "OptimalControlProblems.jl",
-            .guess = "the line without a bound, x = t(1 - t), lowered to x <= l",
-            .time_unit = {.name = "", .factor = 1.0},
-            .reference = ReferenceOptimum{.objective = least_cost(),
-                                          .digits = 16,
-                                          .certificate = "closed form, 8/(9 l) where x lies on the bound",
-                                          .remark = "a bound that holds at the nodes alone costs less, by order h^2; "
-                                                    "where nodes lie at 3 l and 1 - 3 l, as with multiples of ten "
-                                                    "intervals, it costs the same"},
-            .picture = [](const ControlledState& x) -> Picture {
-              return {{"deflection", "", x.q[0]}, {"slope", "", x.v[0]}, {"bending", "", x.u[0]}};
-            }};
+    return {
+        .description = "elastic line between two clamps below a bound, least bending",
+        .title = "Beam below a bound",
+        .axis_units = {.state = "dimensionless",
+                       .control = "dimensionless",
+                       .momentum = "dimensionless",
+                       .energy = "dimensionless"},
+        .source =
+            "Bryson, Denham, Dreyfus (1963); Bryson, Ho: Applied Optimal Control, section 3.11; beam of "
+            "OptimalControlProblems.jl",
+        .guess = "the line without a bound, x = t(1 - t), lowered to x <= l",
+        .time_unit = {.name = "", .factor = 1.0},
+        .reference =
+            ReferenceOptimum{.objective = least_cost(),
+                             .digits = 16,
+                             .certificate = "closed form, 8/(9 l) where x lies on the bound",
+                             .remark = "a bound that holds only at the nodes costs less, by order h^2; where nodes lie "
+                                       "at 3 l and 1 - 3 l, as with multiples of ten intervals, it costs the same"},
+        .picture = [](const ControlledState& x) -> Picture {
+          return {{"deflection", "", x.q[0]}, {"slope", "", x.v[0]}, {"bending", "", x.u[0]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }

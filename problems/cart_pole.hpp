@@ -46,8 +46,8 @@ class CartPole : public Problem {
                                 "which are not active, the indirect method agree",
                  .published = {{58.8839489745, "Dymos, test_cartpole_opt.py, after the tutorial (tolerance 1e-3)"}},
                  .remark = "two minima: the pole swings back first (57.944780, from which the guess starts) or forward "
-                           "first (58.807667), which the straight line and the published value are on; Dymos adds u(T) "
-                           "= 0 and is 0.13 % above that one"},
+                           "first (58.807667, the minimum of the straight line and of the published value); Dymos adds "
+                           "u(T) = 0 and is 0.13 % above the latter"},
                 {"bounded"}),
             .picture = [this](const ControlledState& x) -> Picture {
               const double l = parameter("length");

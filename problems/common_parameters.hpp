@@ -34,7 +34,7 @@ namespace dmocbench {
 
 /// The certificate of an optimum that the indirect method found.
 [[nodiscard]] inline std::string by_indirect_method(int digits) {
-  return "the indirect method with Gauss of orders 16 and 20; the replay of its control has the same cost to " +
+  return "the indirect method with Gauss schemes of orders 16 and 20; the replay of its control has the same cost to " +
          std::to_string(digits) + " digits";
 }
 

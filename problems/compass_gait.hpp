@@ -24,7 +24,7 @@ class CompassGait final : public PhasedProblem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PhasedProblem::card();
-    card.description = "periodic step of a walker of two legs, least torque, free duration";
+    card.description = "periodic step of a two-legged walker, least torque, free duration";
     card.title = "Compass gait";
     card.axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"};
     card.source =

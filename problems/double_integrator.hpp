@@ -20,7 +20,7 @@ class DoubleIntegrator : public Problem {
       : Problem({
             {"distance", 1.0, "m", "distance d to travel", 1e-3, 1e3},
             horizon_parameter(1.0, "motion"),
-            {"largest_force", 1e9, "N", "bound U of the force; above 6 d / T^2 there is none", 1e-3, 1e9},
+            {"largest_force", 1e9, "N", "bound U on the force; a value above 6 d / T^2 means no bound", 1e-3, 1e9},
         }) {}
 
   [[nodiscard]] std::string name() const override { return "double_integrator"; }

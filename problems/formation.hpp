@@ -24,7 +24,7 @@ class Formation final : public Problem {
  public:
   Formation()
       : Problem({{"satellites", 3.0, "", "number k of satellites", 2.0, 12.0, true},
-                 {"distance", 0.5, "km", "the least distance d of two satellites", 0.0, 2.0},
+                 {"distance", 0.5, "km", "the least distance d between two satellites", 0.0, 2.0},
                  {"mean_motion", 1.0, "1/(1000 s)", "of the orbit", 0.0, 10.0},
                  {"attraction", 1.0, "", "weight c of the distances in the cost", 0.0, 1e3}}) {}
 
@@ -44,7 +44,7 @@ class Formation final : public Problem {
                 *this, {.objective = 7.53865012201,
                         .digits = 12,
                         .certificate = "the flow of the linear boundary value problem up to T/2; DMOC and "
-                                       "tangent-space collocation by Gauss with 4 stages and bounds at T/2 agree"}),
+                                       "tangent-space collocation with 4 Gauss stages and bounds at T/2 agree"}),
             .path_constraint_names = pair_names(),
             .picture = [this](const ControlledState& x) -> Picture {
               Picture quantities;

@@ -22,7 +22,7 @@ class HangGlider : public Problem {
             {"forward_velocity", 13.23, "m/s", "horizontal velocity at both ends", 1.0, 1e2},
             {"climb_velocity", -1.288, "m/s", "vertical velocity at both ends", -1e1, 1e1},
             {"updraft", 2.5, "m/s", "u_c of the thermal", 0, 1e1},
-            {"wing_load", 100.0 / 14.0, "kg/m^2", "mass m by wing area S", 1.0, 1e2},
+            {"wing_load", 100.0 / 14.0, "kg/m^2", "mass m divided by wing area S", 1.0, 1e2},
         }) {}
 
   [[nodiscard]] std::string name() const override { return "hang_glider"; }
@@ -111,10 +111,10 @@ class HangGlider : public Problem {
                       {-1250.190, "PSOPT, example glider, 5 meshes"},
                       {-1247.918, "CTBenchmarks.jl, midpoint rule, N = 200"}},
         .remark =
-            "the published values are specific to their grids: ours with the midpoint rule on 200 intervals is "
-            "-1247.918, of the trapezoidal rule on 50, 100, 200, 400 intervals -1282.4, -1254.6, -1248.8, -1247.97; "
-            "Lobatto with four stages has false optima on 64 intervals, -1370 and -1445, which a replay refutes and "
-            "which do not exist on 128"};
+            "the published values are specific to their grids: ours are -1247.918 with the midpoint rule on 200 "
+            "intervals and -1282.4, -1254.6, -1248.8, -1247.97 with the trapezoidal rule on 50, 100, 200, 400; Lobatto "
+            "with four stages has false optima on 64 intervals, -1370 and -1445, which a replay refutes and which do "
+            "not exist on 128"};
     if (original) {
       known.objective = -1248.031025;
       known.published = {};

@@ -19,20 +19,19 @@ class Hypersensitive : public Problem {
   [[nodiscard]] std::string name() const override { return "hypersensitive"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {
-        .description = "spring that hardens, driven to rest and away again: fast at both ends, slow between them",
-        .title = "Hypersensitive spring",
-        .axis_units = AxisUnits::pure_numbers(),
-        .source =
-            "Rao, Mease: Eigenvector approximate dichotomic basis method for solving hyper-sensitive optimal "
-            "control problems, Optimal Control Applications and Methods 21, 2000; of second order here",
-        .guess = "the trajectory with q'' = q between the ends, v its slope, u = 0",
-        .time_unit = {.name = "", .factor = 1.0},
-        .reference = with_default_parameters(
-            *this, {.objective = 2.780799731435,
-                    .digits = 13,
-                    .certificate = "the indirect method with Gauss of orders 16 and 20; DMOC with three stages on an "
-                                   "adapted grid has the same cost to 13 digits"})};
+    return {.description = "hardening spring, driven to rest and away again: fast at both ends, slow in between",
+            .title = "Hypersensitive spring",
+            .axis_units = AxisUnits::pure_numbers(),
+            .source =
+                "Rao, Mease: Eigenvector approximate dichotomic basis method for solving hyper-sensitive optimal "
+                "control problems, Optimal Control Applications and Methods 21, 2000; of second order here",
+            .guess = "the trajectory with q'' = q between the ends, v its slope, u = 0",
+            .time_unit = {.name = "", .factor = 1.0},
+            .reference = with_default_parameters(
+                *this, {.objective = 2.780799731435,
+                        .digits = 13,
+                        .certificate = "the indirect method with Gauss schemes of orders 16 and 20; DMOC with three "
+                                       "stages on an adapted grid has the same cost to 13 digits"})};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }

@@ -85,11 +85,11 @@ class LegHop final : public PhasedProblem {
     card.title = "Hop with a leg";
     card.axis_units = {.state = "m", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"};
     card.source = "a contact with bounds on forces in its simplest form, stated for this library";
-    card.reference = ReferenceOptimum{.objective = 77.3576451028,
-                                      .digits = 12,
-                                      .certificate =
-                                          "tangent-space collocation by Gauss with 2 stages and DMOC by "
-                                          "Lobatto with 3, on 256 and 512 intervals"};
+    card.reference = ReferenceOptimum{
+        .objective = 77.3576451028,
+        .digits = 12,
+        .certificate =
+            "tangent-space collocation with 2 Gauss stages and DMOC with 3 Lobatto stages, on 256 and 512 intervals"};
     return card;
   }
   [[nodiscard]] ExpressionVector conditions(const std::vector<PhaseEnd>& /*first*/,

@@ -29,9 +29,9 @@ class CircleToCircle : public Problem {
         *this,
         {.objective = revolutions == 2.0 ? 3.944909084747e-5 : 7.890332317683e-6,
          .digits = 13,
-         .certificate = "the indirect method with Gauss of orders 16 and 20, in polar and in Cartesian coordinates; "
-                        "the replay of its control has the same cost to 13 digits",
-         .remark = "the paper shows the cost in a figure only"},
+         .certificate = "the indirect method with Gauss schemes of orders 16 and 20, in polar and in Cartesian "
+                        "coordinates; the replay of its control has the same cost to 13 digits",
+         .remark = "the paper shows the cost only in a figure"},
         {"revolutions"});
     return card;
   }

@@ -24,7 +24,7 @@ class PlanarQuadrotor : public Problem {
         .description = "a quadrotor in a vertical plane flown from rest to rest in fixed time, least control effort",
         .title = "Planar quadrotor",
         .axis_units = {.state = "m or rad", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
-        .source = "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor); the flight is this suite's",
+        .source = "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor), with a flight of this suite",
         .guess = "q on the straight line from q(0) to q(T), v its slope, u_1 = u_2 = m g / 2, which hovers",
         .configuration_units = {"m", "m", "rad"},
         .control_units = {"N", "N"},
@@ -104,7 +104,7 @@ class PlanarQuadrotor : public Problem {
             {"arm", 0.25, "m", "distance r of the rotors from the centre", 1e-3, 1e2},
             gravity_parameter(0.0),
             horizon_parameter(duration, "flight"),
-            switch_parameter("bounded", false, "1: 0 <= u <= m g for either thrust, 0: thrusts are free"),
+            switch_parameter("bounded", false, "1: 0 <= u <= m g for either thrust, 0: no bounds"),
         }) {}
 
   /// True if the rotors' thrusts are bounded.

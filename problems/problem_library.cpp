@@ -103,7 +103,7 @@ void require_same_build(const std::string& who, std::string_view tag) {
     its_entry = take_entry(tag);
     our_entry = take_entry(wanted);
   }
-  throw Error(fmt::format("{} was made by another build of dmocbench: {}, here {}; build it again with this one", who,
+  throw Error(fmt::format("{} was built for another build of dmocbench: {}, here {}; build it again with this one", who,
                           its_entry.empty() ? "nothing" : its_entry, our_entry.empty() ? "nothing" : our_entry));
 }
 
@@ -116,10 +116,10 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
   try {
     entry_of(path)(problems);
   } catch (const std::exception& error) {
-    throw Error(fmt::format("a problem of {} cannot be made: {}", path.string(), error.what()));
+    throw Error(fmt::format("a problem of {} cannot be constructed: {}", path.string(), error.what()));
   } catch (...) {
-    throw Error(
-        fmt::format("a problem of {} cannot be made: it threw an object that is not a std::exception", path.string()));
+    throw Error(fmt::format("a problem of {} cannot be constructed: it threw an object that is not a std::exception",
+                            path.string()));
   }
   const std::size_t known = registry.names().size();
   const std::size_t refused = registry.refused().size();

@@ -28,9 +28,9 @@ class RigidQuadrotor final : public Problem {
  public:
   RigidQuadrotor()
       : Problem({
-            {"inertia_x", 0.0046, "m^2", "moment of inertia J_1 about the body's x axis by the mass", 1e-6, 1e2},
-            {"inertia_y", 0.0046, "m^2", "moment of inertia J_2 about the body's y axis by the mass", 1e-6, 1e2},
-            {"inertia_z", 0.008, "m^2", "moment of inertia J_3 about the body's z axis by the mass", 1e-6, 1e2},
+            {"inertia_x", 0.0046, "m^2", "moment of inertia J_1 per mass about the body's x axis", 1e-6, 1e2},
+            {"inertia_y", 0.0046, "m^2", "moment of inertia J_2 per mass about the body's y axis", 1e-6, 1e2},
+            {"inertia_z", 0.008, "m^2", "moment of inertia J_3 per mass about the body's z axis", 1e-6, 1e2},
             gravity_parameter(0.0, 9.8),
             {"effort_weight", 0.1, "", "weight r of thrust and angular velocity", 1e-6, 1e3},
             {"torque_weight", 1e-3, "", "weight rho of the torques", 1e-9, 1e3},

@@ -21,8 +21,8 @@ class SphericalPendulum : public Problem {
             {"mass", 1.0, "kg", "mass of the bob", 1e-3, 1e3},
             {"length", 1.0, "m", "length of the rod", 1e-3, 1e3},
             gravity_parameter(1e-3),
-            {"initial_cone", std::numbers::pi / 4.0, "rad", "angle of the first cone from below", 0.1, 1.5},
-            {"target_cone", std::numbers::pi / 3.0, "rad", "angle of the last cone from below", 0.1, 1.5},
+            {"initial_cone", std::numbers::pi / 4.0, "rad", "angle of the first cone, 0 downwards", 0.1, 1.5},
+            {"target_cone", std::numbers::pi / 3.0, "rad", "angle of the last cone, 0 downwards", 0.1, 1.5},
             {"revolutions", 1.0, "", "revolutions d during the transfer", 0.0, 100.0, true},
             horizon_parameter(1.5),
         }) {}

@@ -39,8 +39,8 @@ class TwoLinkManipulator : public Problem {
         .reference = with_default_parameters(*this, {.objective = 80.37902916907,
                                                      .digits = 13,
                                                      .certificate = by_indirect_method(13),
-                                                     .remark = "the paper gives no data and shows the cost in a figure "
-                                                               "only; other minima near 89.56, 167, 171, 192, 205"}),
+                                                     .remark = "the paper gives no data and shows the cost only in a "
+                                                               "figure; other minima near 89.56, 167, 171, 192, 205"}),
         .picture = [this](const ControlledState& x) -> Picture {
           const Expression elbow_x = parameter("length_1") * cos(x.q[0]);
           const Expression elbow_y = parameter("length_1") * sin(x.q[0]);

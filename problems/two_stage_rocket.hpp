@@ -31,7 +31,7 @@ class TwoStageRocket final : public PhasedProblem {
     card.reference = ReferenceOptimum{
         .objective = 0.347715230972414,
         .digits = 14,
-        .certificate = "indirect shooting over both phases to 12 digits; Gauss and Lobatto of order 6"};
+        .certificate = "indirect shooting over both phases to 12 digits; the Gauss and Lobatto schemes of order 6"};
     return card;
   }
 

@@ -86,8 +86,8 @@ Finding interior_point_beside_ipopt(const ResultTables& tables, const std::strin
           compared, problem);
   constexpr double equal = 1e-9;
   return found(largest < equal,
-               "costs of {} programs by interior_point and by Ipopt differ by at most {:.0e}, relative", compared,
-               Measurement{"largest relative difference of the costs", largest});
+               "costs of {} programs by interior_point and by Ipopt have relative differences of at most {:.0e}",
+               compared, Measurement{"largest relative difference of the costs", largest});
 }
 
 }  // namespace
@@ -118,8 +118,8 @@ Claims accuracy_claims() {
        .where = "section 4.1, SQP Method",
        .states = "interior_point, the solver of experiments that do not compare solvers, ends in the minima of Ipopt",
        .judge = interior_point_beside_ipopt,
-       .condition = "warm, from a common start; the solutions of both are refined by Newton steps, so the claim is "
-                    "about the branch, not about digits",
+       .condition = "warm, from a common start; the solutions of both are refined by Newton steps, so the claim "
+                    "concerns the branch, not the digits",
        .evidence = {"convergence.csv", "convergence_stages.csv"}}};
 }
 

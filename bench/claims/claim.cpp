@@ -80,9 +80,9 @@ Finding judge_misprint(const Row& row) {
   const auto quantity = [&](double value, const char* at) {
     return Measurement{.name = row.text("quantity"), .value = value, .at = at};
   };
-  return found(verdict, "{}: {:.6g} as printed, {:.6g} as meant, {:.6g} required", row.text("quantity"),
+  return found(verdict, "{}: {:.6g} as printed, {:.6g} as intended, {:.6g} required", row.text("quantity"),
                quantity(printed, "as printed"), quantity(meant, "as meant"), quantity(required, "required"))
-      .because(worded("meant is {}", row.text("meant")));
+      .because(worded("the intended statement is {}", row.text("meant")));
 }
 
 /// The misprints in the table, if it exists; a single row with the error if it cannot be read.

@@ -19,10 +19,10 @@ namespace dmocbench {
 
 namespace {
 
-/// The files with "; " between them, and "(not there)" behind those that are missing.
+/// The files with "; " between them, and "(missing)" after the missing ones.
 std::string evidence_in_words(const JudgedClaim& claim) {
   const auto in_words = [&](const std::string& file) {
-    return std::ranges::count(claim.missing, file) > 0 ? file + " (not there)" : file;
+    return std::ranges::count(claim.missing, file) > 0 ? file + " (missing)" : file;
   };
   return fmt::format("{}", fmt::join(claim.evidence | std::views::transform(in_words), "; "));
 }
@@ -32,12 +32,12 @@ const Columns<JudgedClaim>& claim_columns() {
       {"claim", "", "problem and short name", &JudgedClaim::id, in_key},
       {"where", "", "place in the paper", &JudgedClaim::where},
       {"figure", "", "figure of the paper", &JudgedClaim::figure},
-      {"whose", "", "who makes the statement", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
+      {"whose", "", "source of the statement", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
       {"states", "", "the statement", &JudgedClaim::states},
       {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
       {"verdict", "", "verdict computed from the tables",
        [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
-      {"reason", "", "why it differs, or when it holds", &JudgedClaim::reason},
+      {"reason", "", "reason for the difference, or conditions of the statement", &JudgedClaim::reason},
       {"evidence", "", "tables and figures", evidence_in_words},
       {"sure", "", "exact, or the share of replicates with the same verdict", &JudgedClaim::sure},
   };
@@ -51,9 +51,9 @@ const Columns<JudgedClaim>& finding_columns() {
       {"where", "", "related place in the paper", &JudgedClaim::where},
       {"whose", "", "ours, or an extension of the suite",
        [](const JudgedClaim& claim) { return name_of(claim.whose); }},
-      {"question", "", "what is measured", &JudgedClaim::states},
+      {"question", "", "the measured quantity", &JudgedClaim::states},
       {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
-      {"condition", "", "when it holds", &JudgedClaim::reason},
+      {"condition", "", "conditions of the measurement", &JudgedClaim::reason},
       {"evidence", "", "tables and figures", evidence_in_words},
       {"sure", "", "exact, or the share of replicates within the intervals", &JudgedClaim::sure},
   };

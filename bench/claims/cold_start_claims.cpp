@@ -27,23 +27,24 @@ Words share_in_words(const std::string& method, const ShareCount& count) {
 Finding how_often(const ResultTables& tables, const std::string& problem, const char* column) {
   const Selection rows = tables.rows("cold_start_shares", problem).where("solver", "interior_point");
   const Selection dmoc = midpoint(rows, "dmoc");
-  require(dmoc.size() == 1, "cold_start_shares.csv has {} rows of {} by dmoc and interior_point, not one", dmoc.size(),
-          problem);
+  require(dmoc.size() == 1, "cold_start_shares.csv has {} rows of {} by dmoc and interior_point; one is needed",
+          dmoc.size(), problem);
   const ShareCount own = count_of_cold_starts(dmoc.front(), column);
   Finding finding =
       found(ClaimVerdict::measured, "cold starts that are {}: {}",
             std::string_view(column) == "best" ? "confirmed in the best minimum" : column, share_in_words("dmoc", own));
   for (const std::string method : {"hamiltonian", "tangent"}) {
     const Selection others = midpoint(rows, method).matching(dmoc.front(), {"intervals", "derivatives"});
-    require(others.size() == 1, "cold_start_shares.csv has {} rows of {} by {} to compare with dmoc, not one",
+    require(others.size() == 1, "cold_start_shares.csv has {} rows of {} by {} to compare with dmoc; one is needed",
             others.size(), problem, method);
     const ShareCount count = count_of_cold_starts(others.front(), column);
     const ShareInterval difference = difference_interval(own, count);
-    finding.clauses.push_back(
-        worded("{}, difference {:+.1f} to {:+.1f} %: {}", share_in_words(method, count),
-               Measurement{"lower end of DMOC's share minus the method's", 100.0 * difference.lower, method, "", "%"},
-               Measurement{"upper end of DMOC's share minus the method's", 100.0 * difference.upper, method, "", "%"},
-               in_words(difference)));
+    finding.clauses.push_back(worded("{}, difference {:+.1f} to {:+.1f} %: {}", share_in_words(method, count),
+                                     Measurement{"lower confidence limit of DMOC's share minus the method's",
+                                                 100.0 * difference.lower, method, "", "%"},
+                                     Measurement{"upper confidence limit of DMOC's share minus the method's",
+                                                 100.0 * difference.upper, method, "", "%"},
+                                     in_words(difference)));
   }
   if (tables.has("cold_start_indirect")) {
     const Selection rows_of_indirect = tables.rows("cold_start_indirect").where("problem", problem);
@@ -55,8 +56,8 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
           "the indirect method with costates 0 converges from {} of {} ({:.0f} to {:.0f} %), from {} to the best "
           "branch",
           of_indirect("converged", row.needed("converged")), of_indirect("starts", row.needed("starts")),
-          of_indirect("lower end of the share converged", 100.0 * row.needed("converged_lower"), "%"),
-          of_indirect("upper end of the share converged", 100.0 * row.needed("converged_upper"), "%"),
+          of_indirect("lower confidence limit of the share converged", 100.0 * row.needed("converged_lower"), "%"),
+          of_indirect("upper confidence limit of the share converged", 100.0 * row.needed("converged_upper"), "%"),
           of_indirect("in the best minimum", row.needed("best"))));
     }
   }
@@ -85,23 +86,22 @@ ShareCount count_of_cold_starts(const Row& row, const char* column) {
 Claims cold_start_claims() {
   const std::vector<std::string> evidence{"cold_start_shares.csv", "cold_start_indirect.csv",
                                           "figures/{}_cold_start.svg"};
-  return {
-      {.id = "cold_starts_confirmed",
-       .where = "section 4.1, SQP Method",
-       .states =
-           "how often DMOC and collocation are solved and confirmed from cold starts (the guess and perturbed guesses)",
-       .judge = how_often_in("confirmed"),
-       .condition = "by interior_point; section 3.3 names the indirect methods",
-       .evidence = evidence,
-       .has_verdict = false},
-      {.id = "cold_starts_best",
-       .where = "section 5, Global Minima",
-       .states =
-           "how often DMOC and collocation end in the best minimum from cold starts (the guess and perturbed guesses)",
-       .judge = how_often_in("best"),
-       .condition = "by interior_point",
-       .evidence = evidence,
-       .has_verdict = false}};
+  return {{.id = "cold_starts_confirmed",
+           .where = "section 4.1, SQP Method",
+           .states = "share of cold starts (the guess and perturbed guesses) with a solved and confirmed program, for "
+                     "DMOC and collocation",
+           .judge = how_often_in("confirmed"),
+           .condition = "by interior_point; section 3.3 names the indirect methods",
+           .evidence = evidence,
+           .has_verdict = false},
+          {.id = "cold_starts_best",
+           .where = "section 5, Global Minima",
+           .states = "share of cold starts (the guess and perturbed guesses) that end in the best minimum, for DMOC "
+                     "and collocation",
+           .judge = how_often_in("best"),
+           .condition = "by interior_point",
+           .evidence = evidence,
+           .has_verdict = false}};
 }
 
 }  // namespace dmocbench

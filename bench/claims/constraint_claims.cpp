@@ -127,7 +127,7 @@ Finding costs_with_constraints(const ResultTables& tables, const std::string& /*
                            Measurement{"relative difference of the costs", at_fine, "", redundant_name},
                            fine.text("intervals"), Measurement{"order", order, "", redundant_name}));
   }
-  return found(agree, "relative difference of the optimal costs by three Lobatto stages: {}", joined(words, ", "));
+  return found(agree, "relative difference of the optimal costs with three Lobatto stages: {}", joined(words, ", "));
 }
 
 /// A statement of a problem on the grid of `row`, if it was solved.
@@ -162,7 +162,8 @@ Finding embedding_with_constraints(const ResultTables& tables, const std::string
                              {column, embedded.needed(column), "", redundant_name + std::string("_embedded")},
                              {column, minimal.needed(column), "", minimal_name}});
     };
-    words.push_back(worded("{} {:.0e} (N = {}: unknowns {}; rows {}; iterations {}; condition {})", redundant_name,
+    words.push_back(worded("{} {:.0e} (N = {}: unknowns {}; constraints {}; iterations {}; condition {})",
+                           redundant_name,
                            Measurement{"largest relative difference of the costs", difference, "", redundant_name},
                            fine.text("intervals"), three("free_variables", "{:.0f}"), three("constraints", "{:.0f}"),
                            three("major_iterations", "{:.0f}"), three("condition", "{:.0e}")));
@@ -205,7 +206,7 @@ Claims constraint_claims() {
            .where = "section 1, DMOCC",
            .whose = Whose::extension,
            .states = "for DMOC with one Gauss stage, an embedding q = Φ(θ) at the nodes has the same optimal costs as "
-                     "multipliers, with fewer unknowns and rows",
+                     "multipliers, with fewer unknowns and constraints",
            .judge = embedding_with_constraints,
            .evidence = {"objective_forms.csv", "figures/constraint_forms.svg"}},
           {.id = "velocity_equal_solutions",

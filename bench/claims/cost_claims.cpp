@@ -46,7 +46,8 @@ Predicate more_expensive_by(const ExpenseByWay& add_ratios) {
     add_ratios(ratios, ipopt);
     add_ratios(ratios, hamiltonian_ratios(tables, problem, "seconds_per_linear_system"));
     return found_by_times(ratios,
-                          "Hamiltonian to DMOC, time of an iteration by ipopt, of a linear system by interior_point: ");
+                          "ratio of Hamiltonian collocation to DMOC, time of an iteration by ipopt and of a linear "
+                          "system by interior_point: ");
   };
 }
 
@@ -72,7 +73,7 @@ Finding more_entries_of_factors(const ResultTables& tables, const std::string& p
   };
   return found(verdict_on_interval(factors.min("ratio_at_equal_intervals"), factors.max("ratio_at_equal_intervals"),
                                    more_expensive, std::numeric_limits<double>::infinity()),
-               "Hamiltonian to DMOC on {} grids, entries of the factor of the KKT matrix: {}",
+               "ratio of Hamiltonian collocation to DMOC on {} grids, entries of the factor of the KKT matrix: {}",
                factors.distinct("intervals").size(), range(factors))
       .also(worded("entries of the matrix: {}", range(of("kkt_nonzeros"))));
 }
@@ -158,7 +159,7 @@ Finding whole_solves(const ResultTables& tables, const std::string& problem) {
           "iterations_common_ratios.csv and savings_by_solver_ratios.csv have no ratio of {} at equal "
           "accuracy",
           problem);
-  return found(ClaimVerdict::measured, "collocation to DMOC: {}", joined(words, ", "));
+  return found(ClaimVerdict::measured, "ratio of collocation to DMOC: {}", joined(words, ", "));
 }
 
 }  // namespace
@@ -174,7 +175,7 @@ Claims cost_claims() {
        .whose = Whose::paper,
        .states = "twice as many state variables and (Ns + 1)n more constraints for collocation of Hamilton's equations",
        .judge = counts_of_remark,
-       .condition = "DMOC's constraints are counted without the 2n conditions of the ends, as in the paper",
+       .condition = "DMOC's constraints are counted without the 2n conditions at the ends, as in the paper",
        .evidence = {"convergence_stages.csv"},
        .by_counting = true},
       {.id = "collocation_more_expensive",
@@ -188,9 +189,8 @@ Claims cost_claims() {
        .by_counting = true},
       {.id = "collocation_takes_longer",
        .where = "section 3.4, rem:savings",
-       .states =
-           "an iteration, and a linear system, by collocation of Hamilton's equations takes longer than by DMOC on "
-           "the finest grid",
+       .states = "on the finest grid, an iteration and a linear system take longer with collocation of Hamilton's "
+                 "equations than with DMOC",
        .judge = more_expensive_by(add_finest_grid),
        .condition = warm,
        .evidence = advantage},

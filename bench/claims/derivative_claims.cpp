@@ -139,11 +139,11 @@ Finding more_robust(const ResultTables& tables, const std::string& problem) {
     Pairs central;
     central.add(settings.back(), {"tape", "finite_differences", ""});
     words.push_back(
-        worded("from the guess central differences solve {} of {} programs; {} are solved by central differences only, "
-               "{} by exact derivatives only",
+        worded("from the guess central differences solve {} of {} programs; {} are solved only by central differences, "
+               "{} only by exact derivatives",
                central.by_differences, central.count, central.by_differences_alone, central.exact_alone));
-    reason = worded("{}: the error of their Jacobians is {} of the largest entry, and of ADOL-C's {}", reason,
-                    range_of(settings.back(), "dense_differences", "jacobian_error"),
+    reason = worded("{}: the error of their Jacobians is {} of the largest entry, the error of ADOL-C's Jacobians {}",
+                    reason, range_of(settings.back(), "dense_differences", "jacobian_error"),
                     range_of(settings.back(), "adolc_whole", "jacobian_error"));
   }
   return Finding{.clauses = std::move(words), .verdict = verdict_on_all(verdicts)}.because(reason).as_sure_as(
@@ -192,8 +192,8 @@ Words costs_of_jacobians(const ResultTables& tables, const std::string& problem)
   const Selection rows = by_ipopt(tables, warm, problem);
   const auto cost = [&](const char* derivatives) { return range_of(rows, derivatives, "jacobian_over_residual"); };
   return worded(
-      "a Jacobian costs {} residuals by dense differences, {} by ADOL-C recorded once and {} interval by interval, {} "
-      "by structured differences, {} by the tape",
+      "a Jacobian costs as much as {} residuals by dense differences, {} by ADOL-C recorded once and {} interval by "
+      "interval, {} by structured differences, {} by the tape",
       cost("dense_differences"), cost("adolc_whole"), cost("adolc"), cost("forward_differences"), cost("tape"));
 }
 
@@ -223,7 +223,7 @@ std::vector<Measurement> ratios_by_program(const Setting& setting, const Rivals&
   for (const Row& row : by(rivals.differences)) {
     const Row& other = partner_of(row, exact);
     if (other.text("status").empty()) continue;
-    ratios.push_back({std::string(column) + " by differences over exact derivatives'", quotient(row, other, column),
+    ratios.push_back({std::string(column) + " by differences over exact derivatives", quotient(row, other, column),
                       row.text("method"), fmt::format("{}, N = {}", setting.name, row.text("intervals"))});
   }
   return ratios;
@@ -294,7 +294,7 @@ Finding saves_time(const ResultTables& tables, const std::string& problem) {
 Claims derivative_claims() {
   const char* const section = "section 4.1, Automatic Differentiation";
   const char* const setting =
-      "by Ipopt, to the tolerances 1e-6, as fmincon's, and 1e-8, in at most 150 iterations; dense differences up to "
+      "by Ipopt, to the tolerances 1e-6, as with fmincon, and 1e-8, in at most 150 iterations; dense differences up to "
       "N = 64; dense forward differences and quasi-Newton updates by fmincon and nag_opt_nlp_sparse are our inference";
   return {{.id = "automatic_differentiation_more_robust",
            .where = section,

@@ -79,23 +79,22 @@ Finding balances_modified_work(const ResultTables& tables, const std::string& pr
 
 /// Energies against work along optimal motions.
 Claims energy_claims() {
-  return {
-      {.id = "energy_against_work",
-       .where = in_paper,
-       .states = "along the optimal trajectory the energy of DMOC misses the virtual work by less than the energy of "
-                 "tangent-space collocation",
-       .judge = gap_beside_tangent,
-       .condition = "both gaps are of order h^2, and their factors depend on the trajectory",
-       .evidence = {"invariants_energy_work.csv", "figures/{}_energy_work.svg"}},
-      {.id = "modified_energy_and_work",
-       .where = in_paper,
-       .states =
-           "along optimal trajectories H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule change by the "
-           "modified work up to h^2, h^4 and h^6",
-       .judge = balances_modified_work,
-       .condition = "the work has to be modified as well, by terms that vanish with the force: against the virtual "
-                    "work alone every truncation keeps a gap of order 2",
-       .evidence = {"invariants_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
+  return {{.id = "energy_against_work",
+           .where = in_paper,
+           .states = "along the optimal trajectory, the energy of DMOC differs less from the virtual work than the "
+                     "energy of tangent-space collocation",
+           .judge = gap_beside_tangent,
+           .condition = "both gaps are of order h^2, and their factors depend on the trajectory",
+           .evidence = {"invariants_energy_work.csv", "figures/{}_energy_work.svg"}},
+          {.id = "modified_energy_and_work",
+           .where = in_paper,
+           .states =
+               "along optimal trajectories H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule change by the "
+               "modified work up to h^2, h^4 and h^6",
+           .judge = balances_modified_work,
+           .condition = "the work must be modified as well, by terms that vanish with the force: against the virtual "
+                        "work alone every truncation keeps a gap of order 2",
+           .evidence = {"invariants_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
 }
 
 /// The modified energy without forces.

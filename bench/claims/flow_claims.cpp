@@ -27,7 +27,7 @@ Predicate has_order_of_consistency(const char* one, const char* other) {
       const Selection judged = of_quantity.where([](const Row& row) { return row.needed("stages") <= most_stages; });
       for (const Row& row : rows.where("quantity", quantity == one ? other : one)) {
         require(!of_quantity.matching(row, {"stages"}).empty(),
-                "consistency_order_slopes.csv has no slope of {} for {} by Gauss with {} stages", quantity, problem,
+                "consistency_order_slopes.csv has no slope of {} for {} with {} Gauss stages", quantity, problem,
                 row.text("stages"));
       }
       beyond += of_quantity.size() - judged.size();
@@ -42,7 +42,7 @@ Predicate has_order_of_consistency(const char* one, const char* other) {
                     Measurement{"slope of the " + quantity, row.needed("slope"), "", stages},
                     Measurement{"order r", row.needed("order"), "", stages});
     };
-    return found(verdict_on_all(orders, is_one_more), "slopes over h by Gauss: {}", joined(orders, ", ", words))
+    return found(verdict_on_all(orders, is_one_more), "slopes over h with Gauss: {}", joined(orders, ", ", words))
         .also(beyond == 0
                   ? Words()
                   : worded(
@@ -235,7 +235,7 @@ Claims flow_claims() {
        .states = "along the continuous flow the momentum changes by the integral of the force along the group action, "
                  "and not at all if the force is orthogonal to it",
        .judge = continuous_noether,
-       .condition = "trajectories integrated as replays are, by an adaptive method of order 7(8)",
+       .condition = "trajectories are integrated like replays, with an adaptive method of order 7(8)",
        .evidence = {"invariants_flow_momentum.csv"}},
       {.id = "lagrangian_form_preserved",
        .problems = simulated,

@@ -123,8 +123,8 @@ Finding variation_commutes(const ResultTables& tables, const std::string& proble
                "largest relative difference for {} triples of s, m and quadrature on {} solves: {:.0e}",
                rows.group_by({"method", "tableau", "stages"}).size(), rows.size(),
                Measurement{"largest relative difference", largest})
-      .also(worded("with xi straight on every interval, for s > 1, at least {:.0e}",
-                   Measurement{"least relative difference with xi straight", least}))
+      .also(worded("with xi linear in time on every interval, for s > 1, at least {:.0e}",
+                   Measurement{"least relative difference with xi linear in time", least}))
       .also(left_out(all, rows));
 }
 
@@ -138,30 +138,30 @@ Claims galerkin_claims() {
                  .states = states,
                  .judge = have_the_order_of_spaces(table, is_meant),
                  .condition =
-                     "fixed ends, no bound is active; s is the degree of q, m the number of control nodes per "
-                     "interval, r of quadrature points",
+                     "ends are fixed and no bound is active; s is the degree of q, m the number of control nodes per "
+                     "interval, r the number of quadrature points",
                  .evidence = {std::string(table) + "_slopes.csv"}};
   };
   return {
       order("control_space_large_enough", "convergence_galerkin", is_large_enough,
             "with m >= s and any Gauss quadrature of r >= s points state and costates at the nodes have order 2s: "
-            "neither more control nodes nor more quadrature points gain order"),
+            "neither more control nodes nor more quadrature points raise it"),
       order("control_space_too_small", "convergence_galerkin", is_too_small,
             "with m < s the order of state and costates at the nodes is 2m"),
       order("control_space_continuous", "convergence_galerkin_shared", has_any,
             "continuous controls through m Lobatto nodes, m >= 2, have order 2 min(s, m) as well"),
       order("control_space_by_lobatto_quadrature", "convergence_galerkin_lobatto", has_any,
-            "by s + 1 Lobatto points the order is 2 min(s, m) as well"),
+            "with s + 1 Lobatto points the order is 2 min(s, m) as well"),
       {.id = "galerkin_is_dmoc",
        .where = "section 3.4, eq:DMOC_RK_L",
-       .states = "with r = s = m by Gauss the Galerkin integrator has the solutions of DMOC",
+       .states = "with r = s = m and Gauss quadrature, the Galerkin integrator has the same solutions as DMOC",
        .judge = galerkin_is_dmoc,
        .evidence = {"convergence_galerkin.csv"}},
       {.id = "variation_and_discretisation_commute",
        .where = "section 3.5",
-       .states = "for every degree s of q, quadrature and control space the Lagrangian of the nonlinear program is the "
-                 "Galerkin form of the control Lagrangian C + xi (L_q + f) + xi' L_v: to vary and to discretise "
-                 "commute",
+       .states =
+           "for every degree s of q, quadrature and control space the Lagrangian of the nonlinear program is the "
+           "Galerkin form of the control Lagrangian C + xi (L_q + f) + xi' L_v: variation and discretisation commute",
        .judge = variation_commutes,
        .condition = "xi is the polynomial of degree s through the multipliers; one triple with a difference above "
                     "round-off would refute it; Campos et al. (2015) prove it for their families, and Konopik et "

@@ -53,7 +53,7 @@ double optimal_cost(const ResultTables& tables, const std::string& problem) {
   const Selection reference = tables.rows("convergence_indirect_reference", problem);
   constexpr double enough_digits = 11.0;
   const double digits = reference.front().needed("certified_digits");
-  require(digits >= enough_digits, "convergence_indirect_reference.csv certifies {} to {:.1f} digits only", problem,
+  require(digits >= enough_digits, "convergence_indirect_reference.csv certifies {} to only {:.1f} digits", problem,
           digits);
   return reference.front().needed("cost");
 }
@@ -100,12 +100,12 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
           problem);
   const bool is_identical = difference < identical_costs;
   const ClaimVerdict verdict = ratios.empty() ? ClaimVerdict::floor : verdict_on(is_identical && are_equal);
-  return found(verdict, "J of dmoc and hamiltonian differ by {:.0e} relative",
+  return found(verdict, "the relative difference of J between dmoc and hamiltonian is {:.0e}",
                Measurement{"relative difference of J", difference, "hamiltonian"})
       .also(worded("ratio of errors, tangent to dmoc, up to N = {}: {}", used.back().text("intervals"),
                    listed("{:.2f}", ratios)))
-      .also(below.empty() ? Words() : worded("on coarser ones, not judged: {}", listed("{:.2f}", below)))
-      .also(worded("{} grids at the round-off of J left out", at_floor))
+      .also(below.empty() ? Words() : worded("on coarser grids, which are not judged: {}", listed("{:.2f}", below)))
+      .also(worded("{} grids with errors at the round-off of J are excluded", at_floor))
       .also(left_out(dmoc, used, "not solved by all, in favour of"))
       .because(reason);
 }
@@ -166,17 +166,17 @@ Claims grid_claims() {
                      fmt::format("figures/{{}}_{}_error{}.svg", quantity, reference)}};
   };
   const auto objective = [](Problems problems, Wording where, Wording shown_in, Whose whose) {
-    return Claim{.id = "objective_evolution",
-                 .problems = std::move(problems),
-                 .where = where,
-                 .figure = shown_in,
-                 .whose = whose,
-                 .states = "DMOC and Hamiltonian have identical cost; tangent-space collocation performs equally well",
-                 .judge = objective_evolution,
-                 .condition =
-                     "errors against the certified optimum, from N = 16 on; equally well: within a factor of "
-                     "two either way",
-                 .evidence = {"objective.csv", "convergence_indirect_reference.csv", "figures/{}_objective.svg"}};
+    return Claim{
+        .id = "objective_evolution",
+        .problems = std::move(problems),
+        .where = where,
+        .figure = shown_in,
+        .whose = whose,
+        .states = "DMOC and Hamiltonian have identical cost; tangent-space collocation performs equally well",
+        .judge = objective_evolution,
+        .condition =
+            "errors against the certified optimum, from N = 16 on; \"equally well\" means within a factor of two",
+        .evidence = {"objective.csv", "convergence_indirect_reference.csv", "figures/{}_objective.svg"}};
   };
   return {
       order_two("state_slope", of_paper, "convergence", "state", ""),

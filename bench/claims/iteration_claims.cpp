@@ -112,9 +112,9 @@ Finding minor_iterations_from_slacks(const ResultTables& tables, const std::stri
       verdicts.push_back(looser.verdict());
     }
   }
-  Finding finding =
-      found(verdict_on_all(verdicts), "from the slack basis, collocation to DMOC {}", ratios.in_words("slack basis"))
-          .also(ratios.rows_left_out());
+  Finding finding = found(verdict_on_all(verdicts), "from the slack basis, ratio of collocation to DMOC {}",
+                          ratios.in_words("slack basis"))
+                        .also(ratios.rows_left_out());
   for (Words& clause : others) finding = std::move(finding).also(std::move(clause));
   return finding;
 }
@@ -123,7 +123,7 @@ Finding minor_iterations_from_slacks(const ResultTables& tables, const std::stri
 Finding minor_iterations_from_a_crash_basis(const ResultTables& tables, const std::string& problem) {
   const SqpRatios ratios(sqp_rows(tables, problem, "basis"), "minor_iterations", published_range(problem));
   return found(verdict_on_interval(ratios.lowest(), ratios.highest(), 0.0, ratios.range.lowest),
-               "with the first basis chosen for free, collocation to DMOC {}", ratios.in_words("free basis"))
+               "from a basis chosen without iterations, ratio of collocation to DMOC {}", ratios.in_words("free basis"))
       .also(ratios.rows_left_out());
 }
 
@@ -174,14 +174,14 @@ struct QuasiNewtonRatios {
 /// With quasi-Newton updates, as the SQP methods of the paper have them.
 Finding minor_iterations_by_quasi_newton(const ResultTables& tables, const std::string& problem) {
   const QuasiNewtonRatios ratios(tables, problem, "iterations_limited_memory_by_cost");
-  return found(verdict_on_all(ratios.verdicts), "collocation to DMOC {}", joined(ratios.words, "; "))
+  return found(verdict_on_all(ratios.verdicts), "ratio of collocation to DMOC {}", joined(ratios.words, "; "))
       .because(worded("major iterations of collocation and DMOC: {}", joined(ratios.majors, "; ")));
 }
 
 /// The same where the unknowns are taken in the units in which they come.
 Finding minor_iterations_by_updates_of_the_identity(const ResultTables& tables, const std::string& problem) {
   const QuasiNewtonRatios ratios(tables, problem, "iterations_limited_memory");
-  return found(ClaimVerdict::measured, "collocation to DMOC {}", joined(ratios.words, "; "))
+  return found(ClaimVerdict::measured, "ratio of collocation to DMOC {}", joined(ratios.words, "; "))
       .also(worded("major iterations of collocation and DMOC {}", joined(ratios.majors, "; ")));
 }
 
@@ -210,7 +210,7 @@ Finding minor_iterations_with_active_bounds(const ResultTables& tables, const st
     words.push_back(minors.rows_left_out());
   }
   require(problems > 1, "iterations_bounds.csv needs several problems by sqp from the slack basis");
-  return found(holds, "from the slack basis, collocation to DMOC: {}", joined(words, "; "));
+  return found(holds, "from the slack basis, ratio of collocation to DMOC: {}", joined(words, "; "));
 }
 
 }  // namespace
@@ -224,7 +224,7 @@ Claims iteration_claims() {
                        "DMOC needs about 1.5 times fewer minor iterations"};
   const char* const condition =
       "by an SQP method with exact second derivatives that starts at the slack basis, cold, without active "
-      "inequalities; about means within 0.1 of the printed number, from N = 32 on";
+      "inequalities; \"about\" means within 0.1 of the printed number, from N = 32 on";
   return {
       {.id = "minor_iteration_ratio",
        .where = section,
@@ -260,17 +260,17 @@ Claims iteration_claims() {
        .states = "ratio of minor iterations, collocation to DMOC, if quasi-Newton updates start from the identity, "
                  "that is, in the units of the unknowns",
        .judge = minor_iterations_by_updates_of_the_identity,
-       .condition = "the cost is flat in these units: every method takes many major iterations, each with an "
-                    "additional minor iteration, and DMOC takes the most on the orbit; scaling rows, by the step or to "
-                    "one size, changes little; scaling the control to unit curvature of the cost saves most iterations",
+       .condition =
+           "the cost is flat in these units: every method takes many major iterations, each with an additional minor "
+           "iteration, and DMOC takes the most on the orbit; scaling constraints, by the step or to one size, changes "
+           "little; scaling the control to unit curvature of the cost saves most iterations",
        .evidence = {"iterations_limited_memory.csv", "iterations_limited_memory_common.csv"},
        .has_verdict = false},
       {.id = "minor_iterations_saved_in_phase_1",
        .where = section,
        .figure = figure,
-       .states =
-           "the saving lies in phase 1 from the slack basis: from a basis chosen for free it is below the published "
-           "factor on every grid",
+       .states = "the saving lies in phase 1 from the slack basis: from a basis chosen without iterations it is below "
+                 "the published factor on every grid",
        .judge = minor_iterations_from_a_crash_basis,
        .evidence = evidence},
       {.id = "minor_iteration_ratio_with_active_bounds",
@@ -278,7 +278,7 @@ Claims iteration_claims() {
        .where = "section 4.2",
        .states = "minor iterations reflect the reduced number of variables also where bounds are active",
        .judge = minor_iterations_with_active_bounds,
-       .condition = "cold, from the guess; other problems than the paper's, whose controls have no bounds",
+       .condition = "cold, from the guess; problems other than the paper's, whose controls have no bounds",
        .cause = "a step that a bound cuts short costs one additional minor iteration, with collocation as with DMOC",
        .evidence = {"iterations_bounds.csv"}},
   };

@@ -34,8 +34,8 @@ Words in_library(const ResultTables& tables) {
   const ShareInterval share = wilson_interval({.hits = several, .trials = all});
   return worded("on {1} of {0} some cold starts end outside the best minimum ({2:.0f} to {3:.0f} %)",
                 counted(all, "problem"), several,
-                Measurement{"lower end of the share of problems", 100.0 * share.lower, "", "cold starts", "%"},
-                Measurement{"upper end of the share of problems", 100.0 * share.upper, "", "cold starts", "%"});
+                Measurement{"lower confidence limit of the share", 100.0 * share.lower, "", "cold starts", "%"},
+                Measurement{"upper confidence limit of the share", 100.0 * share.upper, "", "cold starts", "%"});
 }
 
 /// "Different initial guesses can lead to different solutions": reproduced if one of the paper's problems has a second
@@ -137,7 +137,7 @@ Finding saving_lost_by_short_steps(const ResultTables& tables, const std::string
   }
   require(pairs > 0, "profile_three_stages.csv has no pair of solves with equal costs");
   return found(ClaimVerdict::measured,
-               "{} pairs with equal costs: DMOC takes {:.2f} times the iterations (geometric mean)", pairs,
+               "{} pairs with equal costs: DMOC takes {:.2f} times Hamiltonian's iterations (geometric mean)", pairs,
                Measurement{"iterations over Hamiltonian collocation's", std::exp(sum / static_cast<double>(pairs)),
                            "dmoc"})
       .also(worded("on {} of them it evaluates more often per iteration", shortened))
@@ -178,8 +178,8 @@ Claims library_claims() {
   claims.push_back({.id = "saving_lost_by_short_steps",
                     .problems = Problems(1, "library"),
                     .where = "section 5, on two problems",
-                    .states = "with three stages on fine grids, how often DMOC takes so many more iterations that its "
-                              "saving is lost, and how often it evaluates more often per iteration there",
+                    .states = "with three stages on fine grids, number of pairs in which extra iterations cost DMOC "
+                              "its saving, and number of these with more evaluations per iteration",
                     .judge = saving_lost_by_short_steps,
                     .condition = "from each problem's guess, by interior_point; lost where DMOC's iterations exceed "
                                  "Hamiltonian's by more than the ratio of variables; short steps of the line search "

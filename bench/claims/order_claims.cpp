@@ -131,13 +131,13 @@ Finding order_of_adjoint_scheme(const ResultTables& tables, const std::string& p
   require(!orders.empty(), "convergence_indirect_slopes.csv has no order of the costate of {}", problem);
   require_all(orders, {"costate"});
   require(!lobatto.empty() && lobatto.size() < solves.size(),
-          "equivalence.csv has {} solves of {} by Lobatto and {} by Gauss; both are needed", lobatto.size(), problem,
-          solves.size() - lobatto.size());
+          "equivalence.csv has {} solves of {} with Lobatto and {} with Gauss; both are needed", lobatto.size(),
+          problem, solves.size() - lobatto.size());
   const double residual = solves.max("adjoint_residual");
   const double plain = lobatto.min("adjoint_residual_by_plain_coefficients");
   return found(verdict_on_orders(orders, residual < rounding_of_costates && plain > far_above_rounding),
-               "costates from the multipliers of {} solves have a residual of at most {:.1e}, relative to the costates "
-               "(Lobatto with halves not exchanged: at least {:.1e})",
+               "costates from the multipliers of {} solves have a relative residual of at most {:.1e} (Lobatto with "
+               "halves not exchanged: at least {:.1e})",
                solves.size(), Measurement{"largest residual of the adjoint scheme", residual},
                Measurement{"smallest residual with coefficients that are not exchanged", plain})
       .also(left_out(all, solves))
@@ -151,7 +151,7 @@ Finding stability_constant(const ResultTables& tables, const std::string& proble
     return is_structured(row) && row.text("tableau") == "gauss" && row.text("stages") == "1";
   });
   const Selection rows = all.where("verdict", "slope");
-  require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} by the midpoint rule among its {}",
+  require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} with the midpoint rule among its {}",
           problem, all.size());
   const auto words = [](const Row& row) {
     const auto ratio = [&](const char* column, const char* grid) {
@@ -190,7 +190,7 @@ Finding order_eight(const ResultTables& tables, const std::string& problem) {
         return row.text("tableau") == "gauss" && row.text("stages") == "4";
       });
   const Selection orders = fitted_of(all);
-  require(!all.empty(), "convergence_indirect_slopes.csv has no order for {} by gauss 4", problem);
+  require(!all.empty(), "convergence_indirect_slopes.csv has no order for {} with gauss 4", problem);
   const auto is_eight = [](const Row& row) { return verdict_on_order(row, 8.0); };
   const auto words = [](const Row& row) {
     const std::string& quantity = row.text("quantity");
@@ -280,7 +280,7 @@ Claims order_claims() {
        .states = "the factor by which consistency errors of the state equations enter the error of the optimum, as the "
                  "grid is refined",
        .judge = stability_constant,
-       .condition = "a lower bound on the constant of (abstract_result), for errors in this direction only; midpoint "
+       .condition = "a lower bound on the constant of (abstract_result), only for errors in this direction; midpoint "
                     "rule and fixed ends, because the reference, the indirect method, supports no others",
        .evidence = {"convergence_indirect_jumps.csv"},
        .has_verdict = false},

@@ -10,7 +10,7 @@ namespace {
 
 /// One column over another.
 double quotient_of(const Row& row, const char* numerator, const char* denominator) {
-  require(row.needed(denominator) > 0.0, "{}, column {}: it has to be above zero", row.place(), denominator);
+  require(row.needed(denominator) > 0.0, "{}, column {}: the value must be positive", row.place(), denominator);
   return row.needed(numerator) / row.needed(denominator);
 }
 
@@ -63,7 +63,7 @@ Predicate all_hold_with_one_order(std::vector<Statement> statements) {
       words.push_back(
           worded("{}: {} ({})", statement.name, outcome_in_words(verdicts.back()), listed("{:.1f}", slopes)));
     }
-    return found(verdict_on_all(verdicts), "slopes over h by Gauss of order 2, 4, 6: {}", joined(words, "; "));
+    return found(verdict_on_all(verdicts), "slopes over h, Gauss schemes of orders 2, 4, 6: {}", joined(words, "; "));
   };
 }
 
@@ -83,7 +83,7 @@ Finding theorem_as_printed(const ResultTables& tables, const std::string& proble
   const ClaimVerdict has_pair = verdict_on_interval(least.value, most.value, -1.0, rounding_of_differences);
   finding.verdict = verdict_on_all({finding.verdict, has_pair});
   return std::move(finding).also(worded(
-      "(iii) f_d: {}, its error by the midpoint rule {} a differential, h d(f_d - f_d^E) is {} of f_d - f_d^E",
+      "(iii) f_d: {}, its error with the midpoint rule {} a differential, h d(f_d - f_d^E) is {} of f_d - f_d^E",
       outcome_in_words(has_pair), has_pair == ClaimVerdict::reproduced ? "is" : "is not", listed("{:.0e}", shares)));
 }
 

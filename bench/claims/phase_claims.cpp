@@ -127,7 +127,7 @@ Claims phase_claims() {
                      "condition of variational collision integrators, have order 1, with half of the forces' work "
                      "order 2; the impact law for the Legendre-transformed momenta has order 2s and keeps the energy",
            .judge = energy_at_impacts,
-           .condition = "without forces the energies of the steps are a right condition, of order 2s",
+           .condition = "without forces, equal energies of the steps are a correct condition, of order 2s",
            .evidence = {"invariants_impacts.csv", "invariants_impacts_slopes.csv"}}};
 }
 

@@ -36,8 +36,8 @@ Finding order_of_shooting(const ResultTables& tables, const std::string& problem
   for (const auto& [table, method, stages, order] : expected_orders) {
     const Selection slopes = tables.rows(table, problem).where("quantity", "state").where("tableau", "gauss");
     const Selection rows = slopes.where("method", method).where("stages", stages);
-    require(rows.size() == 1, "{}.csv has {} orders of the state of {} by {}, s = {}, not one", table, rows.size(),
-            problem, method, stages);
+    require(rows.size() == 1, "{}.csv has {} orders of the state of {} by {}, s = {}; one is needed", table,
+            rows.size(), problem, method, stages);
     const Row& row = rows.front();
     const bool is_fitted = row.text("verdict") == "slope";
     is_floor = is_floor || !is_fitted;
@@ -54,8 +54,8 @@ Finding order_of_shooting(const ResultTables& tables, const std::string& problem
 /// The row of cold starts of a method by Ipopt.
 Row cold_starts_of(const ResultTables& tables, const std::string& problem, const char* method) {
   const Selection rows = midpoint(tables.rows("cold_start_shooting_shares", problem), method).where("solver", "ipopt");
-  require(rows.size() == 1, "cold_start_shooting_shares.csv has {} rows of {} by {} and ipopt, not one", rows.size(),
-          problem, method);
+  require(rows.size() == 1, "cold_start_shooting_shares.csv has {} rows of {} by {} and ipopt; one is needed",
+          rows.size(), problem, method);
   return rows.front();
 }
 
@@ -80,12 +80,13 @@ Finding more_often(const ResultTables& tables, const std::string& problem, const
                        : difference.upper <= 0.0 ? ClaimVerdict::differs
                                                  : ClaimVerdict::undecided);
     const std::string starts = fmt::format("starts {}", column);
-    words.push_back(
-        worded("{} {} {} of {}, {} {} of {}, difference {:+.1f} to {:+.1f} %", column, first,
-               count(starts, own.hits, first), count("starts", own.trials, first), second,
-               count(starts, others.hits, second), count("starts", others.trials, second),
-               Measurement{"lower end of the difference of " + starts, 100.0 * difference.lower, first, "", "%"},
-               Measurement{"upper end of the difference of " + starts, 100.0 * difference.upper, first, "", "%"}));
+    words.push_back(worded(
+        "{} {} {} of {}, {} {} of {}, difference {:+.1f} to {:+.1f} %", column, first, count(starts, own.hits, first),
+        count("starts", own.trials, first), second, count(starts, others.hits, second),
+        count("starts", others.trials, second),
+        Measurement{"lower confidence limit of the difference of " + starts, 100.0 * difference.lower, first, "", "%"},
+        Measurement{"upper confidence limit of the difference of " + starts, 100.0 * difference.upper, first, "",
+                    "%"}));
   }
   const auto failures = [](const Row& of_method, const char* method) {
     const std::string& unsolved = of_method.text("failures");
@@ -106,7 +107,7 @@ Curves timed_curves(const ResultTables& tables, const std::string& problem, cons
                              .where("solver", "ipopt")
                              .sorted_by("intervals");
   require(rows.size() > 1 && rows.are_usable(),
-          "savings_by_solver_shooting.csv: {} by {} is not solved on the wanted branch on several grids", problem,
+          "savings_by_solver_shooting.csv: {} by {} is not solved on the required branch on several grids", problem,
           method);
   Curves curves;
   for (const Row& row : rows) {
@@ -145,7 +146,7 @@ Predicate costs_more(const char* method) {
     timed.add(method, ratios);
     return found_by_times(
         timed,
-        fmt::format("ratio of the time of a solve by Ipopt to DMOC's at a relative error {:.1e} of the cost: ", error));
+        fmt::format("ratio of solve times by Ipopt to DMOC's at a relative error of the cost of {:.1e}: ", error));
   };
 }
 
@@ -156,7 +157,7 @@ Claims shooting_claims() {
   const std::vector<std::string> cold{"cold_start_shooting_shares.csv", "figures/{}_shooting.svg"};
   const char* const where = "section 3.3, direct methods";
   const char* const by_ipopt =
-      "by Ipopt on one grid; DMOC is of order 2, and shooting by rk4 with one step per interval";
+      "by Ipopt on one grid; DMOC is of order 2, and shooting uses rk4 with one step per interval";
   const auto succeeds_more_often = [](const char* first, const char* second) -> Predicate {
     return [=](const ResultTables& tables, const std::string& problem) {
       return more_often(tables, problem, first, second);
@@ -181,23 +182,23 @@ Claims shooting_claims() {
           {.id = "multiple_shooting_more_robust_than_single",
            .problems = with_swing_up,
            .where = where,
-           .states = "from cold starts, the guess and near it, multiple shooting is solved more often than single "
-                     "shooting, and confirmed more often",
+           .states = "from cold starts (the guess and perturbed guesses), multiple shooting is solved more often than "
+                     "single shooting, and confirmed more often",
            .judge = succeeds_more_often(multiple, single),
            .condition = by_ipopt,
            .evidence = cold},
           {.id = "dmoc_more_robust_than_multiple_shooting",
            .problems = with_swing_up,
            .where = where,
-           .states = "from cold starts, the guess and near it, DMOC is solved more often than multiple shooting, and "
-                     "confirmed more often",
+           .states = "from cold starts (the guess and perturbed guesses), DMOC is solved more often than multiple "
+                     "shooting, and confirmed more often",
            .judge = succeeds_more_often("dmoc", multiple),
            .condition = by_ipopt,
            .evidence = cold},
           dearer("multiple_shooting_slower_at_equal_error", multiple,
-                 "for the same error of the cost a solve by multiple shooting takes longer than by DMOC"),
+                 "for the same error of the cost, a solve takes longer with multiple shooting than with DMOC"),
           dearer("single_shooting_slower_at_equal_error", single,
-                 "for the same error of the cost a solve by single shooting takes longer than by DMOC")};
+                 "for the same error of the cost, a solve takes longer with single shooting than with DMOC")};
 }
 
 }  // namespace dmocbench

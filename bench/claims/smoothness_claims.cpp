@@ -49,7 +49,7 @@ Finding order_2_within_control_bounds(const ResultTables& tables, const std::str
     return verdict_on_interval(slope - half_width, slope + half_width, 2.0 - beside,
                                std::numeric_limits<double>::infinity());
   };
-  return found(verdict_on_all(orders, is_2), "slopes by the midpoint rule: {}", orders_in_words(orders));
+  return found(verdict_on_all(orders, is_2), "slopes with the midpoint rule: {}", orders_in_words(orders));
 }
 
 Finding kinks_leave_order_2(const ResultTables& tables, const std::string& /*problem*/) {
@@ -63,7 +63,7 @@ Finding kinks_leave_order_2(const ResultTables& tables, const std::string& /*pro
   };
   const auto kept = [](const Row& row) { return verdict_on_order(row, 4.0); };
   return found(verdict_on_all({verdict_on_all(kinked, lost), verdict_on_all(smooth, kept)}),
-               "slopes of the state by Gauss, s = 2, with kinks: {}", orders_in_words(kinked))
+               "slopes of the state with Gauss, s = 2, and kinks: {}", orders_in_words(kinked))
       .also(worded("without: {}", orders_in_words(smooth)));
 }
 
@@ -85,7 +85,7 @@ Finding state_bound_orders(const ResultTables& tables, const std::string& /*prob
   const auto has = [](double order) { return [=](const Row& row) { return verdict_on_order(row, order); }; };
   const ClaimVerdict verdict = verdict_on_all(
       {verdict_on_all(theorem, has(2.0)), verdict_on_all(control, has(1.0)), verdict_on_all(jumping, has(0.0))});
-  return found(verdict, "slopes by the midpoint rule: {}", orders_in_words(theorem))
+  return found(verdict, "slopes with the midpoint rule: {}", orders_in_words(theorem))
       .also(orders_in_words(control))
       .also(orders_in_words(jumping));
 }
@@ -154,7 +154,7 @@ Claims coercivity_claims() {
                      "on the space M of the paper, whose variations move the final state",
            .judge = at_end("free"),
            .condition = "x = (q, p) at T is free along the variations, and V = 0, as the cost has no final term and r "
-                        "is linear; the optimum is the one of the stated problem",
+                        "is linear; the optimum belongs to the stated problem",
            .cause = "M leaves out the fixed final state; variations that move it lower the cost to second order, so "
                     "that main_theorem does not cover this problem, although its optima converge with the order of "
                     "the theorem",
@@ -165,43 +165,42 @@ Claims coercivity_claims() {
 /// Optima that are not smooth, free final states.
 Claims smoothness_claims() {
   const std::vector<std::string> evidence{"smoothness_slopes.csv", "smoothness.csv", "figures/smoothness.svg"};
-  return {
-      {.id = "order_within_control_bounds",
-       .problems = examples,
-       .where = "section 3.6, second remark below main_theorem",
-       .whose = Whose::paper,
-       .states = "the order 2 also holds with constraints on the control",
-       .judge = order_2_within_control_bounds,
-       .evidence = evidence},
-      {.id = "order_with_a_free_end",
-       .problems = examples,
-       .where = "section 3.6, main_theorem",
-       .whose = Whose::paper,
-       .states = "without constraint on the final state, state, costate and u(x, psi) have the order of the method",
-       .judge = free_end_has_the_order,
-       .evidence = evidence},
-      {.id = "kinks_leave_order_2",
-       .problems = examples,
-       .where = "section 3.6, eq:conv_estimate",
-       .states = "where the optimal control has kinks, a method of order 4 has only about order 2",
-       .judge = kinks_leave_order_2,
-       .condition = "tau(d^3 u*/dt^3; h) of eq:conv_estimate does not exist there; of u* and its first derivative it "
-                    "does, which gives h^2",
-       .evidence = evidence},
-      {.id = "order_within_a_state_bound",
-       .problems = examples,
-       .where = "section 3.6, main_theorem",
-       .states =
-           "with a bound on the state that is active along an arc, state, psi^p and u(x, psi) keep order 2, stage "
-           "controls have order 1, and psi^q, which jumps, does not converge",
-       .judge = state_bound_orders,
-       .evidence = evidence},
-      {.id = "brachistochrone_not_coercive",
-       .problems = examples,
-       .where = "section 3.5, assumption of coercivity",
-       .states = "for a problem that is linear in its control, the constant of coercivity tends to 0",
-       .judge = not_coercive,
-       .evidence = {"coercivity.csv"}}};
+  return {{.id = "order_within_control_bounds",
+           .problems = examples,
+           .where = "section 3.6, second remark below main_theorem",
+           .whose = Whose::paper,
+           .states = "the order 2 also holds with constraints on the control",
+           .judge = order_2_within_control_bounds,
+           .evidence = evidence},
+          {.id = "order_with_a_free_end",
+           .problems = examples,
+           .where = "section 3.6, main_theorem",
+           .whose = Whose::paper,
+           .states = "without constraint on the final state, state, costate and u(x, psi) have the order of the method",
+           .judge = free_end_has_the_order,
+           .evidence = evidence},
+          {.id = "kinks_leave_order_2",
+           .problems = examples,
+           .where = "section 3.6, eq:conv_estimate",
+           .states = "where the optimal control has kinks, a method of order 4 has only about order 2",
+           .judge = kinks_leave_order_2,
+           .condition = "tau(d^3 u*/dt^3; h) of eq:conv_estimate does not exist there; it exists for u* and its first "
+                        "derivative, which gives h^2",
+           .evidence = evidence},
+          {.id = "order_within_a_state_bound",
+           .problems = examples,
+           .where = "section 3.6, main_theorem",
+           .states =
+               "with a bound on the state that is active along an arc, state, psi^p and u(x, psi) keep order 2, stage "
+               "controls have order 1, and psi^q, which jumps, does not converge",
+           .judge = state_bound_orders,
+           .evidence = evidence},
+          {.id = "brachistochrone_not_coercive",
+           .problems = examples,
+           .where = "section 3.5, assumption of coercivity",
+           .states = "for a problem that is linear in its control, the constant of coercivity tends to 0",
+           .judge = not_coercive,
+           .evidence = {"coercivity.csv"}}};
 }
 
 }  // namespace dmocbench

@@ -90,7 +90,7 @@ Finding momentum_consistency(const ResultTables& tables, const std::string& prob
   if (tables.has("consistency_tolerances")) rows.append(tables.rows("consistency_tolerances", problem));
   for (const Row& row : rows) static_cast<void>(row.needed("tolerance"));
   const std::vector<Selection> by_tolerance = rows.where(is_midpoint).sorted_by("tolerance").group_by({"tolerance"});
-  require(!by_tolerance.empty(), "consistency.csv has no row of {} by gauss 1 with a tolerance", problem);
+  require(!by_tolerance.empty(), "consistency.csv has no row of {} with gauss 1 and a tolerance", problem);
   const auto of_grids = [](const Selection& solves) { return MomentumBalance(solves.sorted_by("intervals")); };
   const MomentumBalance balance = of_grids(by_tolerance.front());
   std::vector<Words> others;
@@ -173,7 +173,7 @@ Finding bolza_is_mayer(const ResultTables& tables, const std::string& problem) {
   require(used.size() > 1, "objective.csv and objective_mayer.csv have {} programs of {} solved in both forms",
           used.size(), problem);
   return found(largest < rounding_of_costs,
-               "costs of {} programs by {} in both forms differ by at most {:.0e}, relative", used.size(),
+               "costs of {} programs by {} in both forms have relative differences of at most {:.0e}", used.size(),
                fmt::join(used.distinct("method"), ", "),
                Measurement{"largest relative difference of the costs", largest})
       .also(left_out(all, used, "not solved in both forms, in favour of"));
@@ -220,7 +220,7 @@ Finding costates_keep_their_momentum(const ResultTables& tables, const std::stri
   require(words.size() >= paper_families().size(),
           "equivalence_symmetric.csv has usable rows of {} methods; three are needed", words.size());
   return found(rows.max("costate_momentum_spread") < equal_costates_tolerance,
-               "largest spread of the momentum of the costates, relative: {}", joined(words, "; "))
+               "largest relative spread of the momentum of the costates: {}", joined(words, "; "))
       .also(left_out(all, rows));
 }
 
@@ -255,7 +255,7 @@ Finding tangent_differs(const ResultTables& tables, const std::string& problem) 
 Finding tangent_coincides(const ResultTables& tables, const std::string& problem) {
   const Selection all = tables.rows("equivalence", problem).where("method", "tangent").where("tableau", "gauss");
   const Selection rows = all.usable();
-  require(!rows.empty(), "equivalence.csv has no solved row of {} by tangent and Gauss", problem);
+  require(!rows.empty(), "equivalence.csv has no solved row of {} by tangent with Gauss", problem);
   const Differences largest(rows);
   return found(largest.are_rounding(), "largest relative difference from DMOC on {} grids: {:.0e}, costates {:.0e}",
                rows.size(), Differences::of("q, p, u and J", largest.primal),
@@ -312,14 +312,14 @@ Claims solution_claims() {
        .whose = Whose::paper,
        .states = "DMOC and Hamiltonian collocation with the same tableau have equal solutions",
        .judge = equal_solutions,
-       .condition = "fixed ends, no inequality is active, solutions are refined by Newton steps",
+       .condition = "ends are fixed, no inequality is active, and solutions are refined by Newton steps",
        .evidence = equivalence},
       {.id = "bolza_is_mayer",
        .where = "sections 3.1, 3.2 and 3.4, eq:gDLOCP_mayer, eq:dHOCP1_mayer",
        .whose = Whose::paper,
        .states = "the transformation to Mayer form yields exactly the same problem",
        .judge = bolza_is_mayer,
-       .condition = "by the optimal costs of separate solves",
+       .condition = "judged by the optimal costs of separate solves",
        .evidence = {"objective.csv", "objective_mayer.csv"}},
       {.id = "equal_solutions_with_inequalities",
        .problems = examples,
@@ -328,8 +328,8 @@ Claims solution_claims() {
        .states = "DMOC and Hamiltonian collocation have equal solutions also where inequalities are active and the "
                  "horizon is free",
        .judge = equal_with_inequalities,
-       .condition = "odd N: on even ones the symmetric switches of robot_arm fall on nodes, no control is left between "
-                    "its bounds there, so multipliers are not unique",
+       .condition = "odd N: for even N the symmetric switches of robot_arm fall on nodes, where no control lies "
+                    "between its bounds, so multipliers are not unique",
        .evidence = {"equivalence_inequalities.csv"}},
       {.id = "costates_keep_their_momentum",
        .problems = examples,
@@ -342,13 +342,13 @@ Claims solution_claims() {
        .evidence = {"equivalence_symmetric.csv"}},
       {.id = "tangent_differs",
        .where = section,
-       .states = "collocation on the tangent space is another discretisation: its solutions differ from DMOC's",
+       .states = "collocation on the tangent space is a different discretisation: its solutions differ from DMOC's",
        .judge = tangent_differs,
        .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}},
       {.id = "dmoc_is_the_forced_form",
        .where = "section 3.5",
-       .states = "by the midpoint rule the optimality conditions of DMOC and Hamiltonian collocation are the discrete "
-                 "Euler-Lagrange equations of the control Lagrangian C + xi (L_q + f) + xi' L_v",
+       .states = "with the midpoint rule, the optimality conditions of DMOC and Hamiltonian collocation are the "
+                 "discrete Euler-Lagrange equations of the control Lagrangian C + xi (L_q + f) + xi' L_v",
        .judge = dmoc_is_the_forced_form,
        .condition = "the multiplier xi is the costate of the momentum; ends are fixed and no inequality is active; "
                     "control Lagrangians are the topic of Leyendecker et al. (arXiv 2307.13402) and Konopik et al. "
@@ -368,13 +368,13 @@ Claims solution_claims() {
 
 /// Where tangent-space collocation has the solutions of DMOC.
 Claims coincidence_claims() {
-  return {{.id = "tangent_coincides",
-           .problems = Problems(1, oscillator),
-           .where = "section 3.4, ex:RK",
-           .states =
-               "where L_vv and L_vq are constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
-           .judge = tangent_coincides,
-           .evidence = {"equivalence.csv", "figures/{}_equivalence.svg"}}};
+  return {
+      {.id = "tangent_coincides",
+       .problems = Problems(1, oscillator),
+       .where = "section 3.4, ex:RK",
+       .states = "where L_vv and L_vq are constant, tangent-space collocation with Gauss is Hamiltonian collocation",
+       .judge = tangent_coincides,
+       .evidence = {"equivalence.csv", "figures/{}_equivalence.svg"}}};
 }
 
 }  // namespace dmocbench

@@ -29,8 +29,8 @@ Words TimedRatios::in_words() const {
   return joined(ratios_, ", ", [](const std::pair<std::string, RatioInterval>& named) {
     const auto& [name, interval] = named;
     return worded("{} {:.2f} ({:.2f} to {:.2f})", name, Measurement{"ratio of times", interval.ratio, "", name},
-                  Measurement{"lower end of the ratio", interval.lower, "", name},
-                  Measurement{"upper end of the ratio", interval.upper, "", name});
+                  Measurement{"lower confidence limit of the ratio", interval.lower, "", name},
+                  Measurement{"upper confidence limit of the ratio", interval.upper, "", name});
   });
 }
 

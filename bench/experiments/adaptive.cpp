@@ -79,7 +79,7 @@ int measure_all(CommandLine& line) {
   ProblemOptions asked{.problems = all_problems};
   asked.add_to(line);
   line.number("--rounds", rounds, 0, 10000, "number of timed repetitions of the refinement");
-  line.option("--solver", solver, "solver, as `list` names them");
+  line.option("--solver", solver, "name of a solver; see `dmocbench list`");
   line.flag("--quick", is_quick, "only the problems with short fast phases, unless --problem names others");
   line.ignored_unless(
       "--quick", [&asked] { return asked.problems == all_problems; }, "--problem names the problems");

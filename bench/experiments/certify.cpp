@@ -126,17 +126,18 @@ Columns<Certificate> certificate_columns(const std::vector<std::string>& routes)
               from(&Certificate::replay_error)},
              {"indirect_objective", "cost", "cost by the indirect method", from(&Certificate::indirect_objective)},
              {"indirect_digits", "", "certified digits of this cost", from(&Certificate::indirect_digits)},
-             {"agreeing_digits", "", "digits that all routes share", agreeing_digits},
-             {"grid_digits", "", "digits that each route's two finest grids share", from(&Certificate::grid_digits)},
+             {"agreeing_digits", "", "digits on which all routes agree", agreeing_digits},
+             {"grid_digits", "", "digits on which each route's two finest grids agree",
+              from(&Certificate::grid_digits)},
              {"reference", "cost", "cost that the problem states", from(reference, &ReferenceOptimum::objective)},
              {"reference_digits", "", "valid digits of this cost", from(reference, &ReferenceOptimum::digits)},
-             {"certificate", "", "how it was obtained", from(reference, &ReferenceOptimum::certificate)},
-             {"reference_agreement", "", "digits that all routes share with it", reference_agreement},
-             {"confirmed", "", "whether the routes confirm it",
+             {"certificate", "", "method used to compute this cost", from(reference, &ReferenceOptimum::certificate)},
+             {"reference_agreement", "", "digits on which all routes agree with it", reference_agreement},
+             {"confirmed", "", "verdict of the routes on this cost",
               from(&Certificate::agreement, &RouteAgreement::confirmed)},
              {"published", "", "published values with their sources", published},
-             {"remark", "", "where published values differ, and why", from(reference, &ReferenceOptimum::remark)},
-             {"message", "", "why there is no indirect solution", from(&Certificate::message)}};
+             {"remark", "", "reason for differing published values", from(reference, &ReferenceOptimum::remark)},
+             {"message", "", "reason for a missing indirect solution", from(&Certificate::message)}};
 }
 
 /// The cost of the motion of a solved case, its intervals replayed one by one; empty, with the reason in the row's
@@ -171,8 +172,8 @@ class Certify final : public ExperimentOf<Measured> {
             {.name = "certify",
              .description = "Computes the optimal cost with independent methods: two tableaus on two grids each, "
                             "integration of every interval of the finest solution, and the indirect method where it "
-                            "applies. NAME_references.csv has a row per problem: the results, the number of digits "
-                            "that they share, and whether they confirm the reference that the problem states.",
+                            "applies. NAME_references.csv has a row per problem: the results, the number of digits on "
+                            "which they agree, and the verdict on the reference that the problem states.",
              .options = {.problems = {"all"}, .methods = {"dmoc"}, .solvers = {"ipopt"}, .intervals = "64,128"},
              .further_files = {"_references.csv"},
              .problems_are_independent = true,
@@ -187,7 +188,7 @@ class Certify final : public ExperimentOf<Measured> {
          from(&Measured::indirect, &IndirectSolution::cost)},
         {"indirect_digits", "", "certified digits of this cost",
          from(&Measured::indirect, &IndirectSolution::certified_digits)},
-        {"indirect_message", "", "why the indirect method has no solution", &Measured::indirect_message},
+        {"indirect_message", "", "reason for a missing indirect solution", &Measured::indirect_message},
     };
   }
   void add_options(CommandLine& line) override {
@@ -243,7 +244,7 @@ class Certify final : public ExperimentOf<Measured> {
     std::vector<Certificate> certificates;
     for (const ProblemToCertify& certified : problems_) {
       const Certificate& c = certificates.emplace_back(certificate_of(*certified.problem, table));
-      output.summary.say(fmt::format("certify: {}: all routes share {} digits; reference {}", c.problem,
+      output.summary.say(fmt::format("certify: {}: all routes agree to {} digits; reference {}", c.problem,
                                      Cell(agreeing_digits(c)).text(), reference_in_words(c.agreement.confirmed)));
     }
     output.write("_references.csv", table_of(certificate_columns(route_names_), certificates));

@@ -22,7 +22,7 @@ struct Curvature {
 const Columns<Curvature> columns =
     scheme_columns<Curvature>() +
     Columns<Curvature>{
-        {"end", "", "variations of the final state: none as stated, or free as in the space M of the paper",
+        {"end", "", "variations of the final state: none, as stated, or free, as in the space M of the paper",
          &Curvature::end, in_key},
         {"status", "", "status of the solve", &Curvature::status},
         {"intervals", "", "number of intervals N", &Curvature::intervals, in_key},

@@ -61,14 +61,14 @@ struct IndirectStarts {
 
 const Columns<IndirectStarts> indirect_columns{
     {"problem", "", "its name", &IndirectStarts::problem, in_key},
-    {"starts", "", "trajectories of the direct methods' cold starts, with costates 0", &IndirectStarts::starts},
-    {"converged", "", "number of them from which two runs agree to 1e-6",
+    {"starts", "", "number of the direct methods' cold starts, used with costates 0", &IndirectStarts::starts},
+    {"converged", "", "number of these from which two runs of the indirect method agree to 1e-6",
      [](const IndirectStarts& of) { return static_cast<long long>(of.converged.hits); }},
-    {"converged_lower", "", "lower end of the 95 % interval of their share",
+    {"converged_lower", "", "lower 95 % confidence limit of their share",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).lower; }},
-    {"converged_upper", "", "upper end of this interval",
+    {"converged_upper", "", "upper 95 % confidence limit of their share",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).upper; }},
-    {"best", "", "number of these at a cost not above the certified one",
+    {"best", "", "number of converged ones whose cost does not exceed the certified cost",
      [](const IndirectStarts& of) { return static_cast<long long>(of.best.hits); }}};
 
 /// Starts per case: a number for all solvers, SOLVER=NUMBER for one of them; 0 where neither is given.
@@ -116,11 +116,11 @@ class ColdStart final : public Experiment {
             {.name = "cold_start",
              .description =
                  "Solves every case from the problem's guess and from perturbed guesses, the same for all methods. "
-                 "NAME_shares.csv: how many starts are solved, confirmed by integrating each interval, and on the best "
-                 "branch, with confidence intervals, and quartiles of the iterations, evaluations and seconds needed. "
-                 "NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of evaluations alone "
-                 "for solves in a batch). Failed starts stay in the table and count. NAME_indirect.csv: the number of "
-                 "these trajectories, with costates 0, from which the indirect method converges.",
+                 "NAME_shares.csv: the numbers of starts that are solved, confirmed by integrating each interval, and "
+                 "on the best branch, with confidence intervals, and quartiles of the iterations, evaluations and "
+                 "seconds needed. NAME_profiles.csv: the share solved within a budget of evaluations or seconds (only "
+                 "of evaluations for solves in a batch). Failed starts stay in the table and count. NAME_indirect.csv: "
+                 "the number of these trajectories, with costates 0, from which the indirect method converges.",
              .options = {.problems = {"all"},
                          .solvers = {"auto"},
                          .intervals = "64",
@@ -132,7 +132,7 @@ class ColdStart final : public Experiment {
              .branches = BranchReport::none,
              .problems_are_independent = true,
              .takes_batches = true},
-            {{"start", "", "number of the start, cold; 0 is the guess itself",
+            {{"start", "", "number of the cold start; 0 is the guess itself",
               from(&SolvedCase::the_case, &Case::variant, &Variant::label), in_key},
              {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
               from(&SolvedCase::solution, &Solution::total_evaluations)},

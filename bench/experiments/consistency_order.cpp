@@ -88,7 +88,7 @@ const Columns<MeasuredError> error_columns =
     Columns<MeasuredError>{
         {"h", "", "step", from(&MeasuredError::value, &ErrorOfStep::h), in_key},
         {"error", "", "largest error over the initial conditions", from(&MeasuredError::value, &ErrorOfStep::error)},
-        {"message", "", "why the error is missing", from(&MeasuredError::value, &ErrorOfStep::message)}};
+        {"message", "", "reason for a missing error", from(&MeasuredError::value, &ErrorOfStep::message)}};
 
 using MeasuredOrder = Measured<FittedOrder>;
 const Columns<MeasuredOrder> order_columns =

@@ -104,7 +104,7 @@ class Convergence final : public ExperimentOf<Measured> {
         {"control_from_costate_error", "",
          "largest error of the control recomputed from state and costate at the nodes",
          &Measured::control_from_costate_error},
-        {"polish_steps", "", "Newton steps after the solver", &Measured::polish_steps},
+        {"polish_steps", "", "number of Newton steps after the solve", &Measured::polish_steps},
         {"active", "", "quantities limited by active bounds or path constraints: control, state, or control and state",
          &Measured::active},
         {"stage_configuration_error", "", "largest error of Q_i", from(error, stages, &StageError::configuration)},

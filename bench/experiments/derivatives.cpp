@@ -87,7 +87,7 @@ class Derivatives final : public ExperimentOf<Measured> {
 
   void add_options(CommandLine& line) override {
     line.list("--hessian", hessians_,
-              "exact: the back end's; limited_memory: Ipopt's quasi-Newton Hessian, not with finite_differences");
+              "exact: by the back end; limited_memory: Ipopt's quasi-Newton Hessian, not with finite_differences");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

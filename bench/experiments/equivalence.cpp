@@ -143,7 +143,7 @@ class Equivalence final : public ExperimentOf<Measured> {
          "relative difference of the program's Lagrangian, at the start and with the solution's multipliers, from the "
          "sum of h b_i (C + xi F + xi' L_v), xi of the degree of q",
          &Measured::galerkin_form_difference},
-        {"straight_form_difference", "", "the same with xi straight on every interval",
+        {"straight_form_difference", "", "the same with xi linear in time on every interval",
          &Measured::straight_form_difference},
     };
   }

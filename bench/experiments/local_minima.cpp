@@ -51,9 +51,9 @@ class LocalMinima final : public ExperimentOf<Measured> {
   LocalMinima()
       : ExperimentOf({.name = "local_minima",
                       .description = "Solves every case from many perturbed guesses. NAME_minima.csv has the minima "
-                                     "found and how often each method ends in each, NAME_shares.csv how often it finds "
-                                     "the best one, with a confidence interval. With --plane the starts form a plane, "
-                                     "and NAME_basins.csv has the minimum that each start reaches.",
+                                     "found and the number of starts ending in each, NAME_shares.csv the share ending "
+                                     "in the best one, with a confidence interval. With --plane the starts form a "
+                                     "plane, and NAME_basins.csv has the minimum that each start reaches.",
                       .options = {.solvers = {"auto"}, .intervals = "64", .start = "guess", .jobs = 2, .batch = true},
                       .further_files = {"_minima.csv", "_shares.csv", "_basins.csv"},
                       .branches = BranchReport::none,
@@ -69,7 +69,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
            columns_through<Measured>(&Measured::checks, check_columns());
   }
   void add_options(CommandLine& line) override {
-    line.number("--starts", starts_, 1, 100000, "starts per case: the guess, and perturbed ones");
+    line.number("--starts", starts_, 1, 100000, "starts per case: the guess and perturbed guesses");
     line.number("--seed", seed_, 0, 0xffffffffU, "seed of the random curves; the same seed gives the same starts");
     line.number("--amplitude", amplitude_, 0.0, 10.0,
                 "amplitude of the random curves, and of the perturbations of a plane, relative to the range of each "

@@ -53,9 +53,9 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
 
   [[nodiscard]] Columns<Measured> columns() const override {
     return {
-        {"factorisation", "", "how interior_point solves its linear systems", &Measured::factorisation, in_key},
+        {"factorisation", "", "factorisation of interior_point's linear systems", &Measured::factorisation, in_key},
         {"linear_systems", "", "number of linear systems solved", &Measured::linear_systems},
-        {"seconds_per_iteration", "s", "wall clock time of the solve divided by its iterations",
+        {"seconds_per_iteration", "s", "wall-clock time of the solve divided by its iterations",
          &Measured::per_iteration},
         {"linear_algebra_per_iteration", "s", "the same without evaluations", &Measured::linear_algebra_per_iteration},
         {"seconds_per_linear_system", "s", "factorisation and substitution", &Measured::per_linear_system},
@@ -67,7 +67,7 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
   }
 
   void add_options(CommandLine& line) override {
-    line.list("--factorisation", factorisations_, "how interior_point solves its linear systems");
+    line.list("--factorisation", factorisations_, "factorisation of interior_point's linear systems");
     line.ignored_unless(
         "--factorisation", [this] { return std::ranges::count(options().solvers, "interior_point") > 0; },
         "only interior_point offers a choice");

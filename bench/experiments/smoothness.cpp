@@ -43,7 +43,7 @@ Columns<Record> situation_columns() {
   return Columns<Record>{
              {"situation", "", "problem, with its bounds and its final state",
               from(&Record::situation, &Situation::name), in_key},
-             {"active", "", "which bounds are active along the optimum", from(&Record::situation, &Situation::active)},
+             {"active", "", "bounds that are active along the optimum", from(&Record::situation, &Situation::active)},
              {"end", "", "fixed or free final state", from(&Record::situation, &Situation::end)}} +
          scheme_columns<Record>();
 }

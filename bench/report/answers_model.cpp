@@ -352,8 +352,8 @@ std::string iterations_in_words(const ResultsFolder& results) {
   if (slack_orbit.empty() || slack_arm.empty() || free_orbit.empty() || free_arm.empty()) return "";
   const std::string verdict = common_verdict(claims_of(results, {"minor_iteration_ratio"}));
   return fmt::format(
-      "Collocation takes {} times DMOC's minor iterations from the slack basis on the orbit, {} on the "
-      "arm{}; from a basis chosen for free {} and {}.",
+      "Collocation takes {} times DMOC's minor iterations from the slack basis on the orbit, {} on the arm{}; from a "
+      "basis chosen without iterations {} and {}.",
       slack_orbit, slack_arm, verdict == "reproduced" ? ", as in the paper" : "", free_orbit, free_arm);
 }
 

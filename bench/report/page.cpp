@@ -73,7 +73,7 @@ std::string packed(const std::string& text) {
   uLongf size = bytes.size();
   const std::vector<Bytef> source(text.begin(), text.end());
   if (::compress2(bytes.data(), &size, source.data(), source.size(), Z_BEST_COMPRESSION) != Z_OK)
-    throw Error("there is no memory to pack the tables of the report");
+    throw Error("there is not enough memory to compress the tables of the report");
   return base64(std::string(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)));
 }
 

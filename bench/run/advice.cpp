@@ -199,13 +199,13 @@ std::string in_words(const Advice& advice) {
                          member_name("Problem::guess"));
     case Remedy::finer_grid:
       return fmt::format(
-          "Try --accuracy 1e-4, or more intervals: with these controls {} ends {:.2g} of its range from where it "
-          "should.",
+          "Try --accuracy 1e-4, or more intervals: with these controls {} misses its final value by {:.2g} of its "
+          "range.",
           advice.coordinate, advice.size);
     case Remedy::feedback:
       return fmt::format(
-          "Try feedback to follow this trajectory. The system is unstable: with these controls alone {} ends {:.2g} of "
-          "its range from where it should.",
+          "Try feedback to follow this trajectory. The system is unstable: with these controls alone {} misses its "
+          "final value by {:.2g} of its range.",
           advice.coordinate, advice.size);
   }
   return "";

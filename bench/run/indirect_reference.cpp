@@ -80,7 +80,7 @@ bool is_near(const IndirectSolution& solution, const Trajectory& direct) {
 void require_near(const Problem& problem, const IndirectSolution& solution, const Trajectory& direct) {
   if (is_near(solution, direct)) return;
   throw Error("the indirect solution of " + problem.name() +
-              " is on another branch than this row, so this row has no errors; run only this method, on finer grids");
+              " is on a different branch from the row, so the row has no errors; run only this method, on finer grids");
 }
 
 /// The solution in a file; empty if there is no such file or it is not a solution of this problem on this branch.
@@ -122,7 +122,7 @@ constexpr auto extremal_of = &IndirectSolution::extremal;
 const Columns<Entry> reference_columns{
     {"problem", "", "name of the problem", from(&Entry::problem), in_key},
     {"cost", "cost", "optimal cost", from(solution_of, &IndirectSolution::cost)},
-    {"certified_digits", "", "digits that two runs of different order and grid share",
+    {"certified_digits", "", "digits on which two runs of different order and grid agree",
      from(solution_of, &IndirectSolution::certified_digits)},
     {"state_agreement", "", "relative difference of their states",
      from(solution_of, agreement_of, &IndirectAgreement::state)},
@@ -132,9 +132,9 @@ const Columns<Entry> reference_columns{
      from(solution_of, agreement_of, &IndirectAgreement::control)},
     {"cost_agreement", "", "relative difference of their costs",
      from(solution_of, agreement_of, &IndirectAgreement::cost)},
-    {"hamiltonian_drift", "", "max - min of the Hamiltonian, relative; empty if the problem depends on time",
+    {"hamiltonian_drift", "", "relative max - min of the Hamiltonian; empty if the problem depends on time",
      from(solution_of, &IndirectSolution::hamiltonian_drift)},
-    {"shooting_defect", "", "largest relative distance from a node when an integrator starts at the preceding one",
+    {"shooting_defect", "", "largest relative distance from a node when an integrator starts at the preceding node",
      from(&Entry::shooting_defect)},
     {"replay_error", "", "distance from the final state when the control is replayed", from(&Entry::replay_error)},
     {"stages", "", "Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
@@ -252,7 +252,7 @@ std::vector<std::string> IndirectReference::notes() const {
     const double digits = account.at("metadata").at("certified_digits");
     if (digits >= wanted_digits) continue;
     notes.push_back(fmt::format(
-        "{}: the indirect reference is certified to {:.1f} digits only; smaller relative errors are not meaningful",
+        "{}: the indirect reference is certified to only {:.1f} digits; smaller relative errors are not meaningful",
         problem, digits));
   }
   return notes;

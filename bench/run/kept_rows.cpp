@@ -137,7 +137,7 @@ void KeptRows::require_columns(const std::filesystem::path& file, const std::vec
   std::error_code none;  // a missing file is not a regular file
   if (!std::filesystem::is_regular_file(file, none) || std::filesystem::is_empty(file)) return;
   if (read_table(file).columns() == columns) return;
-  throw Error(fmt::format("{} has other columns than this run writes; move it away, or choose another --name or --out",
+  throw Error(fmt::format("{} has columns that differ from this run's; move it away, or choose another --name or --out",
                           file.string()));
 }
 

@@ -239,10 +239,10 @@ std::vector<ChosenScheme> chosen_schemes(const ExperimentOptions& options) {
     }
   }
   if (!integrates && !(options.integrators.empty() && options.substeps.empty())) {
-    throw Error("--integrator and --substeps apply to shooting only; add --method multiple_shooting");
+    throw Error("--integrator and --substeps apply only to shooting; add --method multiple_shooting");
   }
   if (!has_spaces && !(options.quadratures.empty() && options.points.empty() && options.control_nodes.empty())) {
-    throw Error("--quadrature, --points and --control-nodes apply to galerkin only; add --method galerkin");
+    throw Error("--quadrature, --points and --control-nodes apply only to galerkin; add --method galerkin");
   }
   return schemes;
 }
@@ -275,16 +275,16 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
               "parameter=value of a problem, see `dmocbench list --problem NAME`; may be repeated");
   line.option("--form", options.form,
               "form of the cost: bolza (a sum), or mayer (the cost up to each node is an additional unknown)");
-  line.list("--constraints", options.constraints,
-            "how holonomic constraints g(q) = 0 are imposed: multipliers, or embedding (the coordinates of "
-            "Problem::embedding at the nodes; only dmoc and hamiltonian with one Gauss stage; tables name the problem "
-            "NAME_embedded)");
+  line.list(
+      "--constraints", options.constraints,
+      "treatment of holonomic constraints g(q) = 0: multipliers, or embedding (the coordinates of Problem::embedding "
+      "at the nodes; only dmoc and hamiltonian with one Gauss stage; tables name the problem NAME_embedded)");
   line.group("Method");
   line.list("--method", options.methods,
             fmt::format("methods: {}", fmt::join(all_families(), ", ")) +
                 (options.methods.empty() ? fmt::format("; default: {}", fmt::join(paper_families(), ", ")) : ""));
   line.list("--tableau", options.tableaus, "names of the families of Butcher tableaus");
-  line.list("--stages", options.stages, "numbers of stages s; each tableau uses the ones that it supports");
+  line.list("--stages", options.stages, "numbers of stages s; each tableau uses the numbers that it supports");
   line.option("--controls", options.controls,
               "stage: every stage has its own control; shared: neighbouring intervals share the control at their node, "
               "requires --tableau lobatto; tables name it lobatto_shared");
@@ -307,7 +307,7 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
       "--intervals", [&options] { return options.grid_file.empty(); }, "--grid replaces it");
   line.group("Start");
   line.option("--start", options.start,
-              "where solves start: common (one trajectory for all methods and grids), guess (the problem's own), or a "
+              "start of the solves: common (one trajectory for all methods and grids), guess (the problem's own), or a "
               "CSV file with columns t, q and v_q per configuration, and optionally controls and costates");
   line.number(
       "--start-seconds", options.start_seconds, 0.0, 1e6,

@@ -54,7 +54,7 @@ std::vector<std::string> libraries_of_environment() {
 void add_library_option(CommandLine& line, std::vector<std::string>& libraries) {
   line.group(group_of_problem);
   line.option("--library", libraries,
-              "shared library of problems, made by dmocbench_add_problems; may be repeated. Libraries in "
+              "shared library of problems, built by dmocbench_add_problems; may be repeated. Libraries in "
               "DMOCBENCH_LIBRARIES are loaded first",
               OptionRole::place);
 }

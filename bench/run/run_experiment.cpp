@@ -120,7 +120,7 @@ class Run {
     }
     metadata_["resumed_rows"] = resumed;
     if (summary_.are_for_people() && plan_.wanted_count() > 0) {
-      print_line(fmt::format("{}: resumes an interrupted run, which has {} of {} rows; --fresh solves all of them",
+      print_line(fmt::format("{}: resuming an interrupted run with {} of {} rows; use --fresh to solve all cases again",
                              experiment_.card().name, resumed, resumed + plan_.wanted_count()));
     }
   }
@@ -138,7 +138,7 @@ class Run {
     scheduler_.solve_all();
     rows_.sync();
     const char* const end = is_there                ? " is already complete"
-                            : interrupt_requested() ? " is interrupted; the same command resumes it"
+                            : interrupt_requested() ? " was interrupted; the same command resumes it"
                                                     : "";
     print_line(fmt::format("{}{}: {} of {} rows: {}.rows", part, end, rows - plan_.wanted_count(), plan_.cases().size(),
                            prefix.string()));
@@ -169,7 +169,7 @@ class Run {
     print_line(fmt::format(
         "{}: {}{}, {} not solved{}{}: {}{}", name, complete ? "" : fmt::format("interrupted before {} complete: ", all),
         counted(own.rows().size(), "row"), outcome.failures,
-        outcome.other_branch == 0 ? "" : fmt::format(", {} on another branch than the start", outcome.other_branch),
+        outcome.other_branch == 0 ? "" : fmt::format(", {} on a different branch from the start", outcome.other_branch),
         outcome.no_motions_by_method, table_file().string(),
         kept == 0 ? "" : fmt::format(" (and {} of other problems or settings)", counted(kept, "earlier row"))));
     if (!complete && !wants_motions()) print_line(name + ": the same command resumes it");
@@ -207,7 +207,7 @@ class Run {
     }
     for (const auto& [problem, all] : methods) {
       if (all.size() == 1) continue;
-      summary_.say(problem + " has first-order states alone: all methods coincide, there is nothing to compare");
+      summary_.say(problem + " has only first-order states: all methods coincide, so there is nothing to compare");
     }
   }
 

@@ -132,7 +132,7 @@ std::vector<std::string> with_distinguishing(const std::vector<std::string>& cho
 }  // namespace
 
 void RunSummary::add_to(CommandLine& line) {
-  line.flag("--quiet", is_quiet_, "print errors only", OptionRole::machine);
+  line.flag("--quiet", is_quiet_, "print only errors", OptionRole::machine);
   line.flag("--json", as_json_, "print the findings as one JSON object", OptionRole::machine);
 }
 

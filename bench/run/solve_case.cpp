@@ -134,13 +134,12 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
     const bool misses_cost = found.cost_error > largest_cost_error_of_a_motion;
     solved.solution.message = fmt::format(
         "{} {}", sentence_of(Status::too_coarse),
-        misses_cost
-            ? fmt::format("The quadrature of the program misses {:.2g} of the running cost along its own "
-                          "trajectory: the cost varies too fast within the intervals.",
-                          found.cost_error)
-            : fmt::format("Its intervals, integrated alone, change the cost by {:.2g} of it: the forces vary too "
-                          "fast within the intervals.",
-                          found.cost_miss));
+        misses_cost ? fmt::format("The quadrature of the program misses {:.2g} of the running cost along its own "
+                                  "trajectory: the cost varies too fast within the intervals.",
+                                  found.cost_error)
+                    : fmt::format("Its intervals, integrated alone, change the cost by {:.2g} of its value: the forces "
+                                  "vary too fast within the intervals.",
+                                  found.cost_miss));
     return;
   }
   if (found.relative_jump <= largest_jump_of_a_motion) {

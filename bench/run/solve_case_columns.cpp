@@ -73,7 +73,7 @@ const Columns<SolvedCase>& core_columns() {
       {"jacobian_nonzeros", "", "entries of the Jacobian", count([](P p) { return p.jacobian_structure().size(); })},
       {"hessian_nonzeros", "", "entries of the Hessian's lower triangle",
        count([](P p) { return p.hessian_structure().size(); })},
-      {"status", "", "how the solve ended, confirmed by our own residuals",
+      {"status", "", "status of the solve, confirmed by dmocbench's own residuals",
        [](const SolvedCase& s) { return name_of(s.solution.status); }},
       {"branch", "", "same as the start's, or other; unknown: no common start was found; empty: not determined",
        from(&SolvedCase::branch)},

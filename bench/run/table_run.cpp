@@ -118,8 +118,8 @@ void TableRun::resume() {
     store_.keep(entry);
   }
   if (!stages_.empty() && summary_.are_for_people()) {
-    print_line(fmt::format("{}: resumes an interrupted run, which has finished {}; --fresh measures everything", name_,
-                           counted(stages_.size(), "stage")));
+    print_line(fmt::format("{}: resuming an interrupted run with {} finished; use --fresh to measure everything again",
+                           name_, counted(stages_.size(), "stage")));
   }
 }
 

@@ -77,7 +77,7 @@ int BenchmarkProgram::run(int argc, char** argv) const try {
   for (const std::string& flag : flags) {
     constexpr std::string_view file = "--benchmark_out=";
     if (flag.starts_with(file)) require_writable(flag.substr(file.size()));  // before anything is timed
-    if (flag.starts_with("--benchmark_repetitions=-")) throw Error(flag + ": repetitions are at least 1");
+    if (flag.starts_with("--benchmark_repetitions=-")) throw Error(flag + ": repetitions must be at least 1");
   }
   describe({argv, argv + argc});
   register_benchmarks();

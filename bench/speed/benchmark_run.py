@@ -86,4 +86,4 @@ def read(path):
                 runs.setdefault(one["run_name"], Run(one["run_name"], one.get("label", ""))).repetitions.append(one)
         return content.get("context", {}), [runs[name] for name in sorted(runs)]
     except (AttributeError, KeyError, TypeError) as error:
-        raise Misuse(f"{path} is JSON, but not of Google Benchmark; --benchmark_out=FILE writes it") from error
+        raise Misuse(f"{path} is JSON, but not a report of Google Benchmark; --benchmark_out=FILE writes it") from error

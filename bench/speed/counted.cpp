@@ -106,8 +106,8 @@ void count(const CountedSolve& solve, int extra) {
   CALLGRIND_DUMP_STATS_AT(of.c_str());
   if (solution.status != Status::interrupted || solution.linear_systems != iterations) {
     throw Error(
-        fmt::format("{} took {} linear systems in {} iterations and ended with the status {}; {} iterations of one "
-                    "system each were to be counted",
+        fmt::format("{} took {} linear systems in {} iterations and ended with the status {}, but {} iterations of one "
+                    "system each were expected",
                     solve.name(), solution.linear_systems.value_or(0), solution.major_iterations.value_or(0),
                     name_of(solution.status), iterations));
   }
@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
   try {
     check_environment();
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    if (arguments.empty()) throw Error("which programs? counted --list names them");
+    if (arguments.empty()) throw Error("name at least one program; counted --list prints the names");
     set_thread_count(1);
     int extra = 0;
     for (std::size_t i = 0; i < arguments.size(); ++i) {

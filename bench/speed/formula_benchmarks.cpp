@@ -81,7 +81,7 @@ HandFunctions hand_written(const std::string& problem, InstructionSet set) {
   const Kernels kernels = kernels_of(set);
   if (problem == "orbital_transfer") return kernels.orbital_transfer;
   if (problem == "two_link_manipulator") return kernels.two_link_manipulator;
-  throw Error("there are no formulas by hand of " + problem);
+  throw Error("there are no handwritten formulas for " + problem);
 }
 
 }  // namespace

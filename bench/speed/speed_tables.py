@@ -26,15 +26,15 @@ stages integer number of stages s
 instruction_set string instruction set of the processor
 intervals integer number of intervals N
 repetitions integer number of repetitions
-nanoseconds number [ns] time per interval, the median
-smallest_nanoseconds number [ns] time per interval, the least
+nanoseconds number [ns] median time per interval
+smallest_nanoseconds number [ns] least time per interval
 operations number operations per interval
 bytes number bytes per interval, read and written
-operations_per_byte number operations by bytes
-operations_per_second number [1/s] operations by their time
+operations_per_byte number operations divided by bytes
+operations_per_second number [1/s] operations divided by their time
 roof_nanoseconds number [ns] least time on this machine
 roof_limit string arithmetic, or a level of memory
-roof_share number roof_nanoseconds by nanoseconds""", "_machine": """
+roof_share number roof_nanoseconds divided by nanoseconds""", "_machine": """
 instruction_set string instruction set of the processor
 limit string arithmetic, or a level of memory
 rate number [1/s] operations or bytes per second
@@ -46,16 +46,16 @@ intervals integer number of intervals N
 solver string name of the solver
 threads integer number of threads of a solve
 repetitions integer number of repetitions
-seconds number [s] time of a solve, the median
-smallest_seconds number [s] time of a solve, the least
+seconds number [s] median time of a solve
+smallest_seconds number [s] least time of a solve
 iterations number major iterations
 linear_systems number number of linear systems solved
 solved integer 1 if every repetition ended solved
-objective number [cost] objective of the answer
-ns_per_interval_iteration number [ns] time of a solve by intervals and iterations
+objective number [cost] objective of the solution
+ns_per_interval_iteration number [ns] time of a solve per interval and iteration
 evaluation_share number share of derivatives in the time
-bytes_per_interval number largest memory of a solve, by intervals
-setup_seconds number [s] time to make the program""", "_ratios": """
+bytes_per_interval number largest memory of a solve per interval
+setup_seconds number [s] time to build the program""", "_ratios": """
 problem string name of the problem
 method string family of elements
 intervals integer number of intervals N
@@ -79,15 +79,15 @@ way string batch, fill (lanes are filled, not solved), or the solver of a loop
 threads integer number of threads
 instances integer number of instances
 repetitions integer number of repetitions
-seconds number [s] time per instance, the median
-seconds_lower number [s] lower end of the 99 % interval of this median
-seconds_upper number [s] upper end of this interval
-solves_per_second number [1/s] solves per second, by the median time
-rate_lower number [1/s] lower end of the 99 % interval of this rate
-rate_upper number [1/s] upper end of this interval
-ratio number seconds by the batch's on all threads, from the same start
+seconds number [s] median time per instance
+seconds_lower number [s] lower 99 % confidence limit of this median
+seconds_upper number [s] upper limit of this interval
+solves_per_second number [1/s] solves per second, from the median time
+rate_lower number [1/s] lower 99 % confidence limit of this rate
+rate_upper number [1/s] upper limit of this interval
+ratio number seconds divided by the seconds of the batch on all threads, from the same start
 processor_seconds number [s] time of all processors per instance
-median_iterations number iterations of a solve, the median
+median_iterations number median iterations of a solve
 solved number share of the instances that are solved
 one_by_one number share of the instances that leave their lanes
 lanes_in_use number share of the lanes' rounds with an instance

@@ -79,9 +79,9 @@ struct EndsOfCell {
 Columns<EndsOfCell> share_columns(const std::string& name, const std::string& meaning, ShareCount EndsOfCell::*count) {
   return {{name, "", meaning, from(count, &ShareCount::hits)},
           {name + "_share", "", "share of all starts", from(count, &ShareCount::share)},
-          {name + "_lower", "", "lower end of Wilson's 95 % interval of the share",
+          {name + "_lower", "", "lower limit of Wilson's 95 % confidence interval of the share",
            from(count, wilson_interval, &ShareInterval::lower)},
-          {name + "_upper", "", "upper end of this interval", from(count, wilson_interval, &ShareInterval::upper)}};
+          {name + "_upper", "", "upper limit of this interval", from(count, wilson_interval, &ShareInterval::upper)}};
 }
 
 /// A column of every row of the tables.
@@ -100,19 +100,19 @@ Columns<EndsOfCell> columns_of_ends() {
                     &Ends::solved) +
       share_columns("confirmed", "number of solved starts whose intervals, integrated alone, reach the next node",
                     &Ends::confirmed) +
-      share_columns("best", "number of confirmed starts that cost no more than the reference, to the tolerance",
+      share_columns("best", "number of confirmed starts whose cost does not exceed the reference, to the tolerance",
                     &Ends::best) +
       Columns<Ends>{
-          {"elsewhere", "", "number of confirmed starts that cost more than the reference",
+          {"elsewhere", "", "number of confirmed starts whose cost exceeds the reference",
            [](const Ends& ends) { return ends.confirmed.hits - ends.best.hits; }},
           {"too_coarse", "", "number of solved starts whose grid is too coarse",
            [](const Ends& ends) { return ends.solved.hits - ends.confirmed.hits; }},
           {"lost", "", "number of unsolved starts", &Ends::lost},
           {"failures", "", "the statuses of the unsolved starts, each with its number", &Ends::failures},
-          {"below_reference", "", "number of the best that cost less than the reference", &Ends::below_reference},
+          {"below_reference", "", "number of best starts whose cost is below the reference", &Ends::below_reference},
           {"certified_objective", "cost", "the certified optimum of the problem, if known",
            [](const Ends& ends) { return ends.head.number("reference_objective"); }},
-          {"reference_objective", "cost", "cost that solutions are compared with",
+          {"reference_objective", "cost", "cost with which solutions are compared",
            from(&Ends::reference, &BestCost::cost)},
           {"reference_kind", "", "certified, or the lowest confirmed cost on the grid",
            from(&Ends::reference, &BestCost::kind)}};

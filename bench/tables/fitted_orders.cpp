@@ -160,9 +160,9 @@ Columns<FittedCurve> order_columns() {
              {"finest", "", "largest number of intervals used", from(&Curve::fitted, &Fit::grids, finest_of)},
              {"coarsest", "", "smallest number of intervals used", from(&Curve::fitted, &Fit::grids, coarsest_of)},
              {"coarse_end", "",
-              "why no coarser grid is used: grids (all are used), orders (they differ by more than 0.2), range (--fit)",
+              "reason for no coarser grid: grids (all are used), orders (they differ by more than 0.2), range (--fit)",
               from(&Curve::fitted, &Fit::coarse_end)},
-             {"fine_end", "", "why no finer grid is used: grids, orders, range, or floor",
+             {"fine_end", "", "reason for no finer grid: grids, orders, range, or floor",
               from(&Curve::fitted, &Fit::fine_end)},
              {"points", "", "number of grids used", from(&Curve::fit, &Fit::grids, &Selection::size)},
              {"floor", "", "error at the level of round-off; empty if not measured", from(&Curve::fit, &Fit::floor)},
@@ -208,7 +208,7 @@ std::optional<std::string> note_on_reference(const Selection& curve, long long r
   return fmt::format(
       "{} {} {} {}: the reference should be N = {}, which {}; {}", meant.text("problem"), meant.text("method"),
       meant.text("tableau"), meant.text("stages"), meant.text("intervals"),
-      has_solved_status(meant) ? "is on another branch than the common start" : "has the status \"" + status + "\"",
+      has_solved_status(meant) ? "is on a different branch from the common start" : "has the status \"" + status + "\"",
       used ? fmt::format("errors are measured against N = {}, the finest grid that is solved", used->text("intervals"))
       : reference != 0 ? "there are no errors: choose a --reference that is solved"
                        : "no grid is solved, so there are no errors");
@@ -227,7 +227,7 @@ std::optional<std::string> note_on_missing_orders(std::span<const FittedCurve> f
   } else if (fit.verdict == "floor") {
     reason = fmt::format(
         "the {} error stops falling at {:.1e}, and {} above {:g} times this level; use coarser grids. If the level is "
-        "far above round-off, reduce --tolerance, or add a small cost of a control that is not determined",
+        "far above round-off, reduce --tolerance, or add a small cost on each undetermined control",
         fits.front().quantity, *fit.floor, counted(fit.grids.size(), "grid is", "grids are"), above_floor);
   }
   return fmt::format("{} {} {} {}: no order is fitted ({}: {})", head.text("problem"), head.text("method"),

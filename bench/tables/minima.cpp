@@ -127,7 +127,7 @@ Columns<Minimum> minimum_columns(const std::vector<std::string>& methods) {
               [](const Minimum& minimum) {
                 return yes_or_no(has_at_most(minimum.answers, "replay_error", confirmed_replay));
               }}} +
-         column_group<Minimum>(methods, "", "number of starts from which this method ended there", found_by);
+         column_group<Minimum>(methods, "", "number of starts from which this method reached this minimum", found_by);
 }
 
 /// A start, and the minimum that it ended in, if it ended in one.
@@ -174,9 +174,9 @@ Columns<StartsOfMethod> best_share_columns() {
               &Starts::unconfirmed},
              {"best", "", "number of starts that ended in the best minimum", from(&Starts::best, &ShareCount::hits)},
              {"share", "", "best divided by starts", from(&Starts::best, &ShareCount::share)},
-             {"share_lower", "", "lower end of Wilson's 95 % interval of the share",
+             {"share_lower", "", "lower limit of Wilson's 95 % confidence interval of the share",
               from(&Starts::interval, &ShareInterval::lower)},
-             {"share_upper", "", "upper end of this interval", from(&Starts::interval, &ShareInterval::upper)}};
+             {"share_upper", "", "upper limit of this interval", from(&Starts::interval, &ShareInterval::upper)}};
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ Columns<ProfilePoint> point_columns() {
   return Columns<Point>{{"measure", "", "measure of the profile", &Point::measure}} +
          head_columns<Point>(competitor_columns) +
          Columns<Point>{
-             {"ratio", "", "effort of a competitor divided by the best competitor's on the same instance",
+             {"ratio", "", "effort of a competitor divided by the best competitor's effort on the same instance",
               &Point::ratio},
              {"share", "", "share of all instances on which the competitor stays within the ratio", &Point::share}};
 }
@@ -129,7 +129,7 @@ struct LibraryAnswer {
 Columns<LibraryAnswer> library_columns() {
   using Answer = LibraryAnswer;
   return head_columns<Answer>({"problem", "reference_objective"}) +
-         Columns<Answer>{{"reference_digits", "", "certain digits of the reference",
+         Columns<Answer>{{"reference_digits", "", "valid digits of the reference",
                           [](const Answer& answer) { return answer.head.number("reference_digits"); }}} +
          head_columns<Answer>({"reference_kind", "method", "tableau", "stages", "solver", "derivatives", "intervals",
                                "status", "objective"}) +

@@ -56,9 +56,9 @@ struct MedianOfRounds {
 template <class Record, class... Members>
 [[nodiscard]] Columns<Record> round_columns(Members... ratios) {
   return {
-      {"ratio_lower", "", "lower end of the 99 % interval of the median ratio, where rounds were timed",
+      {"ratio_lower", "", "lower 99 % confidence limit of the median ratio, where rounds were timed",
        from(ratios..., &MedianOfRounds::lower)},
-      {"ratio_upper", "", "upper end of this interval", from(ratios..., &MedianOfRounds::upper)},
+      {"ratio_upper", "", "upper 99 % confidence limit of the median ratio", from(ratios..., &MedianOfRounds::upper)},
       {"round_ratios", "", "the ratio in each round, separated by spaces", from(ratios..., &MedianOfRounds::rounds)}};
 }
 

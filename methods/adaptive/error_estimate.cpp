@@ -223,7 +223,7 @@ double second_order_of_cost(const ExtremalCoordinates::Canonical& misses,
 
 /// The program, unless its horizon is free or its ends are tied.
 const Transcription& with_fixed_ends(const Transcription& program) {
-  if (program.has_free_horizon()) throw Error("the error cannot be estimated for a free horizon; fix it");
+  if (program.has_free_horizon()) throw Error("the error cannot be estimated for a free horizon; set a fixed horizon");
   program.traced_problem().require_no_constraints("the estimate of the error");
   if (program.traced_problem().boundary_condition_count() > 0) {
     throw Error("the error cannot be estimated for a problem with boundary conditions; state the ends with " +

@@ -40,7 +40,7 @@ Eigen::VectorXd ControlFromCostate::control(const Eigen::VectorXd& q, const Eige
   constexpr double last_step = 1e-10;
   if (q.size() != n_ || v.size() != n_ || psi_p.size() != n_ || start.size() != m_ || y.size() != l_ ||
       psi_y.size() != l_) {
-    throw Error("the control from the costate got vectors of the wrong size");
+    throw Error("the control from the costate cannot be computed: a vector has the wrong size");
   }
   std::vector<double> inputs(static_cast<std::size_t>(3 * n_ + m_ + 1 + 2 * l_));
   Eigen::Map<Eigen::VectorXd> point(inputs.data(), std::ssize(inputs));

@@ -61,7 +61,7 @@ void require_fit(const Problem& problem, const Trajectory& start) {
   constexpr double coincidence = 1e-9;
   if (start.q.cols() != n || start.stage_u.cols() != problem.control_size() ||
       std::abs(start.node_times[start.intervals()] - horizon) > coincidence * horizon) {
-    throw Error("the start of the indirect method belongs to another problem than " + problem.name());
+    throw Error("the start of the indirect method belongs to a problem other than " + problem.name());
   }
 }
 
@@ -131,7 +131,7 @@ double boundary_value_residual(const Problem& problem, const IndirectSolution& s
   const Eigen::Index half = function.state_size() / 2;
   const double horizon = problem.horizon();
   if (extremal.nodes.rows() != 2 * half || extremal.algebraic.rows() != function.algebraic_size()) {
-    throw Error("the indirect solution belongs to another problem than " + problem.name());
+    throw Error("the indirect solution belongs to a problem other than " + problem.name());
   }
   LegendreTransform legendre{TracedProblem(problem)};
   const Eigen::Index intervals = extremal.intervals();

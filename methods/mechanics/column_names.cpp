@@ -86,7 +86,7 @@ void require_names(const Problem& problem) {
   const auto controls = names_of("control_names", [&] { return problem.control_names(); });
   if (configurations.empty()) {
     throw Error(problem.name() + ": " + member_name("configuration_names") +
-                " is empty; derive a problem of first-order states alone from FirstOrderProblem");
+                " is empty; derive a problem with only first-order states from FirstOrderProblem");
   }
   const auto first_order = names_of("first_order_names", [&] { return problem.first_order_names(); });
   for (const std::string& name : configurations) columns.take(name, name);

@@ -375,9 +375,9 @@ ExpressionVector PhasedProblem::checked_link(std::size_t i, const PhaseEnd& befo
                             counted(open - held, "number is", "numbers are"), phases_[next].name));
   }
   if (entries.size() > most) {
-    throw Error(
-        fmt::format("{}, but only {} not given at its two ends; leave open in both phases what the switch determines",
-                    subject, counted(most, "number is", "numbers are")));
+    throw Error(fmt::format(
+        "{}, but only {} not given at its two ends; leave the entries that the switch determines open in both phases",
+        subject, counted(most, "number is", "numbers are")));
   }
   return entries;
 }

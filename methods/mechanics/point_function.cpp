@@ -35,7 +35,7 @@ void PointFunction::evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const E
                              const Eigen::Ref<const Eigen::VectorXd>& y) {
   if (q.size() != n_ || v.size() != n_ || (u.size() != m_ && u.size() != 0) || y.size() != l_ ||
       result.size() != output_count()) {
-    throw Error("a point function got vectors of the wrong size");
+    throw Error("a point function cannot be evaluated: a vector has the wrong size");
   }
   point_ << q, v, Eigen::VectorXd::Zero(m_), y, t;
   if (u.size() > 0) point_.segment(2 * n_, m_) = u;

@@ -66,10 +66,10 @@ std::string Problem::name() const {
 
 std::unique_ptr<Problem> Problem::clone() const {
   const std::string type = class_name(typeid(*this));
-  throw Error(fmt::format(
-      "{} cannot be copied without knowing its class; give {} the line \"std::unique_ptr<Problem> clone() const "
-      "override {{ return copy_of(*this); }}\"",
-      name(), type));
+  throw Error(
+      fmt::format("{} cannot be copied, because clone() is not overridden; give {} the line \"std::unique_ptr<Problem> "
+                  "clone() const override {{ return copy_of(*this); }}\"",
+                  name(), type));
 }
 
 double Problem::cost_scale() const {

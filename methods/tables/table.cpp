@@ -160,7 +160,7 @@ std::string read_file(const std::filesystem::path& path) {
     throw Error(fmt::format("cannot read {}: it is a folder", path.string()));
   }
   if (std::filesystem::is_other(path, ignored)) {
-    throw Error(fmt::format("cannot read {}: it is not a regular file; copy it to one", path.string()));
+    throw Error(fmt::format("cannot read {}: it is not a regular file; copy its contents to one", path.string()));
   }
   try {
     std::ifstream stream(path, std::ios::binary);

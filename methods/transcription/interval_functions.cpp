@@ -111,7 +111,7 @@ IntervalFunctions trace_interval(const TracedProblem& traced, const Element& ele
                                  const IntervalRules& rules) {
   if (traced.has_embedding() && !element.takes_embedding(tableau)) {
     throw Error(
-        "the embedding of constraints is supported by dmoc and hamiltonian with --tableau gauss --stages 1 only");
+        "the embedding of constraints is supported only by dmoc and hamiltonian with --tableau gauss --stages 1");
   }
   const Unknowns unknowns = make_unknowns(traced, element, tableau, rules);
   const TracedProblem problem = traced.with_open_inputs(unknowns.parameters);

@@ -94,15 +94,15 @@ void require_changeable(const Problem& problem, const TracedProblem& traced, con
     const auto number = static_cast<std::size_t>(i);
     if (now[i] == before[i] || !traced.are_constants()[number]) continue;
     throw Error(
-        fmt::format("{}: formulas of this transcription contain the parameter {} as {:g}; to change it, keep it "
-                    "open when the transcription is made",
+        fmt::format("{}: formulas of this transcription contain the parameter {} as {:g}; to change it, keep it open "
+                    "when the transcription is created",
                     problem.name(), problem.parameters()[number].name, before[i]));
   }
 }
 
 void require_same_velocities(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
   if (before.bounded_velocities() == now.bounded_velocities()) return;
-  throw Error(problem.name() + ": bounds apply to other velocities than before; create a new transcription");
+  throw Error(problem.name() + ": different velocities have bounds than before; create a new transcription");
 }
 
 void require_same_times(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
@@ -111,7 +111,7 @@ void require_same_times(const Problem& problem, const ProblemBounds& before, con
   };
   if (std::ranges::equal(before.interior, now.interior, is_same)) return;
   throw Error(problem.name() + ": " + member_name("bounds().interior") +
-              " has other times than before, or bounds on other velocities; create a new transcription");
+              " has different times than before, or bounds on different velocities; create a new transcription");
 }
 
 }  // namespace

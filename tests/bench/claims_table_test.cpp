@@ -75,7 +75,7 @@ TEST_F(ClaimsFolder, LacksEvidenceThatTheRowNames) {
   write_file(folder() / "misprints.csv", "a\n");
   mark_missing_evidence(claims, folder());
   EXPECT_EQ(claims.front().missing, std::vector<std::string>{"figures/orbit.svg"});
-  EXPECT_EQ(claims_table(claims).rows().front().text("evidence"), "misprints.csv; figures/orbit.svg (not there)");
+  EXPECT_EQ(claims_table(claims).rows().front().text("evidence"), "misprints.csv; figures/orbit.svg (missing)");
 }
 
 const std::vector<JudgedClaim> some{claim_of("a", "one", Whose::paper, ClaimVerdict::reproduced),

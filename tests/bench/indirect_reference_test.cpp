@@ -78,10 +78,10 @@ TEST_F(IndirectReferenceIn, AFolderIsNotUsedForAnotherBranch) {
   Trajectory elsewhere = direct_;
   elsewhere.q.array() += 0.2;
   // There is no other branch to find: the answer is refused instead of being taken for it.
-  tests::expect_error_naming({"another branch"}, [&] { static_cast<void>(row_for(problem_, elsewhere)); });
+  tests::expect_error_naming({"different branch"}, [&] { static_cast<void>(row_for(problem_, elsewhere)); });
   IndirectReference reference(folder());
   static_cast<void>(reference.near(problem_, direct_));
-  tests::expect_error_naming({"another branch"}, [&] { static_cast<void>(reference.near(problem_, elsewhere)); });
+  tests::expect_error_naming({"different branch"}, [&] { static_cast<void>(reference.near(problem_, elsewhere)); });
 }
 
 TEST_F(IndirectReferenceIn, ADamagedFileIsWrittenAnew) {

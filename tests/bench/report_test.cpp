@@ -424,7 +424,7 @@ TEST(Report, LinksToTheRowsAndColumnsThatDecidedOnAClaimAndShowsTheCommands) {
   EXPECT_TRUE(has(page,
                   "<a href=\"#table-objective.csv\" data-records=\"2-3 99\" data-columns=\"intervals "
                   "objective\">objective.csv</a>"));
-  EXPECT_TRUE(has(page, "none.csv (not there)"));
+  EXPECT_TRUE(has(page, "none.csv (missing)"));
   EXPECT_FALSE(has(page, "gone.csv"));
   EXPECT_TRUE(has(page, "<code class=\"line\">objective --out x</code><code class=\"line\">claims --out x</code>"));
   results.runs.front().metadata["command_line"] = {"/usr/bin/objective", "--out", "/home/a/x"};

@@ -62,7 +62,7 @@ class DoubleIntegrator(db.Problem):
 
 
 class Hovercraft(db.Problem):
-    """underactuated hovercraft to another place and attitude"""
+    """underactuated hovercraft to a new position and attitude"""
 
     q = db.coordinates("x", "y", "theta")
     u = db.controls("u_1", "u_2")
@@ -404,7 +404,7 @@ class PointsAtGivenTimes(db.Problem):
 
 
 class RollingDisk(db.Problem):
-    """upright disk rolls to a place ahead and aside, least control effort"""
+    """upright disk rolls to a position ahead and to the side, least control effort"""
 
     name = "rolling_disk"
     q = db.coordinates("x", "y", "theta", "phi")

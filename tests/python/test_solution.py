@@ -244,7 +244,7 @@ class Shown(unittest.TestCase):
         self.assertAlmostEqual(line.get_ydata()[-1], np.pi, places=9)
         motors = db.solve(restated.TwoLinkWithMotors(), intervals=16, stages=2)
         self.assertEqual([axis.get_ylabel() for axis in motors.plot("current_1", "voltage_2")], ["current_1", "voltage_2 [V]"])
-        with self.assertRaisesRegex(db.Error, "no phi to plot; there are theta, tau"):
+        with self.assertRaisesRegex(db.Error, "no phi to plot; choose one of theta, tau"):
             db.solve(PendulumSwingUp(), intervals=16).plot("phi")
         matplotlib.pyplot.close("all")
 

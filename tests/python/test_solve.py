@@ -46,7 +46,7 @@ class FirstOrderStatesAlone(unittest.TestCase):
                 run = f"import dmocbench, test_solve; dmocbench.run('objective', test_solve.Decay, out={folder!r}, method={methods!r}, intervals=8)"
                 done = subprocess.run([sys.executable, "-c", run], cwd=os.path.dirname(__file__), capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
-            sentence = "decay has first-order states alone: all methods coincide, there is nothing to compare"
+            sentence = "decay has only first-order states: all methods coincide, so there is nothing to compare"
             self.assertEqual(sentence in done.stdout, says, done.stdout)
 
     def test_get_a_sentence_for_what_needs_coordinates(self):

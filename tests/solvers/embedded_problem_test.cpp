@@ -170,7 +170,7 @@ TEST(EmbeddedProblemRefuses, OtherMethodsAndTableaus) {
                                Scheme{"multiple_shooting_rk4_1", 1}}) {
     EXPECT_EQ(
         tests::sentence_of_error([&] { static_cast<void>(tests::transcribe(problem, scheme, Grid::uniform(8))); }),
-        "the embedding of constraints is supported by dmoc and hamiltonian with --tableau gauss --stages 1 only");
+        "the embedding of constraints is supported only by dmoc and hamiltonian with --tableau gauss --stages 1");
   }
 }
 

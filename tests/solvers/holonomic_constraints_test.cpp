@@ -351,9 +351,9 @@ TEST(HolonomicConstraintsRefused, WithGradientsThatVanish) {
 
 TEST(HolonomicConstraintsRefused, ByTableausThatAreNotOffered) {
   EXPECT_EQ(refusal(on_diagonal, 1.0, {"dmoc", 2}),
-            "dmoc supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
+            "dmoc supports constraints g(q) = 0 only with --tableau gauss --stages 1 or --tableau lobatto");
   EXPECT_EQ(refusal(on_diagonal, 1.0, {"hamiltonian", 2}),
-            "hamiltonian supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
+            "hamiltonian supports constraints g(q) = 0 only with --tableau gauss --stages 1 or --tableau lobatto");
   EXPECT_EQ(refusal(on_diagonal, 1.0, {"tangent", 3}),
             "tangent supports constraints g(q) = 0 with --tableau gauss --stages 1 or 2, or --tableau lobatto --stages "
             "2 or 3");

@@ -386,9 +386,9 @@ TEST(VelocityConstraintsRefused, WhereAGivenVelocityViolatesThem) {
 
 TEST(VelocityConstraintsRefused, ByTableausThatAreNotOffered) {
   EXPECT_EQ(refusal(on_diagonal, {"dmoc", 2}),
-            "dmoc supports velocity_constraints with --tableau gauss --stages 1 only");
+            "dmoc supports velocity_constraints only with --tableau gauss --stages 1");
   EXPECT_EQ(refusal(on_diagonal, {"hamiltonian", 2, "lobatto"}),
-            "hamiltonian supports velocity_constraints with --tableau gauss --stages 1 only");
+            "hamiltonian supports velocity_constraints only with --tableau gauss --stages 1");
   EXPECT_EQ(refusal(on_diagonal, {"multiple_shooting_rk4_1", 1}),
             "velocity_constraints are not supported with --method multiple_shooting_rk4_1; use dmoc, hamiltonian or "
             "tangent");

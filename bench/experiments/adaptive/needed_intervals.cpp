@@ -143,7 +143,7 @@ Columns<NeededGrid> needed_columns() {
          Columns<N>{
              {"grid", "", "uniform or adapted", &N::grid, in_key},
              {"accuracy", "", "requested relative error of q, p and cost", &N::accuracy},
-             {"status", "", "status of the last solve, or the reason why no such grid was found", &N::status},
+             {"status", "", "status of the last solve, or the reason for the missing grid", &N::status},
              {"intervals", "", "number of intervals N", &N::intervals},
              {"variables", "", "number of variables of the program", &N::variables},
              {"variables_at_accuracy", "", "variables times (true error / accuracy)^(1/order)",

@@ -126,7 +126,7 @@ Table flow_momentum_table() {
       Columns<FlowMomentum>{{"problem", "", "name of the problem", &FlowMomentum::problem, in_key},
                             {"force", "", "orthogonal to the group action, or along it", &FlowMomentum::force, in_key},
                             {"horizon", "", "T", &FlowMomentum::horizon, in_key},
-                            {"tolerance", "", "of the integration", &FlowMomentum::tolerance},
+                            {"tolerance", "", "tolerance of the integration", &FlowMomentum::tolerance},
                             {"momentum_change", "", "J(T) - J(0)", &FlowMomentum::change},
                             {"work", "", "integral of f·xi", &FlowMomentum::work}},
       rows);
@@ -143,7 +143,7 @@ Table flow_symplecticity_table(const std::vector<MappedStates>& systems) {
            &FlowSymplecticity::defect},
           {"rounding", "", "machine epsilon times the largest square of an entry of D and the largest entry of Omega_L",
            &FlowSymplecticity::rounding},
-          {"printed_change", "", "the same of the form as printed, dq∧dq alone", &FlowSymplecticity::printed_change}},
+          {"printed_change", "", "the same for the form as printed, only dq∧dq", &FlowSymplecticity::printed_change}},
       rows);
 }
 

@@ -219,7 +219,7 @@ const Columns<PlainGap> plain_columns =
          }},
         {"largest_gap", "", "largest difference over the nodes", from(balance_of, &EnergyBalance::largest_gap)},
         {"largest_work", "", "largest work over the nodes", from(balance_of, &EnergyBalance::largest_work)},
-        {"message", "", "why there is no energy", &PlainGap::message}};
+        {"message", "", "reason for a missing energy", &PlainGap::message}};
 
 /// The rows of all tables before they are written.
 struct EnergyWorkRows {

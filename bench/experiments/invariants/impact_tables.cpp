@@ -198,16 +198,15 @@ const Columns<ImpactKey> impact_key_columns =
     scheme_columns<ImpactKey>() +
     Columns<ImpactKey>{{"force", "", "none, or a drag", &ImpactKey::force, in_key},
                        {"condition", "",
-                        "of the impulse: momenta, G(v+ + v-) = 0; steps, equal E_d of both steps next "
-                        "to the impact; steps_and_work, with half of the work of their forces",
+                        "condition on the impulse: momenta, G(v+ + v-) = 0; steps, equal E_d of both steps next to the "
+                        "impact; steps_and_work, with half of the work of their forces",
                         &ImpactKey::condition, in_key}};
 
 const Columns<Impact> impact_columns =
     columns_through<Impact>(&Impact::key, impact_key_columns) +
-    Columns<Impact>{
-        {"steps", "", "number of steps before the impact, and after it", &Impact::steps, in_key},
-        {"state_error", "", "largest entry of q and v at the end less the exact ones", &Impact::state_error},
-        {"energy_change", "", "|E(q, p+) - E(q, p-)|", &Impact::energy_change}};
+    Columns<Impact>{{"steps", "", "number of steps before the impact, and also after it", &Impact::steps, in_key},
+                    {"state_error", "", "largest difference from the exact q and v at the end", &Impact::state_error},
+                    {"energy_change", "", "|E(q, p+) - E(q, p-)|", &Impact::energy_change}};
 
 const Columns<ImpactOrder> impact_order_columns =
     columns_through<ImpactOrder>(&ImpactOrder::key, impact_key_columns) +

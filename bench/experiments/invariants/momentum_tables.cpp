@@ -65,12 +65,12 @@ struct Rotated {
 
 const Columns<Rotated> rotated_columns =
     scheme_columns<Rotated>() +
-    Columns<Rotated>{{"action", "", "of the rotations on the coordinates", &Rotated::action},
+    Columns<Rotated>{{"action", "", "action of the rotations on the coordinates", &Rotated::action},
                      {"axis", "", "1, 2 or 3", &Rotated::axis, in_key},
                      {"steps", "", "number of steps", &Rotated::steps},
                      {"h", "", "step", &Rotated::h},
                      {"momentum_change", "", "J_N - J_0 about this axis", &Rotated::change},
-                     {"work", "", "of the discrete forces, sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1)", &Rotated::work},
+                     {"work", "", "work of discrete forces, sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1)", &Rotated::work},
                      {"defect", "", "max over k of |J_k - J_0 - work|, in long double", &Rotated::defect}};
 
 /// Forces of every direction that are neither smooth nor random.

@@ -196,7 +196,7 @@ Table noether_table(int steps) {
       {"h", "", "step", &Forced::h, in_key},
       {"momentum_change", "", "J_N - J_0", &Forced::change},
       {"work", "", "sum of h b_i f·xi", &Forced::work},
-      {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); DMOC only",
+      {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); only DMOC",
        &Forced::work_of_discrete_forces},
       {"defect", "", "max over k of |J_k - J_0 - work|", &Forced::defect},
       {"defect_in_long_double", "",
@@ -217,7 +217,7 @@ SymplecticityTable symplecticity_table(const std::vector<MappedStates>& systems)
                                    from(&Unforced::defect, &SymplecticityDefect::largest)},
                                   {"rounding", "", "machine epsilon times the largest square of an entry of D",
                                    from(&Unforced::defect, &SymplecticityDefect::rounding)},
-                                  {"message", "", "why there is no defect", &Unforced::message}};
+                                  {"message", "", "reason for a missing defect", &Unforced::message}};
   return {.table = table_of(scheme_columns<Unforced>() + columns, rows),
           .unsolved = std::ranges::count_if(rows, [](const Unforced& row) { return !row.defect; })};
 }

@@ -55,8 +55,8 @@ Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*
                best, rows.size(), Measurement{"bound on the excess of the cost", 100.0 * same_cost, "", "", "%"})
       .also(worded("the path itself exceeds this cost by {}", shares_of(rows, "excess_before")))
       .also(worded("the slowest plan takes {:.2g} to {:.2g} ms",
-                   Measurement{"lower end of the slowest plan", slowest.needed("plan_lower"), "", "", "ms"},
-                   Measurement{"upper end of the slowest plan", slowest.needed("plan_upper"), "", "", "ms"}))
+                   Measurement{"lower confidence limit of this time", slowest.needed("plan_lower"), "", "", "ms"},
+                   Measurement{"upper confidence limit of this time", slowest.needed("plan_upper"), "", "", "ms"}))
       .because(others.empty() ? Words() : worded("not on {}", fmt::join(others, ", ")))
       .as_sure_as("99 % of the times of searches");
 }
@@ -68,8 +68,8 @@ Claims primitives_claims() {
            .problems = examples,
            .where = "section 5, Global Minima",
            .whose = Whose::extension,
-           .states = "how often the best path of a roadmap of DMOC primitives leads to the best known optimum, and how "
-                     "long it takes to find it",
+           .states = "share of problems on which the best path of a roadmap of DMOC primitives leads to the best known "
+                     "optimum, and time of the search for the path",
            .judge = leads_to_global_minima,
            .condition = "a full solve from the path must end at the best known cost; a search uses an existing "
                         "roadmap; the number of multi-start solves in the same time depends on the machine",

@@ -58,7 +58,7 @@ const Columns<Measured> columns =
         {"objective", "", "cost J", &Measured::objective},
         {"reference", "", "reference of the errors: the indirect solution, or a fine grid on which two methods agree",
          &Measured::reference},
-        {"reference_digits", "", "digits that two routes to the reference share", &Measured::digits},
+        {"reference_digits", "", "digits on which two routes to the reference agree", &Measured::digits},
         {"cost_error", "", "|J - J_ref| / J_ref", from(errors, &TransferErrors::cost)},
         {"state_error", "", "max over the nodes of |q - q_ref|", from(errors, &TransferErrors::state)},
         {"control_error", "", "max over the stages of |u - u_ref|", from(errors, &TransferErrors::control)},
@@ -79,7 +79,7 @@ const Columns<Reference> reference_columns{
     {"problem", "", "name of the problem", &Reference::problem, in_key},
     {"revolutions", "", "number of revolutions d", &Reference::revolutions, in_key},
     {"reference", "", "indirect solution, or a fine grid on which two methods agree", &Reference::kind},
-    {"digits", "", "digits that two routes share", &Reference::digits},
+    {"digits", "", "digits on which two routes agree", &Reference::digits},
     {"cost", "cost", "J", &Reference::cost}};
 
 std::vector<std::string> families() {
@@ -136,9 +136,9 @@ int measure_all(CommandLine& line) {
   std::vector<std::string> problems{"orbital_transfer"};
   std::string revolutions_text = "10,20";
   std::string steps_text = "8,12,16,24,32";
-  line.list("--problem", problems, "the transfer in polar coordinates, orbital_transfer, or in Cartesian ones");
-  line.option("--revolutions", revolutions_text, "numbers of revolutions, as 10,20,50 or 10:160");
-  line.option("--steps", steps_text, "numbers of steps per revolution, as 8,16 or 8:32");
+  line.list("--problem", problems, "orbital_transfer (polar coordinates), or kepler_cartesian (Cartesian)");
+  line.option("--revolutions", revolutions_text, "numbers of revolutions, such as 10,20,50 or 10:160");
+  line.option("--steps", steps_text, "numbers of steps per revolution, such as 8,16 or 8:32");
   TableRun run("low_thrust", line);
   const std::vector<int> all_revolutions = whole_numbers("--revolutions", revolutions_text);
   const std::vector<int> all_steps = whole_numbers("--steps", steps_text);

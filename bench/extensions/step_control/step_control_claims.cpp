@@ -118,8 +118,8 @@ Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*p
     return Measurement{std::string("largest ratio of ") + name, ratios.largest};
   };
   return found(state.least > 1.0 && cost.least > 1.0,
-               "with the same number of steps, imposed steps have {:.0f} to {:.0f} times the state error ({} pairs) "
-               "and {:.0f} to {:.0f} times the error of the optimal cost ({} pairs)",
+               "with the same number of steps, the state error with imposed steps is {:.0f} to {:.0f} times the error "
+               "with variational steps ({} pairs), and the error of the optimal cost {:.0f} to {:.0f} times ({} pairs)",
                least("state errors", state), largest("state errors", state), state.count, least("cost errors", cost),
                largest("cost errors", cost), cost.count)
       .also(worded("variational steps take {:.1f} to {:.1f} times the operations of a Newton pass and {:.2f} to {:.2f} "

@@ -40,11 +40,11 @@ def problems_of(file):
 
 
 _without_problems = {"claims", "misprints", "new", "report", "step_control"}
-"""Experiments without an option --problem; they know the problems of files nevertheless."""
+"""Experiments without an option --problem; the problems of files are registered for them, too."""
 
 
 def draw(words):
-    """Becomes dmocbench-figures of a wheel, of the build, or of an installation."""
+    """Replaces this process with dmocbench-figures of a wheel, of the build, or of an installation."""
     for place in ("plots/figures", "../../dmocbench-figures", "../../../../bin/dmocbench-figures"):
         script = Path(__file__).parent / place
         if script.exists():

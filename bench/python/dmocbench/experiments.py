@@ -36,7 +36,7 @@ class Table:
         """Returns a row by its number, or a column by its name."""
         if isinstance(key, str):
             if key not in self.columns:
-                raise Error(f"there is no column {key}; there are {', '.join(self.columns)}")
+                raise Error(f"there is no column {key}; choose one of {', '.join(self.columns)}")
             return [row[key] for row in self.rows]
         return self.rows[key]
 
@@ -82,7 +82,7 @@ def _text(value):
 class Results(Table):
     """The rows of an experiment. further: the other tables that it wrote, by the ends of their names ("slopes");
     orders: the fitted orders, if there are any; files: the common beginning of the names of all files; is_complete:
-    whether everything is solved. Experiments with several tables, such as invariants, have further tables only."""
+    whether everything is solved. Experiments with several tables, such as invariants, have only further tables."""
 
     further: dict[str, Table]
     orders: Table | None
@@ -148,7 +148,7 @@ _repeated = {"over", "set", "option", "library", "join"}
 
 _without_folder = {"list", "new"}
 _folder_of = {"report": "--from"}
-"""Options of programs in the place of --out."""
+"""Options of programs that replace --out."""
 
 
 def _word(value):
@@ -178,14 +178,14 @@ def run(experiment: Experiment, problem: AnyProblem | Sequence[AnyProblem] | Non
     """Runs an experiment as the program does, on a problem, a name or a list of them, and returns its `Results`.
 
     experiment: its name; help(dmocbench.names.Experiment) and `python3 -m dmocbench --help` list them. out: the folder of the
-    files that it writes, as the program does; name: how their names begin.
+    files that it writes, as the program does; name: the beginning of their names.
     options as on the command line, without dashes: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False,
     over=["length=0.9:1.1:3", "mass=1:2:2"]; run("solve", arguments=["--help"]) prints them all. arguments: further arguments of a
-    command line. Throws Error where the program would print a sentence, KeyboardInterrupt on Ctrl-C.
+    command line. Throws Error where the program would print an error, KeyboardInterrupt on Ctrl-C.
     """
     known = [program for program, _ in _core.programs()]
     if experiment not in known:
-        raise Error(f"there is no experiment {experiment}; there are {', '.join(known)}")
+        raise Error(f"there is no experiment {experiment}; choose one of {', '.join(known)}")
     words = [] if experiment in _without_folder else [_folder_of.get(experiment, "--out"), os.fspath(out)]
     words += [] if name is None else ["--name", name]
     problems = None

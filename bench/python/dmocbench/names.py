@@ -16,13 +16,13 @@ Solver = Literal["auto", "interior_point", "ipopt", "sqp", "nlopt"]
 """A method for nonlinear programs."""
 
 Derivatives = Literal["tape", "adolc", "adolc_whole", "finite_differences", "forward_differences", "dense_differences"]
-"""How solvers get derivatives. adolc and adolc_whole need a build with ADOL-C."""
+"""A source of derivatives for solvers. adolc and adolc_whole need a build with ADOL-C."""
 
 CostForm = Literal["bolza", "mayer"]
-"""How the cost is stated."""
+"""A form of the cost."""
 
 Refinement = Literal["h", "hp"]
-"""What is refined for an accuracy: steps, or steps and stages."""
+"""The refinement for an accuracy: of steps, or of steps and stages."""
 
 Experiment = Literal["adaptive", "certify", "claims", "coercivity", "cold_start", "consistency", "consistency_order",
                      "convergence", "derivatives", "equivalence", "invariants", "iterations", "list", "local_minima",

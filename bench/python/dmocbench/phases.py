@@ -38,7 +38,7 @@ class PhaseEnds:
 
     def __getattr__(self, name):
         if name.startswith("_") or name not in self._names:
-            raise AttributeError(f"there is no phase {name}; there are {', '.join(self._names)}")
+            raise AttributeError(f"there is no phase {name}; choose one of {', '.join(self._names)}")
         return self._ends[self._names.index(name)]
 
 
@@ -73,7 +73,7 @@ class Phases(Problem):
                 self._values[name] = float(value)
 
     def parameters(self) -> dict[str, float]:
-        """The values of all parameters by name, the phases' among them."""
+        """The values of all parameters by name, including the parameters of the phases."""
         return dict(self.handle().parameters)
 
     # Called from C++.
@@ -117,7 +117,7 @@ class Phases(Problem):
         for member in vars(type(self)):
             before, found, after = member.partition("_to_")
             if found and callable(getattr(self, member)) and not (before in names and after in names):
-                raise Error(f"{name}: {member} is not between two phases; there are {', '.join(names)}")
+                raise Error(f"{name}: {member} is not between two phases; choose one of {', '.join(names)}")
 
     def _stated_members(self):
         return [name for name in ("link", "conditions", "cost_scale") if getattr(self, name, None) is not None]
@@ -162,7 +162,7 @@ class PhaseMotion:
             if name in names:
                 return table[:, names.index(name)]
         there = self.coordinates + self.first_order_states + self.controls
-        raise Error(f"there is no {name}; there are {', '.join(there)}")
+        raise Error(f"there is no {name}; choose one of {', '.join(there)}")
 
 
 def continuous(before: PhaseEnd, after: PhaseEnd) -> Sequence[Any]:
@@ -190,7 +190,7 @@ def impact(before: PhaseEnd, after: PhaseEnd, guard: Callable[[Any], Any], resti
 def new_foothold(before: PhaseEnd, after: PhaseEnd, lagrangian: Callable[[Point], Any], on_old_foot: Callable[[Any], Any],
                  on_new_foot: Callable[[Any], Any]) -> Sequence[Any]:
     """A new foot lands and stays, the old one leaves. lagrangian(x): of the body in coordinates in which no foot is held;
-    on_old_foot(q), on_new_foot(q): these coordinates, of the ones of the phases before and after."""
+    on_old_foot(q), on_new_foot(q): these coordinates as functions of the coordinates of the phases before and after."""
     return _core.new_foothold(before, after, lambda q, v, t, y: lagrangian(Point(named(q, (), "q"), named(v, (), "v"), None, t,
                                                                                  named(y, (), "y"))),
                               lambda q: on_old_foot(named(q, before.q._names, "q")),

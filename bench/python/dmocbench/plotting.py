@@ -1,4 +1,4 @@
-"""Pictures of solutions by matplotlib, which is imported when they are drawn."""
+"""Pictures of solutions, drawn with matplotlib, which is imported on first use."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ def pyplot() -> Any:
     try:
         from matplotlib import pyplot as plt
     except ImportError:
-        raise Error("pictures need matplotlib; install it by apt install python3-matplotlib or pip install matplotlib") from None
+        raise Error("pictures need matplotlib; install it with apt install python3-matplotlib or "
+                    "pip install matplotlib") from None
     return plt
 
 
@@ -45,7 +46,7 @@ def plot(solution: Solution, *names: str) -> Any:
     known = [curve[0] for curve in curves]
     for name in names:
         if name not in known:
-            raise Error(f"there is no {name} to plot; there are {', '.join(known)}")
+            raise Error(f"there is no {name} to plot; choose one of {', '.join(known)}")
     chosen = [curve for curve in curves if not names or curve[0] in names]
     panels: dict[tuple[bool, str], list[Any]] = {}
     for curve in chosen:

@@ -63,7 +63,7 @@ class Point:
 
     def __getattr__(self, name):
         if name == "u":
-            raise AttributeError("there is no x.u here: the Lagrangian and formulas of the ends depend on q, v, y and t only")
+            raise AttributeError("there is no x.u here: the Lagrangian and formulas of the ends depend only on q, v, y and t")
         for part in ("q", "u", "y"):
             if name in getattr(getattr(self, part, None), "_names", ()):
                 raise AttributeError(f"x has no {name}; write x.{part}.{name}" +

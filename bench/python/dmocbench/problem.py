@@ -1,4 +1,4 @@
-"""How a problem is stated: a class derived from Problem, with declarative members and formulas."""
+"""The statement of a problem: a class derived from Problem, with declarative members and formulas."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class _Vector:
             if not isinstance(name, str) or not name.isidentifier():
                 raise Error(f"{kind} have names such as \"theta\", not {name!r}")
             if hasattr(Named, name):
-                raise Error(f"{kind} cannot be named {name}, which arrays of numpy have for something else")
+                raise Error(f"{kind} cannot be named {name}, which is already an attribute of numpy arrays")
         if len(set(names)) < len(names):
             raise Error(f"two {kind} have the same name: {', '.join(names)}")
         self.names = tuple(names)
@@ -71,7 +71,7 @@ def _require_known(given, names, what):
     for name in given:
         if name not in names:
             close = difflib.get_close_matches(str(name), names, 1)
-            hint = f"; did you mean {close[0]}?" if close else f"; there are {', '.join(names) or 'none'}"
+            hint = f"; did you mean {close[0]}?" if close else f"; the names are {', '.join(names) or 'none'}"
             raise Error(f"{what} has an entry {name}, which is not a name{hint}")
 
 
@@ -170,7 +170,7 @@ class unknown(parameter):
 
 
 class between:
-    """A number that is left open between two bounds. guess: where solves start, by default the middle."""
+    """A number that is left open between two bounds. guess: the value at which solves start, by default the middle."""
 
     def __init__(self, lower: float, upper: float, guess: float | None = None):
         self.lower = _number(lower, "between")
@@ -183,7 +183,7 @@ class between:
 
 
 class free(between):
-    """A number that is left open. guess: where solves start."""
+    """A number that is left open. guess: the value at which solves start."""
 
     def __init__(self, guess: float = 0.0):
         super().__init__(-_infinity, _infinity, guess)
@@ -194,7 +194,7 @@ class state:
     names.
 
     Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None is at rest. A problem without
-    coordinates has y alone.
+    coordinates has only y.
     """
 
     def __init__(self, q: Any = None, v: Any = None, y: Any = None):
@@ -287,8 +287,8 @@ class Problem:
 
     Derive a class from it and state
 
-    q = coordinates("theta", ...), u = controls("tau", ...) (may be left out), any number of `parameter`s; without q, y
-    alone, where all methods have the same solution;
+    q = coordinates("theta", ...), u = controls("tau", ...) (may be left out), any number of `parameter`s; without q, only
+    y, where all methods have the same solution;
     horizon: a number, or between(lower, upper, guess) for one that is free;
     start, end: a `state` or `at_rest`;
     lagrangian(self, x): L(q, v, t); force(self, x): the generalised force, n entries (may be left out);
@@ -339,7 +339,7 @@ class Problem:
         return f"{type(self).__name__}({values})"
 
     def handle(self) -> _core.ProblemHandle:
-        """The checked problem for C++. Throws Error with a sentence if something is missing or does not fit."""
+        """The checked problem for C++. Throws Error if something is missing or does not fit."""
         return _core.ProblemHandle(self)
 
     def parameters(self) -> dict[str, float]:
@@ -601,4 +601,4 @@ def _refuse_misspelt(problem, name):
                 continue
             close = difflib.get_close_matches(member, _members, 1, cutoff=0.85)
             if close and getattr(problem, close[0], None) is None:
-                raise Error(f"{name} has a member {member}, which nothing reads; did you mean {close[0]}?")
+                raise Error(f"{name} has a member {member}, which is not read; did you mean {close[0]}?")

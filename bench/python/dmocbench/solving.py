@@ -19,7 +19,7 @@ from .words import arguments_of_solve, in_words_of_python, spelt
 
 
 class NamedProblem:
-    """A problem that is built in, or that a library has, with values of its parameters: problem("cart_pole", mass=2)."""
+    """A built-in problem or a problem of a library, with values of its parameters: problem("cart_pole", mass=2)."""
 
     def __init__(self, name, **values):
         with in_words_of_python():
@@ -103,13 +103,13 @@ class Stages:
 
 
 class Prices:
-    """By how much the least cost grows per unit of the bound that acts: positive for a lower bound, negative for an upper
-    one, 0 where none acts. None where nothing of the kind is bounded, or the solve ended without multipliers.
+    """The increase of the optimal cost per unit of the active bound: positive for a lower bound, negative for an upper
+    one, 0 where none is active. None where there are no such bounds, or the solve ended without multipliers.
 
     q, v, y: of bounds at the nodes, a row each. stage_v, stage_u, path: of bounds of velocities, controls and path
-    constraints at the stages, per unit of time: moving the bound by e(t) changes the least cost by the sum of
+    constraints at the stages, per unit of time: moving the bound by e(t) changes the optimal cost by the sum of
     h b_i price_i e(t_i). unknowns: a dict, of the ranges of parameters that the solve chose. horizon: of the bounds of T, 0
-    where it is given. Integrals have theirs in `Solution.integral_prices`; values that are given at the ends have costates.
+    where it is given. Prices of integrals are in `Solution.integral_prices`; values that are given at the ends have costates.
     """
 
     q: np.ndarray | None
@@ -140,7 +140,7 @@ class Solution:
     largest_violation (of bounds and path constraints along the whole trajectory); t, q, v, p, psi_q, psi_p,
     psi = (psi_q, psi_p); stages.t, .q, .v, .u, .p.
     With first-order states y, psi_y and stages.y; unknowns: a dict of the parameters that the solve chose; integrals, and
-    integral_prices: by how much the least cost grows per unit of the bound that acts; prices: of all other bounds (`Prices`).
+    integral_prices: the increase of the optimal cost per unit of the active bound; prices: of all other bounds (`Prices`).
     None if the solve ended without it. Arrays are views of C++ results; they may outlive the solution.
     """
 
@@ -238,7 +238,7 @@ class Solution:
             if name in names:
                 return None if table is None else table[:, names.index(name)]
         there = self.coordinates + self.first_order_states + self.controls
-        raise Error(f"there is no {name}; there are {', '.join(there)}")
+        raise Error(f"there is no {name}; choose one of {', '.join(there)}")
 
     def at(self, t: Any) -> Point:
         """The trajectory at a time, or at an array of times, as a point x: x.q, x.v, x.u, x.y, by index or by name, as in
@@ -261,8 +261,8 @@ class Solution:
 
     def animate(self, shape: Callable[[Any], Any] | None = None, *, frames: int = 100, seconds: float | None = None) -> Any:
         """A matplotlib animation of the trajectory. shape: a function of a point x (`at`) that returns the points (x, y) of a
-        line, such as the joints of an arm; without one the points of the problem's picture. seconds: how long it plays, by
-        default as long as the horizon. Keep a reference to what it returns; its save("motion.gif") writes a file, and
+        line, such as the joints of an arm; without one the points of the problem's picture. seconds: its duration, by
+        default as long as the horizon. Keep a reference to the returned animation; its save("motion.gif") writes a file, and
         IPython.display.HTML(animation.to_jshtml()) shows it in a notebook."""
         return plotting.animate(self, shape, frames=frames, seconds=seconds)
 
@@ -363,10 +363,10 @@ _remedies = {
     "several_solvers": "solver=\"auto\": interior_point, then ipopt, then a feasible trajectory as the start.",
     "common_start": "another start: start= with a solution by another method.",
     "another_guess": "another guess, or start= with a solution near the one you want.",
-    "finer_grid": "accuracy=1e-4, or more intervals: with these controls {coordinate} ends {size:.2g} of its range from where it "
-                  "should.",
-    "feedback": "feedback to follow this trajectory. The system is unstable: with these controls alone {coordinate} ends {size:.2g} of "
-                "its range from where it should.",
+    "finer_grid": "accuracy=1e-4, or more intervals: with these controls {coordinate} misses its final value by {size:.2g} of "
+                  "its range.",
+    "feedback": "feedback to follow this trajectory. The system is unstable: with these controls alone {coordinate} misses its "
+                "final value by {size:.2g} of its range.",
 }
 
 
@@ -374,9 +374,9 @@ class Iteration(NamedTuple):
     """One iteration of a solver, as passed to the callback of `solve`."""
 
     solver: str
-    """The solver that runs; "auto" tries several in turn."""
+    """The running solver; "auto" tries several in turn."""
     number: int
-    """From 1 on; it begins anew with every grid and solver."""
+    """Counts from 1 and starts again with every grid and solver."""
     cost: float
     """The cost at the iterate."""
     violation: float
@@ -424,7 +424,7 @@ def solve(problem: AnyProblem, method: Method = "dmoc", *, intervals: int = 128,
         are the quadrature. `methods()` lists them.
     intervals: N, the number of intervals of a uniform grid.
     tableau: "gauss", "lobatto" or "lobatto_shared" (one control where two intervals meet): the times of the stages in an
-        interval. Shooting has its own integrator and takes from it the stages of the control only.
+        interval. Shooting has its own integrator and uses only the stages of the control from it.
     stages: s, the stages per interval: 1 to 4 with "gauss", 2 to 4 with "lobatto". The order is 2s or 2s - 2.
     solver: "auto" (interior_point, then ipopt, then another start), "interior_point" (ours, which uses the structure of the
         program), "ipopt", "sqp" (ours, an active-set method) or "nlopt" (SLSQP, for small programs).
@@ -433,15 +433,15 @@ def solve(problem: AnyProblem, method: Method = "dmoc", *, intervals: int = 128,
         may be left out, t ascending, a row of the others per time.
     accuracy: the estimated relative error of q, p and cost at which to stop, 1e-14 to 0.1: the grid is refined until it is
         reached; iterations and seconds include all grids. None: one grid.
-    refinement: what accuracy= refines: "h", the steps, or "hp", also the stages, up to three.
-    nodes: relative times of the nodes from 0 to 1, ascending, in the place of intervals=.
+    refinement: the quantities that accuracy= refines: "h", the steps, or "hp", also the stages, up to three.
+    nodes: relative times of the nodes from 0 to 1, ascending, instead of intervals=.
     tolerance: for the residual of the optimality conditions of the scaled program, by default 1e-10.
     most_iterations: of the solver, by default 500; a solve that reaches it has the status "iteration limit".
     most_seconds: of the call with its set-up and all grids, 0 for no limit; a solve that reaches it has the status "time limit"
         and returns the last solution.
-    derivatives: how the solver gets them: "tape" (exact, the fastest), "adolc" or "adolc_whole" (by ADOL-C, where it was
+    derivatives: their source: "tape" (exact, the fastest), "adolc" or "adolc_whole" (by ADOL-C, where it was
         built in), "finite_differences" (central), "forward_differences" or "dense_differences".
-    form: how the cost is stated: "bolza" (a sum), or "mayer" (one more unknown per node, the cost so far).
+    form: the form of the cost: "bolza" (a sum), or "mayer" (one more unknown per node, the cost so far).
     verbose: prints the solver's own output, and a line per grid with accuracy=.
     options: of the solver, by name, such as {"mu_strategy": "adaptive"} for "ipopt".
     callback: called with an `Iteration` after each iteration; if it returns a true value, the solve ends with the status
@@ -497,7 +497,7 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
     parameters: a dict of names to arrays, one number per instance; start, end: arrays of states (q, v), a row of 2n
     numbers per instance. Missing values are the problem's. Both ends and the horizon must be fixed. Each instance starts
     at its own guess; run("sweep") starts all from one trajectory and may end in other minima. most_seconds: of the
-    whole batch, 0 for no limit; instances that are not solved by then are a "time limit". Returns a `Batch`. Throws Error
+    whole batch, 0 for no limit; other instances then have the status "time limit". Returns a `Batch`. Throws Error
     on misuse.
     """
     handle = handle_of(problem)

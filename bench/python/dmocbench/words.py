@@ -14,7 +14,7 @@ _values = {value for kind in (names.Tableau, names.Solver, names.Derivatives, na
 
 arguments_of_solve = {"seconds": "most_seconds", "iterations": "most_iterations", "refine": "refinement", "option": "options",
              "problem": "problem"}
-"""Arguments of `solve` that have other names than the options of programs."""
+"""Arguments of `solve` whose names differ from the options of programs."""
 
 
 def spelt(sentence: str, renamed: Mapping[str, str] = {}) -> str:

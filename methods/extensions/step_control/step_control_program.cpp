@@ -29,7 +29,7 @@ void require_plain(const Problem& problem, const TracedProblem& traced) {
   if (is_plain) return;
   throw Error(
       "variational step sizes are supported only for problems with fixed ends, a fixed horizon and no constraints; " +
-      problem.name() + " is none");
+      problem.name() + " is not such a problem");
 }
 
 ExpressionVector single(const Expression& entry) { return ExpressionVector::Constant(1, entry); }

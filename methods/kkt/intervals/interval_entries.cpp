@@ -103,7 +103,7 @@ class EntryTable {
     }
     if (is_of_all(run, Place::Kind::interval)) {
       const Eigen::Index fixed_ones = fixed(run.first, made_.intervals);
-      if (fixed_ones > 0 && fixed_ones < made_.intervals) refuse("an unknown is fixed in some intervals only");
+      if (fixed_ones > 0 && fixed_ones < made_.intervals) refuse("an unknown is fixed in only some of the intervals");
       made_.is_fixed.push_back(fixed_ones > 0);
       return append(run, 1, made_.interval_unknowns);
     }
@@ -121,7 +121,7 @@ class EntryTable {
       return {append(run, 1, made_.equality_rows)};
     }
     if (is_of_all(run, Place::Kind::interval)) {
-      if (equalities > 0 && equalities < length) refuse("a constraint is an equality in some intervals only");
+      if (equalities > 0 && equalities < length) refuse("a constraint is an equality in only some of the intervals");
       const bool is_inequality = equalities < length;
       return {append(run, 1, is_inequality ? made_.inequality_rows : own_rows_), is_inequality};
     }

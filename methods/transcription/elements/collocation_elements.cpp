@@ -37,12 +37,12 @@ std::string HamiltonianElement::description() const {
 Eigen::Index HamiltonianElement::multipliers(const Tableau& tableau) const {
   if (tableau.stages() == 1) return 2;
   if (has_stages_at_nodes(tableau)) return tableau.stages();
-  throw Error("hamiltonian supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
+  throw Error("hamiltonian supports constraints g(q) = 0 only with --tableau gauss --stages 1 or --tableau lobatto");
 }
 
 std::vector<bool> HamiltonianElement::velocity_multipliers(const Tableau& tableau) const {
   if (tableau.stages() == 1) return {true, true};
-  throw Error("hamiltonian supports velocity_constraints with --tableau gauss --stages 1 only");
+  throw Error("hamiltonian supports velocity_constraints only with --tableau gauss --stages 1");
 }
 
 IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tableau& tableau,

@@ -11,12 +11,12 @@ std::string DmocElement::description() const {
 Eigen::Index DmocElement::multipliers(const Tableau& tableau) const {
   if (tableau.stages() == 1) return 1;
   if (has_stages_at_nodes(tableau)) return tableau.stages() - 1;
-  throw Error("dmoc supports constraints g(q) = 0 with --tableau gauss --stages 1 or --tableau lobatto only");
+  throw Error("dmoc supports constraints g(q) = 0 only with --tableau gauss --stages 1 or --tableau lobatto");
 }
 
 std::vector<bool> DmocElement::velocity_multipliers(const Tableau& tableau) const {
   if (tableau.stages() == 1) return {true};
-  throw Error("dmoc supports velocity_constraints with --tableau gauss --stages 1 only");
+  throw Error("dmoc supports velocity_constraints only with --tableau gauss --stages 1");
 }
 
 IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& tableau,

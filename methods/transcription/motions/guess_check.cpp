@@ -182,7 +182,7 @@ class WindowSearch {
     const std::vector<std::string> names = problem_.card().path_constraint_names;
     const auto number = static_cast<std::size_t>(i);
     throw Error(fmt::format(
-        "{}: path_constraints[{}]{} acts on the guess from t = {:.4g} to {:.4g} only, between the stages at t = {:.4g} "
+        "{}: path_constraints[{}]{} acts on the guess only from t = {:.4g} to {:.4g}, between the stages at t = {:.4g} "
         "and {:.4g}, where no stage imposes it; use more intervals, or a grid with a stage there",
         problem_.name(), i, number < names.size() ? " (" + names[number] + ")" : "", times_[first], times_[end - 1],
         *(after - 1), *after));
