@@ -139,7 +139,7 @@ TEST(Spline, RefusesTablesThatAreNoneNamingThePoint) {
   const auto make = [](const std::vector<double>& x, const std::vector<double>& y) { return [=] { Spline(x, y); }; };
   tests::expect_error_naming({"3 x values but 2 y values"}, make({0.0, 1.0, 2.0}, {0.0, 1.0}));
   tests::expect_error_naming({"at least two points", "got 1"}, make({0.0}, {0.0}));
-  tests::expect_error_naming({"ascend", "point 3", "(1, 7)"}, make({0.0, 1.0, 1.0}, {0.0, 1.0, 7.0}));
+  tests::expect_error_naming({"increasing", "point 3", "(1, 7)"}, make({0.0, 1.0, 1.0}, {0.0, 1.0, 7.0}));
   tests::expect_error_naming({"finite", "point 2"}, make({0.0, 1.0}, {0.0, std::nan("")}));
 }
 

@@ -181,7 +181,7 @@ TEST(ProblemCheck, RefusesColumnsThatWouldShareAName) {
   expect_refused({"picture", "time"}, pictured({{"t", ""}}));
   expect_refused({"picture", "time"}, pictured({{"t", "s"}}));
   expect_refused({"picture", "time"}, pictured({{"t_in_s", ""}}));
-  expect_refused({"picture", "not a name"}, pictured({{"", "m"}}));
+  expect_refused({"picture", "cannot name a column"}, pictured({{"", "m"}}));
   expect_refused({"unit", "control"}, pictured({{"a", "m\n"}}));
 }
 

@@ -209,7 +209,7 @@ TEST_F(WiderStatementsRefused, UnknownThatAFormulaReadsAsANumber) {
 
 TEST_F(WiderStatementsRefused, BoundsOfAnotherSize) {
   EXPECT_EQ(restated([](Statement& s) { s.integrands = [](const ControlledState& x) { return one(x.q[0]); }; }),
-            "double_integrator: bounds().integrals has 0 entries, and integrands has 1");
+            "double_integrator: bounds().integrals has 0 entries, but integrands has 1");
   EXPECT_EQ(restated([](Statement& s) { s.path = Bounds::all(2, 0.0, 1.0); }),
             "double_integrator: bounds().path has 2 entries, but path_constraints has 0");
 }
