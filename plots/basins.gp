@@ -44,7 +44,7 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
         paper_note(problem, "section 5").sprintf("Cold starts by %s: the guess with bulges sin(πt/T) in both coordinates; N = %s,"\
         ." %d × %d starts.",\
         solver_label(entry(word(distinct(basins, "solver", group, ""), 1), "solver")), entry(group, "intervals"), places, places),\
-        "Dark: not solved. Grey: too coarse, integrating each interval misses the next node.")
+        "Dark: not solved. Grey: too coarse (integrating an interval misses the next node).")
     eval panels(1, words(methods), 85, 15, 140, 20, 0)
     set xrange [B_min - half:B_max + half]
     set yrange [B_min - half:B_max + half]

@@ -35,7 +35,7 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
   x_of(solver, method, c) = place_in(solvers, solver) + 0.27 * (place_in(methods, method) - 2) + 0.07 * (c - 2)
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_cold_start", 940)
-    figure_title = title_text(problem_label(problem).": shares of cold starts, N = ".entry(scheme, "intervals"),\
+    figure_title = title_text(problem_label(problem).": outcomes of cold starts, N = ".entry(scheme, "intervals"),\
         paper_note(problem, "section 5").what_is_counted, "Bars: 95 % intervals (Wilson). Tolerance "\
         .told("cold_start", "tolerance").".")
     eval title_above
@@ -109,7 +109,7 @@ do for [kind in kinds] {
   if (count > 0) {
     bottom = 130 + 16 * lines_in(notes)
     eval begin_figure(kind, "library_cold_start", 150 + bottom + 34 * count)
-    figure_title = title_text("Every problem: shares of cold starts by interior point, N = "\
+    figure_title = title_text("All problems: outcomes of cold starts with interior point, N = "\
         .word(values("intervals", where), 1), "Paper: section 5. ".what_is_counted, "95 % intervals (Wilson), "\
         .word(drawn_starts(where.",problem=".word(all_problems, words(all_problems))), 1)." starts per problem and method, "\
         .word(drawn_starts(where.",problem=".word(all_problems, 1)), 1)." on the paper’s problems.")

@@ -32,7 +32,7 @@ do for [where in problems_of(name, ratio)] {
     eval begin_figure(kind, problem."_savings_by_solver", 660)
     figure_title = title_text(problem_label(problem)\
         .": time with Hamiltonian collocation divided by the time with DMOC",\
-        paper_note(problem, "section 3.4, rem:savings").timed_conditions("savings_by_solver").". Above 1 DMOC takes less.",\
+        paper_note(problem, "section 3.4, rem:savings").timed_conditions("savings_by_solver").". Above 1, DMOC costs less.",\
         "Bars: 99 % intervals over the rounds. Ipopt: time of an iteration without evaluations.")
     eval panels(1, 2, 80, 15, 165, 95, 0)
     # Both panels have one range, which holds all that is drawn.

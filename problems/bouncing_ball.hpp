@@ -18,7 +18,7 @@ class BouncingBall final : public PhasedProblem {
   BouncingBall()
       : PhasedProblem({{"fall", std::make_shared<Flight>(at(1.0, 0.0), open(0.0, -4.0))},
                        {"rise", std::make_shared<Flight>(open(0.0, 3.0), at(1.1, 0.5))}},
-                      {{"restitution", 0.7, "", "e of the impact, 1 if it is elastic", 0.0, 1.0},
+                      {{"restitution", 0.7, "", "coefficient of restitution, 1 for an elastic impact", 0.0, 1.0},
                        {.name = "impulse", .value = 7.0, .unit = "N s", .meaning = "of the impact", .is_unknown = true},
                        horizon_parameter(1.2)}) {}
 

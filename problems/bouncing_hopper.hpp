@@ -19,7 +19,7 @@ class BouncingHopper final : public PhasedProblem {
       : PhasedProblem(
             {{"down", std::make_shared<Flight>(at({1.5, 0.0}, {0.0, 0.0}), open({1.1, 0.4}, {-0.5, 0.5}), 1.1)},
              {"up", std::make_shared<Flight>(open({1.1, 0.4}, {0.5, 0.5}), at({1.6, 1.2}, {0.0, 0.3}), 1.5)}},
-            {{"restitution", 1.0, "", "e of the impact, 1 if it is elastic", 0.0, 1.0},
+            {{"restitution", 1.0, "", "coefficient of restitution, 1 for an elastic impact", 0.0, 1.0},
              {"unevenness", 0.15, "", "a of the surface", 0.0, 0.3},
              {.name = "impulse", .value = 1.0, .unit = "", .meaning = "of the impact", .is_unknown = true},
              {"horizon", 2.6, "", "duration T", 1e-3, 1e3}}) {}

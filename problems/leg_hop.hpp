@@ -17,9 +17,9 @@ namespace dmocbench {
 /// the foot at (0.4, 0.3), both at 0.6 m/s ahead, in 1 s; the time of the take-off is free.
 class LegHop final : public PhasedProblem {
  public:
-  static constexpr double gravity = 9.81;
-  static constexpr double foot_mass = 0.2;
-  static constexpr double friction = 0.12;
+  static constexpr double gravity = 9.81;   ///< m/s²
+  static constexpr double foot_mass = 0.2;  ///< kg
+  static constexpr double friction = 0.12;  ///< the coefficient μ
 
   /// Both phases but for their bounds: body and foot with the force between them.
   class BodyAndFoot : public PhaseBetween {

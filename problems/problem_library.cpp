@@ -116,9 +116,9 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
   try {
     entry_of(path)(problems);
   } catch (const std::exception& error) {
-    throw Error(fmt::format("a problem of {} cannot be constructed: {}", path.string(), error.what()));
+    throw Error(fmt::format("a problem in {} cannot be constructed: {}", path.string(), error.what()));
   } catch (...) {
-    throw Error(fmt::format("a problem of {} cannot be constructed: it threw an object that is not a std::exception",
+    throw Error(fmt::format("a problem in {} cannot be constructed: it threw an object that is not a std::exception",
                             path.string()));
   }
   const std::size_t known = registry.names().size();

@@ -103,13 +103,13 @@ Claims accuracy_claims() {
        .condition = "the paper motivates DMOC by effort that is meaningful only if the system responds to the "
                     "forces as computed, and compares no responses; controls are constant over an interval; on coarse "
                     "grids either method may have the smaller error",
-       .cause = "the momentum balance that the discrete system keeps does not bound the error of its trajectory: both "
-                "errors are of order h^2, and their factors depend on the trajectory",
+       .cause = "the discrete momentum balance does not bound the error of the trajectory: the errors of both methods "
+                "are of order h^2, with constants that depend on the trajectory",
        .evidence = {"convergence.csv"},
        .headline = true},
       {.id = "rounding_floor",
        .where = "section 3.3, Implementation",
-       .states = "round-off errors due to staying on Q x Q, on the finest grid",
+       .states = "round-off in the momentum balance of DMOC, whose states are in Q x Q, on the finest grid",
        .judge = rounding_floor,
        .condition = "DMOC's momenta are differences of positions divided by h, so that their round-off grows as 1/h",
        .evidence = {"consistency.csv", "figures/{}_momentum.svg"},
@@ -118,8 +118,9 @@ Claims accuracy_claims() {
        .where = "section 4.1, SQP Method",
        .states = "interior_point, the solver of experiments that do not compare solvers, ends in the minima of Ipopt",
        .judge = interior_point_beside_ipopt,
-       .condition = "warm, from a common start; the solutions of both are refined by Newton steps, so the claim "
-                    "concerns the branch, not the digits",
+       .condition =
+           "warm starts from a common trajectory; the solutions of both solvers are refined by Newton steps, so "
+           "the claim concerns the branch, not the digits",
        .evidence = {"convergence.csv", "convergence_stages.csv"}}};
 }
 

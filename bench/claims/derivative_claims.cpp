@@ -142,8 +142,8 @@ Finding more_robust(const ResultTables& tables, const std::string& problem) {
         worded("from the guess central differences solve {} of {} programs; {} are solved only by central differences, "
                "{} only by exact derivatives",
                central.by_differences, central.count, central.by_differences_alone, central.exact_alone));
-    reason = worded("{}: the error of their Jacobians is {} of the largest entry, the error of ADOL-C's Jacobians {}",
-                    reason, range_of(settings.back(), "dense_differences", "jacobian_error"),
+    reason = worded("{}: relative to the largest entry, the error of their Jacobians is {}, of ADOL-C's {}", reason,
+                    range_of(settings.back(), "dense_differences", "jacobian_error"),
                     range_of(settings.back(), "adolc_whole", "jacobian_error"));
   }
   return Finding{.clauses = std::move(words), .verdict = verdict_on_all(verdicts)}.because(reason).as_sure_as(
@@ -171,7 +171,7 @@ Words add_ratio(TimedRatios& ratios, const Selection& rows, const std::string& n
   return left_out(slower, timed, fmt::format("not solved by {} or {}, in favour of {} by", slow, fast, slow));
 }
 
-/// "12 %": the share of evaluations in the time of solves, where both were measured.
+/// "12 %": the share of time in evaluations of solves, where both were measured.
 Words share_of_evaluations(const Selection& rows, const char* derivatives) {
   double evaluations = 0.0;
   double seconds = 0.0;
@@ -183,7 +183,7 @@ Words share_of_evaluations(const Selection& rows, const char* derivatives) {
   }
   if (seconds <= 0.0) return worded("(not measured)");
   return worded("{:.0f} %",
-                Measurement{"share of evaluations in the time", 100.0 * evaluations / seconds, "", derivatives, "%"});
+                Measurement{"share of time in evaluations", 100.0 * evaluations / seconds, "", derivatives, "%"});
 }
 
 /// The reason: the cost of a Jacobian.

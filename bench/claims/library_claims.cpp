@@ -81,7 +81,7 @@ Predicate dmoc_best_by(const std::string& measure) {
   return [wins = "wins_" + measure, measure](const ResultTables& tables, const std::string&) -> Finding {
     const Selection rows = tables.rows("profile");
     const Selection successes = rows.where("success", "yes");
-    require(!successes.empty(), "profile.csv has no success among its {}", counted(rows.size(), "row"));
+    require(!successes.empty(), "profile.csv has no success in {}", counted(rows.size(), "row"));
     for (const Row& row : successes) static_cast<void>(row.needed("objective"));
     const auto wins_in_words = [&](const Row& row) {
       return worded("{} {} {}: best on {}, solves {}", row.text("method"), row.text("tableau"), row.text("stages"),

@@ -151,7 +151,7 @@ Finding stability_constant(const ResultTables& tables, const std::string& proble
     return is_structured(row) && row.text("tableau") == "gauss" && row.text("stages") == "1";
   });
   const Selection rows = all.where("verdict", "slope");
-  require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} with the midpoint rule among its {}",
+  require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} with the midpoint rule in {} rows",
           problem, all.size());
   const auto words = [](const Row& row) {
     const auto ratio = [&](const char* column, const char* grid) {

@@ -48,7 +48,7 @@ Finding order_of_shooting(const ResultTables& tables, const std::string& problem
   }
   const ClaimVerdict of_fitted = verdict_on_all(verdicts);
   const ClaimVerdict verdict = is_floor && of_fitted == ClaimVerdict::reproduced ? ClaimVerdict::floor : of_fitted;
-  return found(verdict, "slopes of the state against the indirect solution: {}", joined(words, ", "));
+  return found(verdict, "slopes of the state error against the indirect solution: {}", joined(words, ", "));
 }
 
 /// The row of cold starts of a method by Ipopt.

@@ -232,7 +232,7 @@ Finding tangent_differs(const ResultTables& tables, const std::string& problem) 
   const double fine = rows.back().needed("configuration_difference");
   const Selection slopes = tables.rows("equivalence_slopes", problem).where("tableau", "gauss");
   const Selection orders = slopes.where("verdict", "slope");
-  require(!orders.empty(), "equivalence_slopes.csv has no fitted slope of {} among its {}", problem, slopes.size());
+  require(!orders.empty(), "equivalence_slopes.csv has no fitted slope of {} in {} rows", problem, slopes.size());
   const auto is_twice_the_stages = [](const Row& row) { return verdict_on_order(row, 2.0 * row.needed("stages")); };
   const auto words = [](const Row& row) {
     return worded(

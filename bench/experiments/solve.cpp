@@ -75,15 +75,16 @@ Row row_of_answer(const SolvedCase& solved, const IndependentChecks& checks, con
 class Solve final : public ExperimentOf<Measured> {
  public:
   Solve()
-      : ExperimentOf({.name = "solve",
-                      .description =
-                          "Solves and writes the trajectory: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, "
-                          "u) and NAME_picture.csv. NAME is the value of --name, or by default solve_ and the "
-                          "problem with its settings; with several cases the label of the case is appended. For a "
-                          "failed solve the last iterate is written; --start NAME_nodes.csv continues from it.",
-                      .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
-                      .rows = RowUse::motions,
-                      .example = "--problem two_link_manipulator --method dmoc --intervals 64"}) {}
+      : ExperimentOf(
+            {.name = "solve",
+             .description =
+                 "Solves a problem and writes the trajectory: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv "
+                 "(t, u) and NAME_picture.csv. NAME is the value of --name, by default solve_ followed by "
+                 "the problem and its settings. With several cases, the label of the case is appended. For a "
+                 "failed solve the last iterate is written; --start NAME_nodes.csv continues from it.",
+             .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
+             .rows = RowUse::motions,
+             .example = "--problem two_link_manipulator --method dmoc --intervals 64"}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return columns_through<Measured>(&Measured::checks, check_columns()) +
            Columns<Measured>{{"estimated_error", "",

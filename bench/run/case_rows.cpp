@@ -23,9 +23,8 @@ using Json = nlohmann::ordered_json;
 /// Throws `Error` if a row has a value that no run writes: an invalid number, or an answer without its cost.
 void require_measured(const Row& row, const std::vector<std::string>& columns, const std::string& place) {
   const auto refuse = [&](const std::string& column) {
-    throw Error(
-        fmt::format("{}: {} is {}, which is not a value of that column; remove the file and run its cases again", place,
-                    column, row.text(column).empty() ? "missing" : row.text(column)));
+    throw Error(fmt::format("{}: {} is {}, expected a finite number; remove the file and run its cases again", place,
+                            column, row.text(column).empty() ? "missing" : row.text(column)));
   };
   for (const std::string& column : columns) {
     const auto number = parsed<double>(row.text(column));

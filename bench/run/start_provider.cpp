@@ -346,7 +346,7 @@ Trajectory StartProvider::solve(const Case& the_case) {
     throw Error(fmt::format("{} has no usable solution ({}): {}", the_case.label(), name_of(solved.solution.status),
                             solved.solution.message));
   }
-  throw Error(fmt::format("{} is solved, but not on a branch that is known to be the same for all methods: {}",
+  throw Error(fmt::format("{} is solved, but possibly on a different branch from the other methods: {}",
                           the_case.label(),
                           start.note.empty() ? "its solution is far from its common start." : start.note));
 }

@@ -156,7 +156,7 @@ class Iteration {
   void eliminate() {
     const kkt::FactorisationStatus status = kkt_->solve({hessian_, jacobian_, shift_, no_compliance_},
                                                         {gradient_, residuals_}, {step_, step_of_multipliers_});
-    if (status != kkt::FactorisationStatus::solved) throw Error("the system of a chain is not eliminated");
+    if (status != kkt::FactorisationStatus::solved) throw Error("the linear system of the chain could not be solved");
   }
 
  private:

@@ -271,7 +271,7 @@ Columns<JumpsOfCurve> jump_columns() {
               from(orders, [](const TwoOrders& both) { return both.jump.order - both.error.order; })},
              {"error_of_jumps_coarsest", "", "state error divided by N times the jump, on the coarsest grid",
               from(orders, &TwoOrders::grids, &Selection::front, error_of_jumps)},
-             {"error_of_jumps_finest", "", "the same on the finest grid",
+             {"error_of_jumps_finest", "", "state error divided by N times the jump, on the finest grid",
               from(orders, &TwoOrders::grids, &Selection::back, error_of_jumps)},
              {"coarsest", "", "smallest number of intervals used", from(orders, &TwoOrders::grids, coarsest_of)},
              {"finest", "", "largest number of intervals used", from(orders, &TwoOrders::grids, finest_of)},

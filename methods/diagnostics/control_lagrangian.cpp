@@ -180,7 +180,8 @@ GalerkinForm galerkin_form(Transcription& program, const Eigen::VectorXd& x, con
   const Tableau& rates = program.functions().rates;
   const Tableau& quadrature = program.tableau();
   if (!has_galerkin_form(program))
-    throw Error("the Galerkin form needs dmoc or galerkin, fixed ends, and no equations besides Euler-Lagrange");
+    throw Error(
+        "the Galerkin form needs dmoc or galerkin, fixed ends, and Euler-Lagrange equations as the only constraints");
   const TracedProblem& traced = program.traced_problem();
   const Eigen::Index n = traced.configuration_size();
   PointFunction formulas(n, traced.control_size(), [&](const ControlledState& point) {

@@ -35,7 +35,7 @@ NodeTable::NodeTable() : chains_(1024), zero_(find_or_create({})) { zero_->gain_
 Node* NodeTable::find_or_create(const NodeKey& key) {
   for (Node* operand : key.operands) {
     if (operand != nullptr && operand->table_ != this) {
-      throw Error("a formula contains expressions of two threads; trace each formula in one thread");
+      throw Error("a formula contains expressions from two threads; trace each formula in one thread");
     }
   }
   for (Node* node = chain_of(key); node != nullptr; node = node->next_) {

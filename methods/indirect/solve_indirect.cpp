@@ -61,7 +61,7 @@ void require_fit(const Problem& problem, const Trajectory& start) {
   constexpr double coincidence = 1e-9;
   if (start.q.cols() != n || start.stage_u.cols() != problem.control_size() ||
       std::abs(start.node_times[start.intervals()] - horizon) > coincidence * horizon) {
-    throw Error("the start of the indirect method belongs to a problem other than " + problem.name());
+    throw Error("the start of the indirect method does not match the sizes or the horizon of " + problem.name());
   }
 }
 

@@ -138,7 +138,7 @@ std::vector<InteriorBounds> checked_interior(std::vector<InteriorBounds> interio
 
 void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
   if (!(bounds.lower > 0.0) || !(bounds.upper >= bounds.lower)) {
-    const std::string hint = bounds.upper == 0.0 ? fmt::format("; begin with {}, which fixes the ends and the horizon",
+    const std::string hint = bounds.upper == 0.0 ? fmt::format("; start from {}, which fixes the ends and the horizon",
                                                                member_name("Problem::bounds()"))
                                                  : "";
     throw Error(fmt::format("{}: {} must be positive and increasing, got {:g} and {:g}{}", problem.name(),

@@ -32,8 +32,8 @@ void check_parameters(const Problem& problem) {
     };
     if (parameter.name.empty() || std::ranges::any_of(parameter.name, is_odd)) {
       throw Error(
-          fmt::format("{}: the name of a parameter cannot be used in --set NAME=VALUE: it is empty, or has a blank, a "
-                      "control character, an equals sign, a comma or a quotation mark",
+          fmt::format("{}: a parameter name cannot be used in --set NAME=VALUE: it is empty or contains a "
+                      "space, control character, equals sign, comma or quotation mark",
                       problem.name()));
     }
     const std::string owner = "parameter " + parameter.name;
@@ -57,7 +57,7 @@ void check_reference(const Problem& problem, const ReferenceOptimum& reference) 
   constexpr int most_digits = 17;  // of a double
   const std::string owner = problem.name() + ": card().reference";
   if (reference.digits < 0 || reference.digits > most_digits) {
-    throw Error(fmt::format("{} has {} digits; a double has between 0 and {}", owner, reference.digits, most_digits));
+    throw Error(fmt::format("{}.digits is {}, expected 0 to {}", owner, reference.digits, most_digits));
   }
   if (!std::isfinite(reference.objective)) throw Error(owner + ": the objective is not a finite number");
   require_one_line(problem, "card().reference.certificate", reference.certificate);

@@ -64,7 +64,7 @@ TEST_F(MotionFile, IsRefusedWithItsNameWhereItIsNoMotion) {
   expect("t,q,v_q\n0,0,0\n0.25,nan,1\n1,1,0\n", stages_text, {"X_nodes.csv", "column q"});
   expect("t,q,v_q\n0,0,0\n0.25,0,inf\n1,1,0\n", stages_text, {"X_nodes.csv", "column v_q"});
   expect("t,q,v_q\n0,0,0\n0.25,0\n1,1,0\n", stages_text, {"X_nodes.csv", "record 3"});
-  expect("t,q,v_q\n0,0,0\n0.5,0,0\n0.5,0,0\n1,1,0\n", stages_text, {"X_nodes.csv", "increase"});
+  expect("t,q,v_q\n0,0,0\n0.5,0,0\n0.5,0,0\n1,1,0\n", stages_text, {"X_nodes.csv", "increasing"});
   expect("t,q,v_q\n0.1,0,0\n1,1,0\n", stages_text, {"X_nodes.csv", "begin at 0"});
   expect("t,q,v_q\n0,0,0\n", stages_text, {"X_nodes.csv", "no trajectory"});
   expect("t,q,v_q\n0,0,0\n0.25,0.1,1\n0.5,0.5,1.5\n", stages_text, {"X_stages.csv", "truncated"});

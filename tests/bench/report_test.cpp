@@ -148,7 +148,7 @@ TEST(Report, PutsThePapersClaimsFirstAndClosesAll) {
   const std::size_t paper =
       page.find("<details class=\"group\" id=\"group-section-3.4\"><summary><b>The paper, section 3.4</b>");
   const std::size_t claim_of_paper = page.find("<dl id=\"claim-orbital_transfer/equal_solutions\">");
-  const std::size_t others = page.find("<details class=\"group\" id=\"group-Findings-of-ours\">");
+  const std::size_t others = page.find("<details class=\"group\" id=\"group-Our-findings\">");
   const std::size_t ours = page.find("<dl id=\"claim-orbital_transfer/ours\">");
   ASSERT_NE(ours, std::string::npos);
   EXPECT_TRUE(paper < claim_of_paper && claim_of_paper < others && others < ours);

@@ -203,12 +203,12 @@ TEST_F(ResultFile, FoldersAreMadeWithTheirParentsAndGoWhereNothingIsWritten) {
 
 TEST_F(ResultFile, ALinkThatLeadsNowhereStaysOne) {
   std::filesystem::create_symlink("nowhere", folder() / "link");
-  expect_error_naming({"cannot make", "link"}, [&] { const OutputFolder none(folder() / "link"); });
+  expect_error_naming({"cannot create", "link"}, [&] { const OutputFolder none(folder() / "link"); });
   EXPECT_TRUE(std::filesystem::is_symlink(folder() / "link"));
 }
 
 TEST_F(ResultFile, NoFolderIsLeftWhereNotAllCanBeMade) {
-  expect_error_naming({"cannot make"}, [&] { const OutputFolder none(folder() / "a" / std::string(300, 'x')); });
+  expect_error_naming({"cannot create"}, [&] { const OutputFolder none(folder() / "a" / std::string(300, 'x')); });
   EXPECT_EQ(entries(), 0);
 }
 

@@ -128,7 +128,7 @@ class Mistakes(unittest.TestCase):
             solution.estimated_error()
         with self.assertRaisesRegex(db.Error, "cannot be solved in a batch"):
             db.solve_batch(restated.TwoLinkWithMotors(), start=np.zeros((3, 4)))
-        self.refused("start= has 2 coordinates, .* but the problem 1, 1 and 0", PendulumSwingUp(), start=solution)
+        self.refused("start= has 2 coordinates, .* but the problem has 1, 1 and 0", PendulumSwingUp(), start=solution)
         self.refused("tableau=\"gauss\", stages=1", "cart_pole_cartesian", method="dmoc", stages=2)
 
     def test_unknowns_that_nothing_reads(self):
@@ -250,7 +250,7 @@ class Mistakes(unittest.TestCase):
         problem = variant(lagrangian=lagrangian)()
         db.solve(problem, intervals=8)
         del problem
-        with self.assertRaisesRegex(db.Error, "is over"):
+        with self.assertRaisesRegex(db.Error, "has ended"):
             kept[0].length
 
     def test_formulas_of_another_thread(self):

@@ -66,7 +66,7 @@ class Trajectories(unittest.TestCase):
 
     def test_end_at_the_horizon(self):
         solution = db.solve(PendulumSwingUp(), intervals=16)
-        with self.assertRaisesRegex(db.Error, r"no time 1.6; the horizon is \[0, 1.5\]"):
+        with self.assertRaisesRegex(db.Error, r"t = 1.6 lies outside the horizon \[0, 1.5\]"):
             solution.at(1.6)
         with self.assertRaisesRegex(db.Error, "no time nan"):
             solution.at(float("nan"))

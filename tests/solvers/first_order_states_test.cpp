@@ -38,7 +38,7 @@ Answer solved_tightly(const Problem& problem, const Scheme& scheme, Eigen::Index
 struct ReferenceMotion {
   explicit ReferenceMotion(std::unique_ptr<Problem> of)
       : problem(std::move(of)),
-        near(smooth_motion(solved_tightly(*problem, {"dmoc", 2}, 64, guessed_motion(*problem)).motion)),
+        near(smooth_motion(solved_tightly(*problem, {"tangent", 2}, 64, guessed_motion(*problem)).motion)),
         motion(solved_tightly(*problem, {"hamiltonian", 4}, 512, near).motion) {}
   std::unique_ptr<Problem> problem;
   Motion near;

@@ -65,7 +65,8 @@ const Columns<Measured> columns =
         {"momentum_defect", "",
          "largest difference between the change of angular momentum and the work of the thrust over an interval",
          from(errors, &TransferErrors::momentum)},
-        {"momentum_balance", "", "the same difference over the whole horizon", from(errors, &TransferErrors::balance)},
+        {"momentum_balance", "", "change of angular momentum minus the work of the thrust, over the horizon",
+         from(errors, &TransferErrors::balance)},
         {"replay_error", "", "distance from the final state when the control is replayed", &Measured::replay_error}};
 
 struct Reference {

@@ -46,8 +46,8 @@ Finding momentum_by_every_route(const ResultTables& tables, const std::string& /
   static_cast<void>(by_rule(rows, "imposed", table));
   const double least_work = -rows.max([](const Row& row) { return -std::abs(row.needed("work")); });
   return found(rows.max("defect") < rounding && least_work > some_work,
-               "{} trajectories of 400 steps under arbitrary thrust, steps by distance, acceleration and thrust: "
-               "change of momentum minus work at most {:.1e}",
+               "{} trajectories of 400 steps under arbitrary thrust, with step sizes from distance, acceleration and "
+               "thrust: change in momentum minus work at most {:.1e}",
                rows.size(), Measurement{"largest defect", rows.max("defect")})
       .also(worded("work at least {:.1e}", Measurement{"least work", least_work}));
 }

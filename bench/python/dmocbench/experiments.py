@@ -181,7 +181,7 @@ def run(experiment: Experiment, problem: AnyProblem | Sequence[AnyProblem] | Non
     files that it writes, as the program does; name: the beginning of their names.
     options as on the command line, without dashes: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False,
     over=["length=0.9:1.1:3", "mass=1:2:2"]; run("solve", arguments=["--help"]) prints them all. arguments: further arguments of a
-    command line. Throws Error where the program would print an error, KeyboardInterrupt on Ctrl-C.
+    command line. Raises Error where the program would print an error, KeyboardInterrupt on Ctrl-C.
     """
     known = [program for program, _ in _core.programs()]
     if experiment not in known:

@@ -97,7 +97,7 @@ class Phases(Problem):
         follows = getattr(self, "follows", {})
         for name in [*follows, *follows.values()]:
             if name not in names:
-                raise Error(f"{self._problem_name()}: follows names {name}, but the phases are {', '.join(names)}")
+                raise Error(f"{self._problem_name()}: follows refers to {name}, but the phases are {', '.join(names)}")
         return [(name, _core.ProblemHandle(problem), names.index(follows[name]) if name in follows else None)
                 for name, problem in found.items()]
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def pyplot() -> Any:
-    """matplotlib.pyplot. Throws Error with a remedy if matplotlib is not installed."""
+    """matplotlib.pyplot. Raises Error with instructions if matplotlib is not installed."""
     try:
         from matplotlib import pyplot as plt
     except ImportError:

@@ -62,9 +62,13 @@ def _per_name(value, names, what, kind):
         _require_known(value, names, what)
         return [value.get(name, "") for name in names]
     values = list(value)
-    if len(values) != len(names):
-        raise Error(f"{what} has {len(values)} entries, expected {len(names)}")
+    _require_entries(values, names, what)
     return values
+
+
+def _require_entries(values, names, what):
+    if len(values) != len(names):
+        raise Error(f"{what} has {len(values)} {'entry' if len(values) == 1 else 'entries'}, expected {len(names)}")
 
 
 def _require_known(given, names, what):
@@ -85,8 +89,7 @@ def _numbers(value, names, what, default):
     if np.ndim(value) == 0:
         return np.full(len(names), _number(value, what))
     values = [_number(entry, what) for entry in value]
-    if len(values) != len(names):
-        raise Error(f"{what} has {len(values)} entries, expected {len(names)}")
+    _require_entries(values, names, what)
     return np.array(values)
 
 
@@ -220,7 +223,7 @@ def _end_part(part, names, what, is_rate=False):
     if part is None:
         part = [0.0] * len(names) if is_rate else None
     if part is None:
-        raise Error(f"{what} is not given; it has {', '.join(names)}")
+        raise Error(f"{what} is missing; its entries are {', '.join(names)}")
     if isinstance(part, dict):
         _require_known(part, names, what)
         missing = [name for name in names if name not in part]
@@ -232,8 +235,7 @@ def _end_part(part, names, what, is_rate=False):
     if np.ndim(part) == 0 and not isinstance(part, (list, tuple)):
         part = [part]
     part = list(part)
-    if len(part) != len(names):
-        raise Error(f"{what} has {len(part)} entries, expected {len(names)}")
+    _require_entries(part, names, what)
     entries = [entry if isinstance(entry, between) else _fixed(entry, what) for entry in part]
     return tuple(np.array([getattr(entry, side) for entry in entries]) for side in ("guess", "lower", "upper"))
 
@@ -339,7 +341,7 @@ class Problem:
         return f"{type(self).__name__}({values})"
 
     def handle(self) -> _core.ProblemHandle:
-        """The checked problem for C++. Throws Error if something is missing or does not fit."""
+        """The checked problem for C++. Raises Error if something is missing or does not fit."""
         return _core.ProblemHandle(self)
 
     def parameters(self) -> dict[str, float]:

@@ -203,7 +203,7 @@ class Solution:
         return spelt(self._answer.message, arguments_of_solve)
 
     def estimated_error(self) -> float:
-        """The estimated relative error of q, p and cost, from this solution alone. Throws Error if the solve failed, the
+        """The estimated relative error of q, p and cost, from this solution alone. Raises Error if the solve failed, the
         horizon is free, bounds or path constraints are active, or there are first-order states, unknowns or integrals."""
         with in_words_of_python(arguments_of_solve):
             return self._answer.estimated_error()
@@ -243,7 +243,7 @@ class Solution:
     def at(self, t: Any) -> Point:
         """The trajectory at a time, or at an array of times, as a point x: x.q, x.v, x.u, x.y, by index or by name, as in
         formulas; a row per time of an array. q is piecewise cubic and v its derivative; u is linear between the stages, or the
-        polynomial through the stages of an interval; y is linear between the nodes. Throws Error outside of the horizon."""
+        polynomial through the stages of an interval; y is linear between the nodes. Raises Error outside of the horizon."""
         if self._answer.motion is None:
             raise Error(f"{self.status}: the solution has no trajectory")
         times = np.asarray(t, dtype=float)
@@ -415,7 +415,7 @@ def solve(problem: AnyProblem, method: Method = "dmoc", *, intervals: int = 128,
           most_iterations: int | None = None, most_seconds: float = 0.0, derivatives: Derivatives = "tape",
           form: CostForm = "bolza", verbose: bool = False, options: Mapping[str, Any] | None = None,
           callback: Callable[[Iteration], Any] | None = None) -> Solution:
-    """Solves a problem and returns a `Solution`, whose status shows whether it converged. Throws Error on misuse.
+    """Solves a problem and returns a `Solution`, whose status shows whether it converged. Raises Error on misuse.
 
     problem: an instance of a class derived from Problem, the class, a `problem(...)` or the name of a built-in problem.
     method: the transcription. "dmoc"; "hamiltonian" or "tangent" collocation; "multiple_shooting_rk4_1" and
@@ -497,7 +497,7 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
     parameters: a dict of names to arrays, one number per instance; start, end: arrays of states (q, v), a row of 2n
     numbers per instance. Missing values are the problem's. Both ends and the horizon must be fixed. Each instance starts
     at its own guess; run("sweep") starts all from one trajectory and may end in other minima. most_seconds: of the
-    whole batch, 0 for no limit; other instances then have the status "time limit". Returns a `Batch`. Throws Error
+    whole batch, 0 for no limit; other instances then have the status "time limit". Returns a `Batch`. Raises Error
     on misuse.
     """
     handle = handle_of(problem)
