@@ -188,7 +188,7 @@ TEST(SolveIndirect, AStartWithoutCostatesOrOfAnotherProblemIsRefused) {
   const tests::DoubleIntegrator problem;
   Trajectory start = direct_solution(problem);
   const ForcedOscillator other;
-  tests::expect_error_naming({"a problem other than", "forced_oscillator"},
+  tests::expect_error_naming({"does not match the sizes or the horizon", "forced_oscillator"},
                              [&] { static_cast<void>(solve_indirect(other, start)); });
   start.psi_q.resize(0, 0);
   tests::expect_error_naming({"costates"}, [&] { static_cast<void>(solve_indirect(problem, start)); });

@@ -99,7 +99,7 @@ class Mistakes(unittest.TestCase):
         rates = {"y": y, "first_order_rates": lambda self, x: [x.u.tau - x.y.current]}
         start, end = db.state([0.0], y=[0.0]), db.state([math.pi], y=db.free())
         self.assertTrue(db.solve(variant(**rates, start=start, end=end), intervals=16).is_solved)
-        self.refused("start: y is not given; it has current", variant(**rates, end=end))
+        self.refused("start: y is missing; its entries are current", variant(**rates, end=end))
         self.refused("end: y has 2 entries, expected 1", variant(**rates, start=start, end=db.state([math.pi], y=[0.0, 1.0])))
         self.refused("lacks first_order_rates", variant(y=y, start=start, end=end))
         self.refused("first_order_rates has 2 entries, expected 1",

@@ -163,7 +163,7 @@ class Mistakes(unittest.TestCase):
         self.refused("phase rise: the value, range or kind of its parameter gravity differs", variant(rise=rise(gravity=1.6)))
         self.refused("has 1 entry,", variant(fall_to_rise=lambda self, before, after: after.q - before.q))
         self.refused("fall_to_moon is not between two phases", variant(fall_to_moon=lambda self, before, after: []))
-        self.refused("follows names moon", variant(follows={"rise": "moon"}))
+        self.refused("follows refers to moon", variant(follows={"rise": "moon"}))
         with self.assertRaisesRegex(AttributeError, "there is no phase moon; choose one of fall, rise"):
             db.solve(variant(conditions=lambda self, first, last: [last.moon.t - 1.0]))
         self.refused("link: returns None", variant(fall_to_rise=lambda self, before, after: None))
