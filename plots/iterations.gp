@@ -105,7 +105,7 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
         for_paper(problem, "Paper: 1.7 in minor iterations (dashed), 5/3 in variables",\
             "Paper: 1.5 in minor iterations (dashed), 3/2 in variables")\
         .conditions(solves).". Above 1, DMOC costs less.",\
-        "Replay error: distance from the final state at the end, in the continuous system under the computed control.")
+        "Replay error: distance from the final state, in the continuous system under the computed control.")
     eval panels(1, 3, 80, 12, 150, 12, 0)
     paper_ratio = problem eq "orbital_transfer" ? 1.7 : problem eq "two_link_manipulator" ? 1.5 : NaN
     low = 1; high = 1
