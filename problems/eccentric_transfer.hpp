@@ -32,7 +32,7 @@ class EccentricTransfer : public Problem {
             .title = "Transfer between ellipses",
             .axis_units = AxisUnits::pure_numbers(),
             .source =
-                "posed for this suite, after the transfer between circles of Ober-Bloebaum, Junge, Marsden: Discrete "
+                "stated for this library, after the transfer between circles of Ober-Bloebaum, Junge, Marsden: Discrete "
                 "Mechanics and Optimal Control: an Analysis, section 4.2.1",
             .guess = "trajectory on an ellipse whose axis and eccentricity change linearly with time, u = 0",
             .time_unit = {.name = "", .factor = 1.0},

@@ -42,7 +42,7 @@ class SatelliteDirectors final : public Problem {
         .title = "Satellite (directors)",
         .axis_units = {.state = "dimensionless"},
         .source =
-            "posed for this suite, after the directors of Betsch and Leyendecker; closed form about a principal axis",
+            "stated for this library, after the directors of Betsch and Leyendecker; closed form about a principal axis",
         .guess = "a turn about the axis with the angle alpha (3 s^2 - 2 s^3), s = t/T; u = 0",
         .reference =
             with_default_parameters(*this, {.objective = 6.0 * std::numbers::pi * std::numbers::pi / 8.0,

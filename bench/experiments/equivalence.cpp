@@ -178,7 +178,8 @@ class Equivalence final : public ExperimentOf<Measured> {
       };
       measured.adjoint_residual = residual(adjoint_coefficients(tableau));
       measured.plain_residual = residual({.a_q = tableau.a, .a_p = tableau.a_conjugate});
-      if (trajectory.stages() == 1 && trajectory.intervals() > 1) {
+      const bool has_control_lagrangian = here.problem->first_order_size() == 0 && trajectory.stages() == 1;
+      if (has_control_lagrangian && trajectory.intervals() > 1) {
         const auto of_form = [&](ControlLagrangianForm form) {
           return control_lagrangian_residual(*here.problem, trajectory, form).largest();
         };

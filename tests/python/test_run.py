@@ -91,6 +91,12 @@ class Runs(unittest.TestCase):
             for column in {"my_two_link_with_motors": ["current_1"], "my_cannonball": ["radius"]}.get(row["problem"], []):
                 self.assertEqual(len(motion[column]), 65)
 
+    def test_are_equal_by_dmoc_and_hamiltonian_collocation_with_first_order_states(self):
+        table = db.run("equivalence", renamed(restated.OrbitalTransferWithMass), out=self.out, method="dmoc,hamiltonian",
+                       intervals=32)
+        self.assertEqual(len(table), 2)
+        self.assertLess(table["configuration_difference"][1], 1e-11)
+
     def test_vary_parameters_of_problems_with_first_order_states(self):
         table = db.run("sweep", renamed(restated.OrbitalTransferWithMass), out=self.out, method="dmoc", intervals=64, stages=2,
                        over="inverse_power=0:5000:3")
