@@ -73,7 +73,9 @@ std::size_t operation_count(const ProblemHandle& handle) {
 }  // namespace
 
 void bind_problems(py::module_& module) {
-  py::class_<ParameterReader>(module, "ParameterReader").def("read", &ParameterReader::read);
+  py::class_<ProblemReader>(module, "ProblemReader")
+      .def("read", &ProblemReader::read)
+      .def("constraint_multipliers", &ProblemReader::constraint_multipliers);
   py::class_<ProblemHandle>(module, "ProblemHandle", "The C++ handle of a problem.")
       .def(py::init(&of_python), py::arg("problem"))
       .def_static("named", &named, py::arg("name"), py::arg("values") = std::map<std::string, double>())

@@ -12,6 +12,7 @@
 #include "bench/python/calls.hpp"
 #include "bench/python/formula_text.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/motion_constraints.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
@@ -46,10 +47,19 @@ py::list list_of(const ExpressionVector& entries) {
 
 std::string type_of(py::handle object) { return Py_TYPE(object.ptr())->tp_name; }
 
-py::object ParameterReader::read(const std::string& name) const {
-  if (problem_ == nullptr)
-    throw Error("parameter " + name + ": the solve to which this copy of the problem belongs has ended");
-  const std::vector<Parameter>& parameters = problem_->parameters();
+const Problem& ProblemReader::problem(const std::string& asked) const {
+  if (problem_ == nullptr) throw Error(asked + ": the solve to which this copy of the problem belongs has ended");
+  return *problem_;
+}
+
+py::list ProblemReader::constraint_multipliers(const py::object& q, const py::object& v, const py::object& u,
+                                               const py::object& y, const py::object& t) const {
+  const ControlledState x{formulas_in(q), formulas_in(v), formulas_in(u), formulas_in(t)[0], formulas_in(y)};
+  return list_of(dmocbench::constraint_multipliers(problem("constraint_multipliers"), x));
+}
+
+py::object ProblemReader::read(const std::string& name) const {
+  const std::vector<Parameter>& parameters = problem("parameter " + name).parameters();
   const bool is_whole = parameters[parameter_number(*problem_, name)].whole;
   if (is_whole) return py::int_(static_cast<long long>(problem_->parameter(name)));
   if (traced_formulas() > 0) {
@@ -70,9 +80,9 @@ std::vector<Parameter> PythonObject::parameters_of(const py::object& original) {
   return parameters;
 }
 
-PythonObject::PythonObject(const py::object& original, const Problem& problem) : reader_(py::cast(ParameterReader())) {
+PythonObject::PythonObject(const py::object& original, const Problem& problem) : reader_(py::cast(ProblemReader())) {
   object_ = original.attr("_bound")(reader_);
-  reader_.cast<ParameterReader&>().problem_ = &problem;
+  reader_.cast<ProblemReader&>().problem_ = &problem;
   name_ = object_.attr("_problem_name")().cast<std::string>();
   members_ = object_.attr("_stated_members")().cast<std::vector<std::string>>();
 }
@@ -85,7 +95,7 @@ PythonObject::~PythonObject() {
     return;
   }
   const py::gil_scoped_acquire gil;
-  reader_.cast<ParameterReader&>().problem_ = nullptr;
+  reader_.cast<ProblemReader&>().problem_ = nullptr;
   object_ = {};
   reader_ = {};
 }

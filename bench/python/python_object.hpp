@@ -12,15 +12,21 @@ namespace dmocbench::python {
 
 class PythonObject;
 
-/// How an object of a Python class reads the parameters of the C++ problem that it represents: as formulas while one is
-/// traced, else as numbers.
-class ParameterReader {
+/// What an object of a Python class reads of the C++ problem that it represents.
+class ProblemReader {
  public:
-  /// The parameter `name`. Throws `Error` as `Problem::parameter`, and where the problem is gone.
+  /// The parameter `name`, a formula while one is traced, else a number. Throws `Error` as `Problem::parameter`, and
+  /// where the problem is gone.
   [[nodiscard]] pybind11::object read(const std::string& name) const;
+  /// `dmocbench::constraint_multipliers` at (q, v, u, y, t). Throws `Error` as that, and where the problem is gone.
+  [[nodiscard]] pybind11::list constraint_multipliers(const pybind11::object& q, const pybind11::object& v,
+                                                      const pybind11::object& u, const pybind11::object& y,
+                                                      const pybind11::object& t) const;
 
  private:
   friend class PythonObject;
+  [[nodiscard]] const Problem& problem(const std::string& asked) const;
+
   const Problem* problem_ = nullptr;  ///< null once it is gone
 };
 

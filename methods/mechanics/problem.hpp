@@ -100,7 +100,7 @@ class Problem {
   [[nodiscard]] virtual ProblemBounds bounds() const;
   /// h(q, q̇, u, t) >= 0 at every stage (eq:LOCP4), (eq:gDLOCP5): as many entries as there are constraints. With
   /// `ProblemBounds::path` lower <= h <= upper, entry by entry; equal bounds make an equality along the motion, of
-  /// which there may be at most m.
+  /// which there may be at most m. Bounds on forces of constraint read `constraint_multipliers`.
   [[nodiscard]] virtual ExpressionVector path_constraints(const ControlledState& x) const;
   /// g(q) = 0, c entries, of a mechanism in redundant coordinates: the forces of constraint -(∂g/∂q)ᵀλ hold the motion
   /// there. G = ∂g/∂q needs full rank along the motion, and c < n; L_vv may then be singular as long as

@@ -58,6 +58,48 @@ class FirstOrderStatesAlone(unittest.TestCase):
             db.solve(type("Decay", (Decay,), {"start": db.state([0.0], y=[1.0])})())
 
 
+class Bob(db.Problem):
+    """a pendulum in Cartesian coordinates whose rod bears a limited tension"""
+
+    q, u = db.coordinates("x", "y"), db.controls("f")
+    horizon, start, end = 1.5, db.at_rest([0.0, -1.0]), db.at_rest([1.0, 0.0])
+    bounds = {"path": (None, 14.0)}
+
+    def lagrangian(self, x):
+        return 0.5 * (x.v @ x.v) - 9.81 * x.q.y
+
+    def constraints(self, q):
+        return [0.5 * (q @ q - 1.0)]
+
+    def force(self, x):
+        return [-x.u.f * x.q.y, x.u.f * x.q.x]
+
+    def running_cost(self, x):
+        return x.u.f**2
+
+    def path_constraints(self, x):
+        return self.constraint_multipliers(x)
+
+
+class BobByItsTension(Bob):
+    def path_constraints(self, x):
+        return [(x.v @ x.v - 9.81 * x.q.y) / (x.q @ x.q)]
+
+
+class ForcesOfConstraint(unittest.TestCase):
+    def test_are_bounded_as_the_tension_that_the_multiplier_is(self):
+        for method in ("dmoc", "hamiltonian", "tangent"):
+            bounded, stated = (db.solve(cls(), method, intervals=64) for cls in (Bob, BobByItsTension))
+            self.assertTrue(bounded and stated, bounded.message)
+            self.assertAlmostEqual(bounded.cost / stated.cost, 1.0, delta=1e-9)
+            self.assertGreater(bounded.cost, 1.001 * db.solve(type("Free", (Bob,), {"bounds": {}, "path_constraints": None})(),
+                                                              method, intervals=64).cost)
+
+    def test_are_read_in_formulas_only(self):
+        with self.assertRaisesRegex(db.Error, "only in path_constraints"):
+            Bob().constraint_multipliers(None)
+
+
 class Pendulum(unittest.TestCase):
     @unittest.skipIf(library is None, "no library of problems is given")
     def test_has_the_formulas_and_the_bits_of_the_one_in_cpp(self):

@@ -301,7 +301,7 @@ class Problem:
     final_cost(self, last): a cost of the end, where last.t is the horizon; boundary_conditions(self, first, last) = 0;
     constraints(self, q) = 0 of a mechanism in redundant coordinates; velocity_constraints(self, q, v) = 0, linear in v, of
     wheels and blades;
-    path_constraints(self, x) >= 0, or between bounds = {"path": (lower, upper)}; equal bounds make an equality;
+    path_constraints(self, x) >= 0, which may read self.constraint_multipliers(x), or between bounds = {"path": (lower, upper)}; equal bounds make an equality;
     waypoints: a dict of shares of the horizon to state(...), conditions at these times; parts and entries that are left out
     are open;
     integrands(self, x): their integrals over the horizon are between bounds = {"integrals": (lower, upper)};
@@ -354,6 +354,14 @@ class Problem:
         names = list(_parameters_of(type(self)))
         if name not in names:
             raise Error(f"{self._problem_name()} has no parameter {name}; it has {', '.join(names) or 'none'}")
+
+    def constraint_multipliers(self, x):
+        """The multipliers of `constraints`, then of `velocity_constraints`, as formulas of x, for path_constraints. The force
+        on the motion is minus the gradients times the multipliers."""
+        reader = self.__dict__.get("_reader")
+        if reader is None:
+            raise Error("constraint_multipliers can be read only in path_constraints while the problem is solved")
+        return reader.constraint_multipliers(x.q, x.v, x.u, x.y, x.t)
 
     def _bound(self, reader):
         self._check()
