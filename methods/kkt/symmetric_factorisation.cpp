@@ -35,6 +35,7 @@ constexpr int job_solve = 3;
 constexpr int use_comm_world = -987654;  // the value that its manual prescribes
 constexpr int general_symmetric = 2;
 constexpr int order_is_given = 1;
+constexpr int order_is_found = 7;
 
 // Numbers of the manual, which counts from 1.
 constexpr int control(int number) { return number - 1; }
@@ -82,9 +83,10 @@ struct SymmetricFactorisation::Mumps {
   Mumps(Mumps&&) = delete;
   Mumps& operator=(Mumps&&) = delete;
 
-  /// False if the matrix is singular. Where workspace is lacking, tries again with more, up to about ten times as much
-  /// as the pattern needs: pivots that are postponed so often make minutes of a millisecond. Throws `std::bad_alloc`
-  /// where memory is lacking, `Stopped`, `Error` otherwise.
+  /// False if the matrix is singular. Where workspace is lacking in a given order, so many pivots are postponed that
+  /// the order that MUMPS finds takes less time. There it tries again with more, up to about ten times as much as the
+  /// pattern needs: pivots that are postponed so often make minutes of a millisecond. Throws `std::bad_alloc` where
+  /// memory is lacking, `Stopped`, `Error` otherwise.
   bool run(int job) {
     constexpr int most_workspace_percent = 1000;
     while (true) {
@@ -97,8 +99,20 @@ struct SymmetricFactorisation::Mumps {
       if (!lacks_workspace(code))
         throw Error(fmt::format("MUMPS failed with code {}; its manual lists the codes", code));
       stop_if_requested();
-      data.icntl[control(14)] *= 4;
+      if (positions.empty()) {
+        data.icntl[control(14)] *= 4;
+      } else if (!finds_order()) {
+        return false;
+      }
     }
+  }
+
+  /// Replaces the given order; false if the matrix is singular.
+  bool finds_order() {
+    positions.clear();
+    data.icntl[control(7)] = order_is_found;
+    require_time_to_analyse();
+    return run(job_analyse);
   }
 
   /// Throws `Stopped` where the time left is too short to choose an order: MUMPS cannot be stopped meanwhile.
