@@ -6,6 +6,7 @@
 
 #include "methods/kkt/intervals/interval_kkt.hpp"
 #include "methods/kkt/linearisation.hpp"
+#include "methods/kkt/newton_residual.hpp"
 #include "methods/kkt/sparse_kkt.hpp"
 #include "methods/kkt/symmetric_factorisation.hpp"
 #include "methods/runtime/long_vectors.hpp"
@@ -78,7 +79,8 @@ std::unique_ptr<kkt::KktSystem> kkt_system_by_intervals(const NonlinearProgram& 
 }
 
 std::unique_ptr<kkt::SparseKkt> kkt_system_of_any_point(const NonlinearProgram& program) {
-  return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::found, kkt::SparseKkt::Inertia::any);
+  return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::along_the_horizon,
+                                          kkt::SparseKkt::Inertia::any);
 }
 
 namespace {
@@ -104,6 +106,55 @@ Eigen::SparseMatrix<double> normalised(const Eigen::SparseMatrix<double>& jacobi
   return lengths.unaryExpr([](double length) { return length > 0.0 ? 1.0 / length : 0.0; }).asDiagonal() * result;
 }
 
+/// Any numbers for the held rows, with a part in every direction; 0 for the others.
+Eigen::VectorXd any_sides(const std::vector<bool>& held) {
+  Eigen::VectorXd sides(static_cast<Eigen::Index>(held.size()));
+  for (Eigen::Index i = 0; i < sides.size(); ++i) {
+    sides[i] = held[static_cast<std::size_t>(i)] ? std::cos(static_cast<double>(i) + 1.0) : 0.0;
+  }
+  return sides;
+}
+
+/// True where elimination by intervals shows that the rows R of `normalised` do not depend on each other: of the
+/// shortest x with R x = any sides, x = Rᵀλ, the multipliers are not far larger than x. False where that stays unknown.
+bool shows_independence(NonlinearProgram& program, const Eigen::VectorXd& point, const std::vector<bool>& held) {
+  constexpr double small_share = 1e-7;
+  constexpr double accuracy = 1e-4;
+  const auto by_intervals = kkt_system_by_intervals(program);
+  if (!by_intervals) return false;
+  Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  program.jacobian(point, jacobian);
+  Eigen::VectorXd lengths = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(held.size()));
+  program.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
+    if (!is_fixed(program, column)) lengths[row] += jacobian[e] * jacobian[e];
+  });
+  lengths = lengths.cwiseSqrt();
+  Eigen::VectorXd compliance = Eigen::VectorXd::Zero(lengths.size());
+  for (const Eigen::Index i : inequalities_of(program)) {
+    compliance[i] = held[static_cast<std::size_t>(i)] ? at_bound : LinearisedConditions::no_part;
+  }
+  for (Eigen::Index i = 0; i < lengths.size(); ++i) {
+    if (!held[static_cast<std::size_t>(i)])
+      lengths[i] = 0.0;
+    else if (!(lengths[i] > 0.0))
+      return false;
+  }
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(point.size());
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(point.size());
+  const Eigen::VectorXd no_hessian =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.hessian_structure().size()));
+  const Eigen::VectorXd sides = lengths.cwiseProduct(any_sides(held));
+  Eigen::VectorXd x = nothing;
+  Eigen::VectorXd multipliers = sides;
+  const kkt::KktMatrix matrix{no_hessian, jacobian, ones, compliance};
+  const kkt::KktStep step{x, multipliers};
+  if (by_intervals->solve(matrix, {nothing, sides}, step) != kkt::FactorisationStatus::solved) return false;
+  kkt::NewtonResidual residual(program);
+  residual.compute(matrix, {nothing, sides}, step);
+  return residual.excess(matrix, step, accuracy) <= 1.0 &&
+         x.norm() > small_share * lengths.cwiseProduct(multipliers).norm();
+}
+
 }  // namespace
 
 double largest_entry(const NonlinearProgram& program, const Eigen::VectorXd& hessian) {
@@ -124,10 +175,11 @@ std::vector<std::size_t> dependent_rows(NonlinearProgram& program, const Eigen::
   constexpr double rounding = 1e-8;
   constexpr double small_share = 0.1;
   Linearisation at = values_at(program, point);
-  differentiate(program, at);
-  if (!at.has_finite_values() || !at.jacobian.coeffs().allFinite()) return {};
-  const std::vector<bool> is_free = free_variables(program);
   const std::vector<bool> held = held_rows(program, at.constraints);
+  if (!at.has_finite_values() || shows_independence(program, point, held)) return {};
+  differentiate(program, at);
+  if (!at.jacobian.coeffs().allFinite()) return {};
+  const std::vector<bool> is_free = free_variables(program);
   const Eigen::SparseMatrix<double> rows = normalised(at.jacobian, held, is_free);
 
   const Eigen::Index n = rows.cols();
@@ -144,11 +196,7 @@ std::vector<std::size_t> dependent_rows(NonlinearProgram& program, const Eigen::
     right_hand_side.tail(m) = y;
     return factorisation.solve(std::move(right_hand_side)).tail(m).normalized();
   };
-  Eigen::VectorXd y(m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    y[i] = held[static_cast<std::size_t>(i)] ? std::cos(static_cast<double>(i) + 1.0) : 0.0;  // any numbers
-  }
-  y = enlarge(enlarge(y));
+  Eigen::VectorXd y = enlarge(enlarge(any_sides(held)));
   Eigen::Index first = 0;
   y.cwiseAbs().maxCoeff(&first);
   // Among several dependencies, the shortest one with this row.

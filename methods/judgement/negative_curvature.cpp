@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <random>
 
 #include "methods/kkt/sparse_kkt.hpp"
@@ -38,23 +39,22 @@ class ShiftedSystem {
         hessian_(at.hessian / size_),
         diagonal_(at.diagonal / size_),
         compliance_(at.compliance * size_),
-        kkt_(program, kkt::SparseKkt::Order::found, kkt::SparseKkt::Inertia::minimum),
+        program_(program),
         no_residuals_(Eigen::VectorXd::Zero(at.constraints.size())),
         multipliers_(no_residuals_) {}
+
+  /// True where elimination by intervals shows that this shift is enough: its test of the inertia is sufficient.
+  [[nodiscard]] bool shows_minimum(double shift) {
+    const auto by_intervals = kkt_system_by_intervals(program_);
+    Eigen::VectorXd step = weights_;
+    return by_intervals && solve_by(*by_intervals, shift, weights_, step) == kkt::FactorisationStatus::solved;
+  }
 
   /// Solves for a right-hand side in the place of the gradient.
   [[nodiscard]] kkt::FactorisationStatus solve(double shift, const Eigen::VectorXd& right_hand_side,
                                                Eigen::VectorXd& solution) {
-    const Eigen::VectorXd diagonal = diagonal_ + shift * weights_;
-    const Eigen::VectorXd gradient = -right_hand_side;
-    try {
-      return kkt_.solve({hessian_, jacobian_, diagonal, compliance_}, {gradient, no_residuals_},
-                        {solution, multipliers_});
-    } catch (const Stopped&) {
-      throw;
-    } catch (const std::exception&) {  // out of memory, or another failure of the factorisation
-      return kkt::FactorisationStatus::singular;
-    }
+    if (!kkt_) kkt_.emplace(program_, kkt::SparseKkt::Order::along_the_horizon, kkt::SparseKkt::Inertia::minimum);
+    return solve_by(*kkt_, shift, right_hand_side, solution);
   }
 
   /// The largest entry of W.
@@ -63,13 +63,28 @@ class ShiftedSystem {
   [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return weights_; }
 
  private:
+  [[nodiscard]] kkt::FactorisationStatus solve_by(kkt::KktSystem& kkt, double shift,
+                                                  const Eigen::VectorXd& right_hand_side, Eigen::VectorXd& solution) {
+    const Eigen::VectorXd diagonal = diagonal_ + shift * weights_;
+    const Eigen::VectorXd gradient = -right_hand_side;
+    try {
+      return kkt.solve({hessian_, jacobian_, diagonal, compliance_}, {gradient, no_residuals_},
+                       {solution, multipliers_});
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::exception&) {  // out of memory, or another failure of the factorisation
+      return kkt::FactorisationStatus::singular;
+    }
+  }
+
   double size_;
   Eigen::VectorXd weights_;
   const Eigen::VectorXd& jacobian_;
   Eigen::VectorXd hessian_;
   Eigen::VectorXd diagonal_;
   Eigen::VectorXd compliance_;
-  kkt::SparseKkt kkt_;
+  const NonlinearProgram& program_;
+  std::optional<kkt::SparseKkt> kkt_;  // made when it is first needed
   Eigen::VectorXd no_residuals_;
   Eigen::VectorXd multipliers_;
 };
@@ -95,6 +110,7 @@ std::optional<NegativeCurvature> negative_curvature_next_to(ShiftedSystem& syste
   Eigen::VectorXd image(weights.size());
   Eigen::VectorXd vector = any_vector(image.size());
   double too_small = negligible_curvature;
+  if (system.shows_minimum(too_small)) return std::nullopt;
   if (system.solve(too_small, vector, image) != FactorisationStatus::wrong_inertia) return std::nullopt;
   double shift = growth * too_small;
   FactorisationStatus status = system.solve(shift, vector, image);

@@ -35,6 +35,8 @@ constexpr int job_solve = 3;
 constexpr int use_comm_world = -987654;  // the value that its manual prescribes
 constexpr int general_symmetric = 2;
 constexpr int order_is_given = 1;
+constexpr int order_is_found = 7;
+constexpr int more_workspace_percent = 100;  // of a given order, for rows whose pivots are postponed
 
 // Numbers of the manual, which counts from 1.
 constexpr int control(int number) { return number - 1; }
@@ -67,13 +69,12 @@ struct SymmetricFactorisation::Mumps {
     data.comm_fortran = use_comm_world;
     call_mumps(data, job_begin);
     for (const int stream : {1, 2, 3}) data.icntl[control(stream)] = -1;
-    data.icntl[control(4)] = 0;                  // silent
-    data.icntl[control(13)] = 1;                 // counts negative pivots in the root too
-    data.icntl[control(24)] = 1;                 // detects pivots that are mere rounding
-    constexpr int more_workspace_percent = 100;  // for rows whose pivots are postponed; to start again takes longer
+    data.icntl[control(4)] = 0;   // silent
+    data.icntl[control(13)] = 1;  // counts negative pivots in the root too
+    data.icntl[control(24)] = 1;  // detects pivots that are mere rounding
     if (positions.empty()) return;
     data.icntl[control(7)] = order_is_given;
-    data.icntl[control(14)] = more_workspace_percent;
+    data.icntl[control(14)] = more_workspace_percent;  // to start again takes longer
     data.perm_in = positions.data();
   }
   ~Mumps() { call_mumps(data, job_end); }
@@ -82,9 +83,10 @@ struct SymmetricFactorisation::Mumps {
   Mumps(Mumps&&) = delete;
   Mumps& operator=(Mumps&&) = delete;
 
-  /// False if the matrix is singular. Where workspace is lacking, tries again with more, up to about ten times as much
-  /// as the pattern needs: pivots that are postponed so often make minutes of a millisecond. Throws `std::bad_alloc`
-  /// where memory is lacking, `Stopped`, `Error` otherwise.
+  /// False if the matrix is singular. Where workspace is lacking, tries again with more. If a given order lacks it
+  /// again, so many pivots are postponed that the order that MUMPS finds takes less time. In that order about ten times
+  /// as much as the pattern needs is the limit: pivots that are postponed so often make minutes of a millisecond.
+  /// Throws `std::bad_alloc` where memory is lacking, `Stopped`, `Error` otherwise.
   bool run(int job) {
     constexpr int most_workspace_percent = 1000;
     while (true) {
@@ -97,8 +99,20 @@ struct SymmetricFactorisation::Mumps {
       if (!lacks_workspace(code))
         throw Error(fmt::format("MUMPS failed with code {}; its manual lists the codes", code));
       stop_if_requested();
-      data.icntl[control(14)] *= 4;
+      if (positions.empty() || data.icntl[control(14)] == more_workspace_percent) {
+        data.icntl[control(14)] *= 4;
+      } else if (!finds_order()) {
+        return false;
+      }
     }
+  }
+
+  /// Replaces the given order; false if the matrix is singular.
+  bool finds_order() {
+    positions.clear();
+    data.icntl[control(7)] = order_is_found;
+    require_time_to_analyse();
+    return run(job_analyse);
   }
 
   /// Throws `Stopped` where the time left is too short to choose an order: MUMPS cannot be stopped meanwhile.

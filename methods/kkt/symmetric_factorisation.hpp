@@ -24,8 +24,9 @@ namespace dmocbench {
 /// of elimination; it does not begin where the time left is too short for that.
 class SymmetricFactorisation {
  public:
-  /// Eliminates in a given order, which is kept: `positions` gives for every row of the matrix when it is eliminated,
-  /// from 0 on; empty to let MUMPS choose. A row whose pivot is too small is postponed.
+  /// Eliminates in a given order: `positions` gives for every row of the matrix when it is eliminated, from 0 on; empty
+  /// to let MUMPS choose. A row whose pivot is too small is postponed; where so many are that the factors need more
+  /// than five times the workspace of the pattern, MUMPS chooses.
   explicit SymmetricFactorisation(const std::vector<int>& positions = {});
 
   /// The largest entry of a matrix: products of larger ones would overflow.

@@ -19,10 +19,21 @@ template Eigen::MatrixX<long double> solve_square(const Eigen::MatrixX<long doub
 template Eigen::VectorX<long double> solve_square(const Eigen::MatrixX<long double>&,
                                                   const Eigen::VectorX<long double>&);
 
-std::optional<Eigen::VectorXd> solve_if_invertible(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
-  const Eigen::FullPivLU<Eigen::MatrixXd> factors(a);
+namespace {
+
+template <class Matrix>
+std::optional<Eigen::VectorXd> solve_if_invertible_as(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  const Eigen::FullPivLU<Matrix> factors(a);
   if (!factors.isInvertible()) return std::nullopt;
   return factors.solve(b);
+}
+
+}  // namespace
+
+std::optional<Eigen::VectorXd> solve_if_invertible(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  constexpr int few = 8;  // with this bound nothing comes from the heap, which would take longer than the arithmetic
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, few, few>;
+  return a.rows() <= few ? solve_if_invertible_as<Small>(a, b) : solve_if_invertible_as<Eigen::MatrixXd>(a, b);
 }
 
 bool is_invertible(const Eigen::MatrixXd& a) { return a.fullPivLu().isInvertible(); }

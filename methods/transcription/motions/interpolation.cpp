@@ -1,6 +1,7 @@
 #include "methods/transcription/motions/interpolation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -25,7 +26,8 @@ Eigen::Index interval_of(const Eigen::VectorXd& times, double t) {
 
 /// ∫₀^τ of the Lagrange polynomials of c, by Gauss quadrature that is exact for their degree.
 Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
-  const Tableau quadrature = gauss_tableau(static_cast<int>(std::min<Eigen::Index>((c.size() + 2) / 2, 3)));
+  static const std::array quadratures{gauss_tableau(1), gauss_tableau(2), gauss_tableau(3)};  // slow to make
+  const Tableau& quadrature = quadratures[std::min<std::size_t>(static_cast<std::size_t>(c.size()) / 2, 2)];
   Eigen::VectorXd integral = Eigen::VectorXd::Zero(c.size());
   for (Eigen::Index i = 0; i < quadrature.stages(); ++i) {
     integral += tau * quadrature.b[i] * lagrange_basis(c, tau * quadrature.c[i]);
