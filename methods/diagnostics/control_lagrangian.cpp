@@ -9,6 +9,7 @@
 #include "methods/expression/vectors.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/elements/polynomial_rates.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
 namespace dmocbench {
@@ -101,16 +102,6 @@ Eigen::MatrixXd members_of(const Block<Kind>& block, const Eigen::VectorXd& valu
   return series;
 }
 
-/// Row i: ∫₀^{c_i} ℓ_j of the Lagrange polynomials of the points of `rates`, whose quadrature is exact for them.
-Eigen::MatrixXd integrals_of_basis(const Tableau& rates, const Eigen::VectorXd& c) {
-  Eigen::MatrixXd integrals = Eigen::MatrixXd::Zero(c.size(), rates.stages());
-  for (Eigen::Index i = 0; i < c.size(); ++i) {
-    for (Eigen::Index j = 0; j < rates.stages(); ++j)
-      integrals.row(i) += c[i] * rates.b[j] * lagrange_basis(rates.c, c[i] * rates.c[j]).transpose();
-  }
-  return integrals;
-}
-
 double relative(double residual, double scale) { return scale > 0.0 ? residual / scale : residual; }
 
 }  // namespace
@@ -192,7 +183,7 @@ GalerkinForm galerkin_form(Transcription& program, const Eigen::VectorXd& x, con
   });
   const Trajectory trajectory = read_trajectory(program, x, {});
   const Eigen::MatrixXd at_nodes = members_of(blocks.row(Equation::euler_lagrange), multipliers);
-  const Eigen::MatrixXd integrals = integrals_of_basis(rates, quadrature.c);
+  const Eigen::MatrixXd integrals = integrals_to(quadrature.c, rates);
   Eigen::VectorXd residual(static_cast<Eigen::Index>(program.constraint_count()));
   program.constraints(x, residual);
   GalerkinForm form{.program = program.objective(x) + multipliers.dot(residual)};

@@ -59,6 +59,16 @@ Motion costate_curve(PointDerivatives& at_point, const Trajectory& trajectory) {
   return smooth_motion(curve);
 }
 
+/// Whether the equations of an interval with nodes q collocate, which need more rates than stages, or are variations.
+bool collocates(const Transcription& program) {
+  return program.functions().rates.stages() > program.tableau().stages();
+}
+
+/// The stages of the equations of an interval: where the rates are unknowns, unless the equations collocate.
+const Tableau& stages_of_equations(const Transcription& program) {
+  return collocates(program) ? program.tableau() : program.functions().rates;
+}
+
 /// A trajectory with its costates at the nodes and stages of a program.
 class SampledCostates {
  public:
@@ -69,10 +79,10 @@ class SampledCostates {
         costates_(costate_curve(at_point, trajectory)),
         stretch_(motion_.horizon / horizon),
         has_same_stages_(trajectory.has_stage_costates() &&
-                         program.functions().rates.has_times_of(trajectory.tableau) &&
+                         stages_of_equations(program).has_times_of(trajectory.tableau) &&
                          trajectory.node_times == horizon * program.grid().relative_times()) {}
 
-  /// At row `row` of the program's stages whose rates are unknowns, at time t.
+  /// At row `row` of the stages of the program's equations, at time t.
   [[nodiscard]] AdjointPoint stage(Eigen::Index row, double t) const {
     if (!has_same_stages_) return at(t);
     return {trajectory_.stage(row), trajectory_.stage_psi_q.row(row).transpose(),
@@ -134,27 +144,24 @@ double horizon_of(const Transcription& program, double of_motion) {
 }
 
 void write_stage(const SampledCostates& sampled, PointDerivatives& at_point, NodeState family, Eigen::Index row,
-                 double t, Eigen::Index stages, double h, double b, MultiplierWriter& writer) {
+                 double t, Eigen::Index stages, double h, double b, bool has_variations, MultiplierWriter& writer) {
   const Eigen::Index k = row / stages;
   const Eigen::Index i = row % stages;
   const AdjointPoint point = sampled.stage(row, t);
   const double weight = h * b;
-  writer.write(Equation::first_order, i, k, -(family == NodeState::configuration ? b : weight) * point.psi_y);
-  if (family == NodeState::configuration && i + 1 == stages) return;  // the last stage rate is eliminated
+  const double of_equation = family == NodeState::configuration ? b : weight;  // has the factor h itself, or not
+  writer.write(Equation::first_order, i, k, -of_equation * point.psi_y);
+  if (has_variations && i + 1 == stages) return;  // the last stage rate is eliminated
+  if (!has_variations) writer.write(Equation::euler_lagrange, i, k, -of_equation * point.psi_p);
   at_point.evaluate(point.motion, t);
   if (family == NodeState::velocity) {
     writer.write(Equation::velocity, i, k,
                  -weight * (point.psi_q + at_point.momentum_by_configuration().transpose() * point.psi_p));
-    writer.write(Equation::euler_lagrange, i, k, -weight * point.psi_p);
     return;
   }
   const Eigen::VectorXd rate = CostateRates(at_point, point).psi_p;
-  if (family == NodeState::configuration) {
-    writer.write(Equation::euler_lagrange, i, k, weight * rate);
-  } else {
-    writer.write(Equation::momentum, i, k, -weight * rate);
-    writer.write(Equation::euler_lagrange, i, k, -weight * point.psi_p);
-  }
+  if (has_variations) writer.write(Equation::euler_lagrange, i, k, weight * rate);
+  if (family == NodeState::momentum) writer.write(Equation::momentum, i, k, -weight * rate);
 }
 
 /// The equations (x_{k+1} - Φ)/h of shooting: -h times the costate of (q, v) at node k + 1.
@@ -194,14 +201,16 @@ Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& tra
       writer.write(Equation::euler_lagrange, no_stage, k, sampled.at(times[k]).psi_p);
     }
   }
-  const Tableau& rates = program.functions().rates;
-  const Eigen::Index s = rates.stages();
+  const Tableau& stages = stages_of_equations(program);
+  const bool has_variations = family == NodeState::configuration && !collocates(program);
+  const Eigen::Index s = stages.stages();
   const bool has_stages = program.functions().has_stage_unknowns;
   if (!has_stages) write_shooting(sampled, at_point, times, writer);
   for (Eigen::Index row = 0; has_stages && row < widths.size() * s; ++row) {
     const Eigen::Index k = row / s;
     const Eigen::Index i = row % s;
-    write_stage(sampled, at_point, family, row, times[k] + rates.c[i] * widths[k], s, widths[k], rates.b[i], writer);
+    write_stage(sampled, at_point, family, row, times[k] + stages.c[i] * widths[k], s, widths[k], stages.b[i],
+                has_variations, writer);
   }
   // z_{k+1} - z_k - cost = 0 carries the scaled cost from node to node, and integrals likewise.
   writer.write_all(Equation::cost, Eigen::VectorXd::Constant(1, -1.0 / program.cost_scale()));

@@ -15,6 +15,7 @@ namespace dmocbench {
 ///   - DMOC: ψ^p_k for node k, h b_j w_j for the interval's own row j;
 ///   - Hamiltonian: -h b_i w_i for P_i - L_v, -h b_i Ψ^p_i for Ṗ_i - F; ∓ψ^p for the rows of the ends' velocities;
 ///   - tangent-space: -h b_i (Ψ^q_i + L_vqᵀΨ^p_i) for Q̇_i - V_i, -h b_i Ψ^p_i for d/dt L_v - F;
+///   - second-order: ψ^p_k for node k, -b_i Ψ^p_i for h (d/dt L_v - F);
 ///   - first-order states, of all families: -h b_i Ψ^y_i for Ẏ_i - g;
 ///   - shooting: -h times the costate of (q, v) at node k + 1, which is (ψ^q + L_vqᵀψ^p, L_vv ψ^p).
 /// On the trajectory's own grid and tableau its stages are taken as they are, so that the trajectory's program gets its

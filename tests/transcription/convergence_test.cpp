@@ -75,6 +75,16 @@ TEST_P(Convergence, OnASmoothlyGradedGridIsOfOrderTwoAsWell) {
   expect_order(measured.control, 2.0, 0.15, "control");
 }
 
+TEST(ConvergenceOfSecondOrder, OfTheMidpointRuleIsOfOrderTwo) {
+  for (const std::string& name : paper_problem_names()) {
+    const Slopes measured = slopes(*make_problem(name), {"second_order", 1}, {96, 128, 192, 256}, 1152, &Grid::uniform);
+    expect_order(measured.state, 2.0, 0.1, "state");
+    expect_order(measured.momentum, 2.0, 0.1, "momentum");
+    expect_order(measured.control, 2.0, 0.1, "control");
+    expect_order(measured.costate, 2.0, 0.1, "costate");
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, Convergence, testing::Combine(testing::ValuesIn(paper_problem_names()), testing::ValuesIn(paper_families())),
     [](const auto& instance) { return std::get<0>(instance.param) + "_" + std::get<1>(instance.param); });
@@ -108,6 +118,7 @@ TEST_P(HighOrder, HoldsForALagrangianThatDependsOnTime) {
 
 INSTANTIATE_TEST_SUITE_P(All, HighOrder, testing::ValuesIn(paper_families()),
                          [](const auto& instance) { return instance.param; });
+INSTANTIATE_TEST_SUITE_P(OfSecondOrder, HighOrder, testing::Values("second_order"));
 
 }  // namespace
 }  // namespace dmocbench

@@ -140,6 +140,12 @@ INSTANTIATE_TEST_SUITE_P(All, CostatesOf,
                                           testing::Values(NamedTableau{"gauss", 1}, NamedTableau{"gauss", 2})),
                          [](const auto& instance) { return name_of(instance.param); });
 
+INSTANTIATE_TEST_SUITE_P(OfSecondOrder, CostatesOf,
+                         testing::Combine(testing::Values("orbital_transfer", "moving_frame"),
+                                          testing::Values("second_order"),
+                                          testing::Values(NamedTableau{"gauss", 1}, NamedTableau{"lobatto", 3})),
+                         [](const auto& instance) { return name_of(instance.param); });
+
 // More stages and the pair of Lobatto for the two families of the theorem.
 INSTANTIATE_TEST_SUITE_P(HighOrder, CostatesOf,
                          testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame"),

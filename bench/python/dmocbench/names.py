@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Literal, Union
 
 Method = Union[Literal["dmoc", "hamiltonian", "tangent", "multiple_shooting_rk4_1", "multiple_shooting_midpoint_1",
-                       "single_shooting_rk4_1", "single_shooting_midpoint_1", "galerkin_1_1"], str]
+                       "single_shooting_rk4_1", "single_shooting_midpoint_1", "galerkin_1_1", "second_order"], str]
 """A transcription: DMOC, collocation of Hamilton's or of the Euler-Lagrange equations, shooting with an explicit
-integrator, Galerkin. The numbers at the end, as in multiple_shooting_rk4_4, may vary."""
+integrator, Galerkin, collocation of second order. The numbers at the end, as in multiple_shooting_rk4_4, may vary."""
 
 Tableau = Literal["gauss", "lobatto", "lobatto_shared"]
 """A family of Butcher tableaus."""

@@ -8,6 +8,7 @@
 #include "methods/transcription/elements/collocation_elements.hpp"
 #include "methods/transcription/elements/dmoc_element.hpp"
 #include "methods/transcription/elements/galerkin_element.hpp"
+#include "methods/transcription/elements/second_order_element.hpp"
 #include "methods/transcription/elements/shooting_element.hpp"
 
 namespace dmocbench {
@@ -52,6 +53,7 @@ constexpr std::array families{
            .style = 6,
            .make = make_galerkin_element,
            .suffix = MethodSuffix::spaces},
+    Family{.name = "second_order", .label = "Second-order collocation", .style = 7, .make = make<SecondOrderElement>},
 };
 
 /// Whether the method is the family, or begins with its name and "_" if it has a suffix.

@@ -9,22 +9,12 @@
 #include "methods/error.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 #include "methods/transcription/elements/dmoc_element.hpp"
+#include "methods/transcription/elements/polynomial_rates.hpp"
 #include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-/// Row i: ∫₀^{c_i} ℓ_j of the stages of a tableau whose quadrature is exact for them.
-Eigen::MatrixXd integrals_to(const Eigen::VectorXd& c, const Tableau& stages) {
-  Eigen::MatrixXd integrals = Eigen::MatrixXd::Zero(c.size(), stages.stages());
-  for (Eigen::Index i = 0; i < c.size(); ++i) {
-    for (Eigen::Index j = 0; j < stages.stages(); ++j) {
-      integrals.row(i) += c[i] * stages.b[j] * lagrange_basis(stages.c, c[i] * stages.c[j]).transpose();
-    }
-  }
-  return integrals;
-}
 
 Tableau tableau_of_space(std::string_view family, int stages, std::string_view what) {
   const std::vector<int> offered = tableau_stages(family);
