@@ -36,6 +36,9 @@ int run(int argc, char** argv);
 namespace equivalence_program {
 int run(int argc, char** argv);
 }
+namespace error_constants_program {
+int run(int argc, char** argv);
+}
 namespace iterations_program {
 int run(int argc, char** argv);
 }
@@ -103,6 +106,8 @@ constexpr std::array core_programs{
             convergence_program::run},
     Program{"derivatives", "Exact derivatives compared with finite differences", derivatives_program::run},
     Program{"equivalence", "Compares the discrete solutions of DMOC and collocation", equivalence_program::run},
+    Program{"error_constants", "Errors to leading order, predicted from the exact optimum and measured",
+            error_constants_program::run},
     Program{"iterations", "Iteration counts, evaluations and times of solves", iterations_program::run},
     Program{"list", "Lists problems, methods, tableaus, solvers and derivative back ends", list_program::run},
     Program{"local_minima", "Local minima, with the number of starts ending in each", local_minima_program::run},

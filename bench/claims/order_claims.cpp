@@ -260,7 +260,8 @@ Claims order_claims() {
        .whose = Whose::paper,
        .states = "order kappa for state, costate and u(x, psi) at the nodes",
        .judge = order_of_convergence,
-       .condition = "the optimum is smooth; its final state is fixed, which the theorem excludes",
+       .condition = "the optimum is smooth, which makes tau of (eq:conv_estimate) O(h), a term that no table has; its "
+                    "final state is fixed, which the theorem excludes",
        .evidence = {"convergence_indirect_slopes.csv", "convergence_indirect.csv", "figures/{}_orders.svg"}},
       {.id = "order_eight_of_four_stages",
        .where = "section 3.6, main_theorem",
@@ -281,7 +282,8 @@ Claims order_claims() {
                  "grid is refined",
        .judge = stability_constant,
        .condition = "a lower bound on the constant of (abstract_result), only for errors in this direction; midpoint "
-                    "rule and fixed ends, because the reference, the indirect method, supports no others",
+                    "rule and fixed ends, because the reference, the indirect method, supports no others. The paper "
+                    "quotes (abstract_result) and assumes (P1) to (P3): no table has epsilon, r or sigma",
        .evidence = {"convergence_indirect_jumps.csv"},
        .has_verdict = false},
       {.id = "order_with_first_order_states",

@@ -5,6 +5,7 @@ namespace dmocbench {
 Claims solution_claims();
 Claims grid_claims();
 Claims accuracy_claims();
+Claims error_constant_claims();
 Claims iteration_claims();
 Claims cost_claims();
 Claims derivative_claims();
@@ -35,7 +36,7 @@ std::vector<std::vector<Claims (*)()>> topics_by_chapter() {
       {solution_claims, grid_claims, accuracy_claims, iteration_claims, cost_claims, derivative_claims},
       {energy_claims, coercivity_claims},
       {consistency_order_claims, order_theorem_claims},
-      {order_claims, galerkin_claims},
+      {order_claims, galerkin_claims, error_constant_claims},
       {minima_claims, cold_start_claims, warm_start_claims},
       {shooting_claims},
       {stage_control_claims, coincidence_claims, flow_claims, modified_energy_claims, rotation_claims},

@@ -102,6 +102,23 @@ inline Rows galerkin_rows() {
 }
 
 /// Lagrangians of programs equal to the discrete action of the control Lagrangian, by a multiplier of the right degree.
+/// Limits of errors, the predictions a hundredth of their uncertainty away.
+inline Rows limit_rows(const char* stages) {
+  Rows rows;
+  for (const char* problem : {orbit, two_link, "kepler_cartesian"}) {
+    for (const auto& [method, constant] : {std::pair("dmoc", 1.2), {"tangent", 1.3}, {"second_order", 4.1}}) {
+      for (const std::string quantity :
+           {"state_error", "replay_error", "predicted_replay_error", "objective_error", "predicted_objective_error"}) {
+        Row row = row_of_texts({"problem", "method", "tableau", "stages", "quantity", "finest", "uncertainty"},
+                               {problem, method, "gauss", stages, quantity, "512", "1e-3"});
+        row.set("constant", constant + (quantity.starts_with("predicted") ? 1e-5 : 0.0));
+        rows.push_back(row);
+      }
+    }
+  }
+  return rows;
+}
+
 inline Rows galerkin_form_rows() {
   Rows rows;
   for (const char* method : {"dmoc", "galerkin_2_1", "galerkin_2_2"}) {

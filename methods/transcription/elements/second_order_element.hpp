@@ -6,9 +6,9 @@
 
 namespace dmocbench {
 
-/// Collocation of the Euler-Lagrange equations as equations of second order: the Nyström form of a tableau (Gauss:
-/// Hairer, Lubich, Wanner 2006, II.1.5; Lobatto with s = 2 and 3: trapezoidal and Hermite-Simpson collocation for
-/// second-order systems of Moreno-Martín, Ros and Celaya 2022).
+/// Collocation of the Euler-Lagrange equations as equations of second order, a Nyström method. With Lobatto, s = 2 and
+/// 3 are the trapezoidal and the Hermite-Simpson method for systems of second order by Moreno-Martín, Ros and Celaya
+/// (arXiv 2302.09056).
 ///
 /// Node: q_k alone, as in DMOC. On an interval q is a polynomial of degree s + 1, whose rate is the velocity and whose
 /// second rate is the acceleration; in `TangentElement` q has degree s, and its second rate is not V̇_i. The interior
