@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "bench/python/bindings.hpp"
 #include "bench/python/calls.hpp"
+#include "methods/diagnostics/accuracy.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
@@ -153,15 +155,21 @@ class Batch {
                instance.equality_values);
   }
 
-  BatchInstance with_parameters(std::size_t number) {
+  /// Gives the program the values of an instance and returns its parameters.
+  Eigen::VectorXd set_values(std::size_t number) {
     Eigen::VectorXd values = parameter_values(problem_);
     for (std::size_t i = 0; i < instances_.parameters.size(); ++i) {
       values[static_cast<Eigen::Index>(parameter_number(problem_, instances_.parameters[i]))] =
           instances_.values(static_cast<Eigen::Index>(number), static_cast<Eigen::Index>(i));
     }
-    program_.set_parameters(values);
+    if (values.size() > 0) program_.set_parameters(values);
     if (instances_.first.rows() > 0) program_.set_initial_state(state_of(instances_.first, number, first_));
     if (instances_.last.rows() > 0) program_.set_final_state(state_of(instances_.last, number, last_));
+    return values;
+  }
+
+  BatchInstance with_parameters(std::size_t number) {
+    const Eigen::VectorXd values = set_values(number);
     BatchInstance instance;
     instance.start = sample(program_, guessed_motion(program_));
     const Eigen::VectorXd& rows = program_.constraint_lower();
@@ -176,13 +184,40 @@ class Batch {
     answers_.is_solved[number] = is_solved(solution.status);
     answers_.cost[row] = solution.objective / program_.cost_scale();
     answers_.iterations[row] = solution.major_iterations.value_or(0);
-    if (asked_.motions) points_.emplace_back(number, solution.primal);
+    if (asked_.motions || (is_solved(solution.status) && are_close(solution.primal))) {
+      points_.emplace_back(number, solution.primal);
+    }
+  }
+
+  /// Whether the ends of an answer differ by so little that it may hide below the tolerance (`lost_distance`).
+  [[nodiscard]] bool are_close(const Eigen::VectorXd& primal) const {
+    const UnknownBlock& q = program_.blocks().unknown(Quantity::configuration);
+    for (Eigen::Index i = 0; i < q.width; ++i) {
+      const double first = primal[q.index(i)];
+      const double last = primal[q.index(i) + asked_.intervals];
+      const double distance = std::abs(last - first);
+      if (distance > 0.0 && distance < smallest_distance * std::max({1.0, std::abs(first), std::abs(last)}))
+        return true;
+    }
+    return false;
+  }
+
+  /// Takes "solved" back from a motion that does not cover its distance.
+  void judge_distance(std::size_t number, const Trajectory& motion) {
+    if (!answers_.is_solved[number] || !small_distances(program_.bounds(), motion).any()) return;
+    const Accuracy found = accuracy(program_.traced_problem(), motion);
+    if (lost_distance(program_.bounds(), motion, found).empty()) return;
+    answers_.status[number] = name_of(Status::not_confirmed);
+    answers_.is_solved[number] = false;
   }
 
   void read_motions() {
     for (const auto& [number, primal] : points_) {
       if (primal.size() == 0 || !primal.allFinite()) continue;
+      set_values(number);
       const Trajectory motion = read_trajectory(program_, primal, Eigen::VectorXd());
+      judge_distance(number, motion);
+      if (!asked_.motions) continue;
       keep_motion(number, motion.q, answers_.q);
       keep_motion(number, motion.stage_u, answers_.u);
     }

@@ -178,6 +178,7 @@ Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, dou
   const Eigen::MatrixXd jumps = jumps_of(traced, trajectory, tolerance);
   Accuracy found;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(jumps.rows());
+  found.missed = sum;
   for (Eigen::Index k = 0; k < jumps.cols(); ++k) {
     const double relative = relative_size(jumps.col(k));
     if (relative > found.relative_jump) {
@@ -186,6 +187,7 @@ Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, dou
     }
     found.jump = std::max(found.jump, std::hypot(jumps.col(k).head(n).norm(), jumps.col(k).segment(n, n).norm()));
     sum += jumps.col(k);
+    found.missed = found.missed.cwiseMax(sum.cwiseAbs());
     found.accumulated_jump = std::max(found.accumulated_jump, relative_size(sum));
   }
   compare_cost(traced, trajectory, worth_of(traced, trajectory, jumps), found);
@@ -194,8 +196,8 @@ Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, dou
 
 namespace {
 
-/// The same for one of q and q̇, of which `ranges` are all that hold at one time; some may be empty.
-double distance_between(const std::vector<Bounds>& ranges) {
+/// The distances of one of q and q̇, of which `ranges` are all that hold at one time; some may be empty.
+Eigen::VectorXd distances_between(const std::vector<Bounds>& ranges) {
   const Eigen::Index n = ranges.front().lower.size();
   Eigen::VectorXd gaps = Eigen::VectorXd::Zero(n);
   for (const Bounds& a : ranges) {
@@ -203,41 +205,64 @@ double distance_between(const std::vector<Bounds>& ranges) {
       if (a.lower.size() == n && b.upper.size() == n) gaps = gaps.cwiseMax(a.lower - b.upper);
     }
   }
-  return gaps.stableNorm();
+  return gaps;
 }
 
-/// By how much a state at a node leaves its bounds, as a length: velocities count by what they move in the horizon.
-double outside(const EndBounds& bounds, const Trajectory& motion, Eigen::Index node) {
-  const auto excess = [](const Bounds& range, const Eigen::VectorXd& x) {
-    return (range.lower - x).cwiseMax(x - range.upper).cwiseMax(0.0).stableNorm();
+/// By how much (q, q̇) at a node leaves its bounds.
+Eigen::VectorXd outside(const EndBounds& bounds, const Trajectory& motion, Eigen::Index node) {
+  const auto excess = [](const Bounds& range, const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return (range.lower - x).cwiseMax(x - range.upper).cwiseMax(0.0);
   };
-  const double horizon = motion.node_times[motion.intervals()] - motion.node_times[0];
-  return excess(bounds.q, motion.q.row(node).transpose()) + horizon * excess(bounds.v, motion.v.row(node).transpose());
+  Eigen::VectorXd both(2 * motion.q.cols());
+  both << excess(bounds.q, motion.q.row(node).transpose()), excess(bounds.v, motion.v.row(node).transpose());
+  return both;
 }
 
 }  // namespace
 
-double given_distance(const ProblemBounds& bounds) {
+Eigen::VectorXd given_distances(const ProblemBounds& bounds) {
   std::vector<Bounds> of_q{bounds.first.q, bounds.last.q};
   std::vector<Bounds> of_v{bounds.first.v, bounds.last.v};
   for (const InteriorBounds& interior : bounds.interior) {
     of_q.push_back(interior.q);
     of_v.push_back(interior.v);
   }
-  return std::hypot(distance_between(of_q), distance_between(of_v));
+  Eigen::VectorXd both(2 * bounds.first.q.lower.size());
+  both << distances_between(of_q), distances_between(of_v);
+  return both;
+}
+
+Eigen::VectorXd small_distances(const ProblemBounds& bounds, const Trajectory& motion) {
+  constexpr double rounding = 1e-14;  // an end such as cos(π/2)
+  Eigen::VectorXd distances = given_distances(bounds);
+  const Eigen::Index n = motion.q.cols();
+  const double least = rounding * std::max(distances.lpNorm<Eigen::Infinity>(), motion.q.lpNorm<Eigen::Infinity>());
+  for (Eigen::Index i = 0; i < 2 * n; ++i) {
+    const auto& values = i < n ? motion.q.col(i) : motion.v.col(i - n);
+    const double size = std::max(1.0, values.lpNorm<Eigen::Infinity>());
+    if (distances[i] <= least || distances[i] >= smallest_distance * size) distances[i] = 0.0;
+  }
+  return distances;
 }
 
 std::string lost_distance(const ProblemBounds& bounds, const Trajectory& motion, const Accuracy& accuracy) {
-  const double distance = given_distance(bounds);
-  const double size = std::max(1.0, motion.q.lpNorm<Eigen::Infinity>());
-  const double missed = static_cast<double>(motion.intervals()) * accuracy.jump + outside(bounds.first, motion, 0) +
-                        outside(bounds.last, motion, motion.intervals());
   constexpr double most_missed = 0.5;
-  if (!(distance > 0.0) || distance >= smallest_distance * size || missed < most_missed * distance) return {};
-  return fmt::format(
-      "The given states are {:.1e} apart, so close that a trajectory at rest satisfies the program to the tolerance. "
-      "State the problem in units in which this distance is about 1.",
-      distance);
+  const Eigen::Index n = motion.q.cols();
+  const double horizon = motion.node_times[motion.intervals()] - motion.node_times[0];
+  const Eigen::VectorXd distances = small_distances(bounds, motion);
+  Eigen::VectorXd missed =
+      accuracy.missed.head(2 * n) + outside(bounds.first, motion, 0) + outside(bounds.last, motion, motion.intervals());
+  missed.head(n) += horizon * missed.tail(n);
+  for (Eigen::Index i = 0; i < 2 * n; ++i) {
+    const auto& values = i < n ? motion.q.col(i) : motion.v.col(i - n);
+    const double range = std::max(distances[i], values.maxCoeff() - values.minCoeff());
+    if (distances[i] == 0.0 || missed[i] < most_missed * range) continue;
+    return fmt::format(
+        "The given states are {:.1e} apart in an entry, so close that a trajectory at rest satisfies the program to "
+        "the tolerance. State the problem in units in which this distance is about 1.",
+        distances[i]);
+  }
+  return {};
 }
 
 }  // namespace dmocbench

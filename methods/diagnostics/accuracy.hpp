@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <Eigen/Core>
+
 #include "methods/mechanics/bounds.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
@@ -19,6 +21,7 @@ struct Accuracy {
   /// The same of the sum of the jumps of intervals 0 to k, with their signs, the largest over k. A force whose period
   /// is the step is sampled at one phase: no interval misses by much, but all miss to the same side.
   double accumulated_jump = 0.0;
+  Eigen::VectorXd missed = {};  ///< |sum of jumps|, the largest over k, of every entry of (q, v, y), each in its unit
   /// |∫C dt - Σ h b_i C_i| along the elements' polynomials, the error of the program's quadrature by one of order 14,
   /// as a share of Σ_k |∫C dt over interval k|, of the whole cost, or of 1e-6, whichever is most. A cost that
   /// oscillates as fast as the grid is sampled at one phase.
@@ -69,21 +72,23 @@ inline constexpr double largest_cost_error_of_a_motion = 0.05;
 /// collocation with one and two stages on 8 to 64 intervals every cost above it is wrong by 12 % or more.
 inline constexpr double largest_cost_miss_of_a_motion = 0.12;
 
-/// The size of the motion that a problem prescribes: the Euclidean norm, over all entries of (q, q̇), of the least
-/// distance between the largest and the smallest value of an entry that both ends and the times between them allow. 0
-/// where a motion may stay at rest.
-[[nodiscard]] double given_distance(const ProblemBounds& bounds);
+/// The distances that a problem prescribes: of every entry of (q, q̇), the least distance between its largest and its
+/// smallest value that both ends and the times between them allow. 0 where an entry may stay the same.
+[[nodiscard]] Eigen::VectorXd given_distances(const ProblemBounds& bounds);
 
-/// Why an answer that satisfies its program to the tolerance does not cover the given distance; empty where it does.
+/// The same, but 0 unless it is below `smallest_distance`, of 1 or of the largest magnitude of the entry, and above
+/// round-off of the largest distance and of the largest |q|.
+[[nodiscard]] Eigen::VectorXd small_distances(const ProblemBounds& bounds, const Trajectory& motion);
+
+/// Why an answer that satisfies its program to the tolerance does not cover the given distances; empty where it does.
 ///
 /// Tolerances are absolute: next to one of 1e-8 a body that stays at rest solves the program of a distance of 1e-9. So
-/// a distance below `smallest_distance`, of 1 or of the largest |q|, has to show in the motion: its jumps
-/// (`accuracy`), one per interval, and what its ends leave their bounds by must not add up to half of the distance. The
-/// velocity at an end counts times the horizon.
+/// each of `small_distances` has to show in the motion: what its jumps (`Accuracy::missed`) and its ends miss must not
+/// add up to half of it, or of the range of the entry. What a velocity misses counts for q times the horizon.
 [[nodiscard]] std::string lost_distance(const ProblemBounds& bounds, const Trajectory& motion,
                                         const Accuracy& accuracy);
 
-/// See `lost_distance`.
+/// See `small_distances`.
 inline constexpr double smallest_distance = 1e-6;
 
 }  // namespace dmocbench

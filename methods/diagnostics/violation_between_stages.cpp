@@ -1,6 +1,7 @@
 #include "methods/diagnostics/violation_between_stages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -167,6 +168,7 @@ class Measurement {
       }
       read_times();
       compare_with_bounds();
+      if (path_ && k == 0) set_finest();
       if (path_) evaluate_path_constraints();
     }
     return summary();
@@ -254,6 +256,19 @@ class Measurement {
   }
   static double tolerated(double scale) { return rounding * std::max(1.0, scale); }
 
+  /// `finest`, or less where h_i changes by less than 1 when each entry moves by its range.
+  void set_finest() {
+    const Eigen::Index last = 2 * scales_.size();
+    Eigen::MatrixXd rows = rows_.row(points / 2).replicate(last + 1, 1);
+    for (Eigen::Index j = 0; j < scales_.size(); ++j) {
+      rows(2 * j, j) += scales_[j];
+      rows(2 * j + 1, j) -= scales_[j];
+    }
+    const Eigen::MatrixXd h = path_->at(rows, last + 1);
+    finest_ = (h.rowwise() - h.row(last)).cwiseAbs().colwise().maxCoeff().transpose();
+    for (double& change : finest_) change = finest * (change > 0.0 && change < 1.0 ? change : 1.0);
+  }
+
   void evaluate_path_constraints() {
     const Eigen::MatrixXd h = path_->at(rows_, points * count_);
     for (Eigen::Index row = 0; row < points * count_; ++row)
@@ -295,7 +310,7 @@ class Measurement {
       const double least = std::max(value.lower, h[i] - swing);
       const double largest = std::min(value.upper, h[i] + swing);
       const double outside = std::max(path_bounds_.lower[i] - least, largest - path_bounds_.upper[i]);
-      if (outside > worth * violated_[static_cast<std::size_t>(i)].amount + finest) return true;
+      if (outside > worth * violated_[static_cast<std::size_t>(i)].amount + finest_[i]) return true;
     }
     return false;
   }
@@ -423,14 +438,51 @@ class Measurement {
       change += of_entry.segment<2>(2 * displacement_by_delta).cwiseAbs().maxCoeff();
       descent += std::max(0.0, -of_entry.minCoeff<Eigen::PropagateNumbers>());
     }
-    const double of_depth = worst.amount / (worst.amount + descent);
+    const std::optional<double> of_width = share_of_width(rises, worst.amount);
+    const double of_depth = std::max(worst.amount / (worst.amount + descent), of_width.value_or(0.0));
     const double share = std::max(delta * worst.amount / change, worst.amount / limit(i));
     // What is rounding elsewhere may be the depth of an obstacle.
     if (worst.amount <= rounding) {
       const bool is_depth = worst.amount > rounding_of_depth * h.cwiseAbs().maxCoeff();
       return is_depth && descent + change > 0.0 && of_depth > largest_share_of_depth ? of_depth : 0.0;
     }
-    return share <= delta && of_depth > largest_share_of_depth ? of_depth : share;
+    if (share > delta) return share;
+    if (of_depth > largest_share_of_depth) return of_depth;
+    return of_width || !stays_inside(i, worst, rises) ? share : 1.0;
+  }
+
+  /// 2 p / (p + o), least over the entries, where p and o are the smallest displacements of an entry to either side
+  /// that make up for a violation: how deep in an obstacle a point is, whatever its formula. 0 where only one side
+  /// leads out of it, by δ or less; none where no entry does.
+  [[nodiscard]] static std::optional<double> share_of_width(const Eigen::VectorXd& rises, double amount) {
+    constexpr double by_delta = 1.0 / largest_displacement;
+    std::optional<double> least;
+    for (Eigen::Index first = 0; first + 1 < rises.size(); first += 2 * displacements) {
+      std::array<double, 2> nearest{infinite, infinite};
+      for (Eigen::Index row = 0; row < 2 * displacements; ++row) {
+        if (rises[first + row] >= amount) nearest[row % 2] = std::ldexp(1.0, -static_cast<int>(row / 2));
+      }
+      const auto [near, far] = std::minmax(nearest[0], nearest[1]);
+      if (std::isinf(far) && near > by_delta) continue;
+      least = std::min(least.value_or(infinite), std::isinf(far) ? 0.0 : 2.0 * near / (near + far));
+    }
+    return least;
+  }
+
+  /// Whether a violation remains, and falls to the last, as all entries move up to δ of their ranges to the side where
+  /// each alone makes h_i rise more: next to a pole of h_i, what they change it by is large and makes up for nothing.
+  [[nodiscard]] bool stays_inside(Eigen::Index i, const Worst& worst, const Eigen::VectorXd& rises) {
+    const Eigen::Index moved = scales_.size();
+    Eigen::MatrixXd rows = worst.point.replicate(displacements, 1);  // the last one stays
+    for (Eigen::Index j = 0; j < moved; ++j) {
+      const auto by_delta = rises.segment<2>(2 * (displacements * j + displacement_by_delta));
+      double size = largest_violation_of_a_motion * scales_[j] * (by_delta[0] >= by_delta[1] ? 1.0 : -1.0);
+      for (Eigen::Index row = 0; row + 1 < displacements; ++row, size *= 0.5) rows(row, j) += size;
+    }
+    const Eigen::VectorXd h = path_->at(rows, displacements).col(i);
+    const double sign = h[displacements - 1] > path_bounds_.upper[i] ? -1.0 : 1.0;
+    const Eigen::VectorXd risen = sign * (h.array() - h[displacements - 1]);
+    return risen.maxCoeff() < worst.amount && risen[0] >= risen.maxCoeff();
   }
 
   /// The largest bound of path constraint i, infinite where it has none but 0.
@@ -486,6 +538,7 @@ class Measurement {
   std::optional<PathConstraints> path_;
   Bounds path_bounds_;
   std::vector<Worst> violated_;  // path constraints
+  Eigen::VectorXd finest_;       // of every path constraint
   Eigen::Index first_ = 0;
   Eigen::Index count_ = 0;
   bool has_excess_ = false;

@@ -43,8 +43,9 @@ struct ViolationBetweenStages {
 /// Measures the element's polynomial of q with its time derivative, and the stage polynomial of u, at nine points per
 /// interval, both ends among them; with one stage q̇ passes through both nodes and the stage. Violations up to 1e-8 of
 /// the range, or of 1 if that is more, count as rounding. Of every path constraint it finds the worst violation, to 1 %
-/// or 1e-9: parts of intervals are halved until the ranges of h_i and of its rate (`EnclosedRate`) leave no room for a
-/// worse one between their ends. So no obstacle is too thin or too flat around to be seen.
+/// or 1e-9, or less in tiny units: parts of intervals are halved until the ranges of h_i and of its rate
+/// (`EnclosedRate`) leave no room for a worse one between their ends. So no obstacle is too thin or too flat around to
+/// be seen.
 ///
 /// The scale of a bound is the range of its component along the motion; the range of all components of q, or of q̇,
 /// where it is constant. The share of a path constraint is δ |h_i| / D_i at its least value, where D_i adds up by how
@@ -53,7 +54,11 @@ struct ViolationBetweenStages {
 /// violation, also where ∂h_i vanishes. It is at least the share of the largest bound of h_i, if that is not 0. As an
 /// obstacle may be thinner than these displacements, a share of at most δ is replaced by its depth's, |h_i| /
 /// (|h_i| + E_i), if that is above `largest_share_of_depth`. E_i adds up by how much h_i falls further at most when
-/// each entry moves by ± 4δ of its range or less; where h_i is linear this replaces nothing.
+/// each entry moves by ± 4δ of its range or less; where h_i is linear this replaces nothing. So that the depth does not
+/// depend on the formula of the obstacle, log(r²) or 1/r², it is at least 2 p / (p + o), least over the entries that
+/// displacements of p and o to either side take out of it. A share of at most δ is 1 if no single displacement makes up
+/// for the violation and all together, each by δ, do not either: next to a pole of h_i its changes are large without
+/// effect.
 ///
 /// A polynomial through the stages overshoots the bounds of u wherever a control switches or has a kink. The share of
 /// the controls is the largest mean excess |u - clipped u| of a component in an interval, relative to its range: a

@@ -105,18 +105,28 @@ double Confirmation::largest_term(const Eigen::VectorXd& multipliers) const {
   return largest;
 }
 
+bool Confirmation::refuse_hidden_violation(Solution& solution) {
+  const auto hidden = sizes_.hidden_violation(program_, solution.primal, memory_);
+  if (!hidden) return false;
+  solution.status = Status::not_confirmed;
+  solution.message = fmt::format(
+      "The violation of {0} {2} is below the tolerance, but it is {3:.1g} times the size of this {1}, {4:.1g}. State "
+      "it in units in which its size is about 1.",
+      hidden->is_of_bound ? "a bound of unknown" : "constraint", hidden->is_of_bound ? "unknown" : "constraint",
+      hidden->number, hidden->share, hidden->size);
+  return true;
+}
+
+void Confirmation::judge_sizes(Solution& solution) {
+  judge_residuals(solution);
+  if (is_solved(solution.status)) refuse_hidden_violation(solution);
+}
+
 /// Takes "solved" back from an answer whose residuals the tolerance, or the round-off of a constraint, hides.
 void Confirmation::require_visible(double tolerance, Solution& solution) {
-  const auto hidden = sizes_.hidden_violation(program_, solution.primal, memory_);
-  needs_factors_of_rows_ = hidden || sizes_.has_small_inequality(program_);
-  if (hidden) {
-    solution.status = Status::not_confirmed;
-    solution.message = fmt::format(
-        "The violation of constraint {} is below the tolerance, but it is {:.1g} times the size of the constraint, "
-        "{:.1g}. State it in units in which its size is about 1.",
-        hidden->row, hidden->share, hidden->size);
-    return;
-  }
+  const bool is_hidden = refuse_hidden_violation(solution);
+  needs_factors_of_rows_ = is_hidden || sizes_.has_small_inequality(program_);
+  if (is_hidden) return;
   const Eigen::VectorXd& multipliers = solution.multipliers;
   const double mean = multipliers.lpNorm<1>() / std::max(1.0, static_cast<double>(multipliers.size()));
   const double residual = solution.kkt_residual.value_or(0.0);

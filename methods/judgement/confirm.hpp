@@ -61,6 +61,10 @@ class Confirmation {
   /// its computation, see `tell_of_stop`.
   void judge(double tolerance, Solution& solution, bool asks_newton = true);
 
+  /// Computes the residuals of a solution that was judged in other units of its constraints, and takes "solved" back
+  /// where the tolerance hides a violation (`ConstraintSizes`).
+  void judge_sizes(Solution& solution);
+
   /// The scaling that the program needs, for the answer judged last.
   ///
   /// The cost needs one where no entry of ∇φ and ∇²φ over the free variables, at the answer and at the start, reaches
@@ -91,6 +95,7 @@ class Confirmation {
   };
   [[nodiscard]] std::optional<StepLengths> newton_step(const Solution& solution);
   [[nodiscard]] double factor_of_cost(double tolerance, const Eigen::VectorXd& start, const Solution& solution);
+  bool refuse_hidden_violation(Solution& solution);
   void require_visible(double tolerance, Solution& solution);
   [[nodiscard]] double largest_term(const Eigen::VectorXd& multipliers) const;
   void require_settled(double tolerance, Solution& solution);

@@ -21,24 +21,75 @@ void ConstraintSizes::measure_unknowns(const NonlinearProgram& program, const Ei
   }
 }
 
+void ConstraintSizes::measure_sums(const NonlinearProgram& program, const KktMemory& memory) {
+  const IntervalStructure* const structure = program.interval_structure();
+  const BlockPattern& pattern = program.jacobian_structure();
+  adds_.setConstant(of_unknowns_.size(), structure == nullptr ? 0.0 : 1.0);
+  pattern.for_each([&](Eigen::Index e, int /*row*/, int column) {
+    if (std::abs(memory.jacobian[e]) != 1.0) adds_[column] = 0.0;
+  });
+  if (adds_.isZero(0.0)) return;
+  of_rows_.setZero(memory.constraints.size());
+  pattern.for_each([&](Eigen::Index e, int row, int column) {
+    if (adds_[column] == 0.0) of_rows_[row] += std::abs(memory.jacobian[e]) * of_unknowns_[column];
+  });
+  of_sums_.setZero(of_unknowns_.size());
+  pattern.for_each(
+      [&](Eigen::Index /*e*/, int row, int column) { of_sums_[column] = std::max(of_sums_[column], of_rows_[row]); });
+  for (const PlaceRun& run : structure->unknowns.runs()) {
+    if (run.count == 0) continue;
+    const auto members = Eigen::seqN(static_cast<Eigen::Index>(run.first), static_cast<Eigen::Index>(run.count));
+    const double added = of_sums_(members).maxCoeff();
+    const bool adds = run.kind == Place::Kind::node && run.count > 1 && adds_(members).minCoeff() > 0.0 && added > 0.0;
+    adds_(members).setConstant(adds ? 1.0 : 0.0);
+    if (adds) of_unknowns_(members).setConstant(added);
+  }
+}
+
+template <class Compare>
+void ConstraintSizes::compare_sums(const NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                   const KktMemory& memory, const Compare& compare) {
+  if (adds_.isZero(0.0)) return;
+  of_sums_.setZero(of_unknowns_.size());
+  program.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
+    const double value = program.constraint_lower()[row];
+    if (adds_[column] == 0.0 || memory.jacobian[e] < 0.0 || value != program.constraint_upper()[row]) return;
+    of_sums_[column] += memory.constraints[row] - value;
+  });
+  for (const PlaceRun& run : program.interval_structure()->unknowns.runs()) {
+    const auto members = Eigen::seqN(static_cast<Eigen::Index>(run.first), static_cast<Eigen::Index>(run.count));
+    if (run.count == 0 || adds_[members.first()] == 0.0) continue;
+    const double size = std::max(primal(members).lpNorm<Eigen::Infinity>(), of_unknowns_[members.first()]);
+    compare(true, members.first() + members.size() - 1, std::abs(of_sums_(members).sum()), size);
+  }
+}
+
 std::optional<HiddenViolation> ConstraintSizes::hidden_violation(const NonlinearProgram& program,
                                                                  const Eigen::VectorXd& primal,
                                                                  const KktMemory& memory) {
   measure_unknowns(program, primal);
+  measure_sums(program, memory);
   of_rows_.setZero(memory.constraints.size());
   program.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
     of_rows_[row] += std::abs(memory.jacobian[e]) * of_unknowns_[column];
   });
   std::optional<HiddenViolation> worst;
+  const auto compare = [&](bool is_of_bound, Eigen::Index i, double violation, double size) {
+    if (!(violation > std::max(largest_share, worst ? worst->share : 0.0) * size) || size == 0.0) return;
+    worst = HiddenViolation{.is_of_bound = is_of_bound, .number = i, .size = size, .share = violation / size};
+  };
   for (Eigen::Index i = 0; i < of_rows_.size(); ++i) {
     const double violation = std::max({0.0, program.constraint_lower()[i] - memory.constraints[i],
                                        memory.constraints[i] - program.constraint_upper()[i]});
     const bool is_flat = of_rows_[i] == 0.0;
-    const double size = is_flat ? std::abs(memory.constraints[i]) : of_rows_[i];
     if (is_flat && violation <= program.rounding_floors().of_constraint(i)) continue;
-    if (!(violation > std::max(largest_share, worst ? worst->share : 0.0) * size) || size == 0.0) continue;
-    worst = HiddenViolation{.row = i, .size = size, .share = violation / size};
+    compare(false, i, violation, is_flat ? std::abs(memory.constraints[i]) : of_rows_[i]);
   }
+  for (Eigen::Index j = 0; j < primal.size(); ++j) {
+    compare(true, j, std::max(program.variable_lower()[j] - primal[j], primal[j] - program.variable_upper()[j]),
+            of_unknowns_[j]);
+  }
+  compare_sums(program, primal, memory, compare);
   add_distances_from_bounds(program, memory.constraints);
   return worst;
 }

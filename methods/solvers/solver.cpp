@@ -117,7 +117,7 @@ void state_without_scaling(NonlinearProgram& program, const Scaling& scaling, co
   if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would ignore the factors
   if (solution.barrier_parameter) *solution.barrier_parameter /= scaling.of_cost;
   solution.multipliers = scaled.original_ones(solution.multipliers);
-  if (solution.primal.size() > 0) judge_residuals(program, solution);
+  if (solution.primal.size() > 0) Confirmation(program).judge_sizes(solution);
 }
 
 /// True of a failure that dependent constraints may cause.

@@ -21,22 +21,22 @@ class Displacement final : public tests::SmallProblem {
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 };
 
-TEST(GivenDistance, IsWhatBoundsAtSomeTimesKeepApart) {
+TEST(GivenDistance, IsWhatBoundsAtSomeTimesKeepApartInEachEntry) {
   const tests::DoubleIntegrator base;
-  EXPECT_EQ(given_distance(base.bounds()), 1.0);
+  EXPECT_EQ(given_distances(base.bounds()), Eigen::Vector2d(1.0, 0.0));
   const auto distance = [&](const std::function<void(Restated::Statement&)>& state) {
-    return given_distance(Restated(base, state).bounds());
+    return given_distances(Restated(base, state).bounds())[0];
   };
   EXPECT_EQ(distance([](auto& s) { s.last.free_configuration(0); }), 0.0);
   EXPECT_EQ(distance([](auto& s) { s.last.q = Bounds::all(1, -1.0, 0.5); }), 0.0);
   EXPECT_EQ(distance([](auto& s) { s.last.q = Bounds::all(1, 0.25, 0.5); }), 0.25);
   EXPECT_EQ(distance([](auto& s) { s.interior.push_back({.relative_time = 0.5, .q = Bounds::all(1, -2.0, -2.0)}); }),
             3.0);
-  EXPECT_EQ(distance([](auto& s) {
-              s.last.q = Bounds::all(1, 3e-200, 3e-200);
-              s.last.v = Bounds::all(1, -4e-200, -4e-200);
-            }),
-            5e-200);
+  const Restated tiny(base, [](auto& s) {
+    s.last.q = Bounds::all(1, 3e-200, 3e-200);
+    s.last.v = Bounds::all(1, -4e-200, -4e-200);
+  });
+  EXPECT_EQ(given_distances(tiny.bounds()), Eigen::Vector2d(3e-200, 4e-200));
 }
 
 TEST(GivenDistance, IsLostWhereTheToleranceHidesIt) {
@@ -55,6 +55,42 @@ TEST(GivenDistance, IsLostWhereTheToleranceHidesIt) {
           << method << ' ' << given.distance << ": " << motion.cost;
     }
   }
+}
+
+/// Two masses, one of which moves by 1.
+class UnequalDisplacements final : public tests::SmallProblem {
+ public:
+  explicit UnequalDisplacements(double distance)
+      : SmallProblem("unequal", {.q = Eigen::Vector2d(1.0, 0.0), .v = Eigen::Vector2d::Zero()},
+                     {.q = Eigen::Vector2d(1.0 + distance, 1.0), .v = Eigen::Vector2d::Zero()}, 1.0, 2) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
+};
+
+TEST(GivenDistance, IsLostOfOneEntryNextToALargeOne) {
+  for (const double distance : {1e-7, 1e-9, 1e-11, 1e-12}) {
+    const UnequalDisplacements problem(distance);
+    for (const char* method : {"dmoc", "tangent", "hamiltonian"}) {
+      const Trajectory motion =
+          tests::solve(problem, {method}, Grid::uniform(16), guessed_motion(problem), 1e-10).trajectory;
+      EXPECT_EQ(lost_distance(problem.bounds(), motion, accuracy(problem, motion)), "") << method << ' ' << distance;
+      Trajectory lost = motion;  // as fast as the guess, from the first node to the last
+      lost.q.col(0) = Eigen::VectorXd::LinSpaced(17, 1.0, 1.0 + distance);
+      lost.v.col(0).setZero();
+      lost.stage_v.col(0).setConstant(distance);
+      lost.stage_u.col(0).setZero();
+      EXPECT_NE(lost_distance(problem.bounds(), lost, accuracy(problem, lost)), "") << method << ' ' << distance;
+    }
+  }
+}
+
+TEST(GivenDistance, OfRoundOffIsNone) {
+  const UnequalDisplacements problem(0.0);
+  ProblemBounds bounds = problem.bounds();
+  const Trajectory motion = tests::solve(problem, {"dmoc"}, Grid::uniform(16), guessed_motion(problem)).trajectory;
+  bounds.last.q.lower[0] = bounds.last.q.upper[0] = std::nextafter(1.0, 2.0);
+  EXPECT_TRUE(small_distances(bounds, motion).isZero(0.0));
 }
 
 TEST(GivenDistance, IsNotLostInAMotionThatCoversIt) {

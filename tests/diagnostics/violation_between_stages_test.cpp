@@ -191,6 +191,51 @@ TEST(ViolationBetweenStages, IsSeenOfEveryObstacleThatIsCrossedHoweverThinAndFla
   }
 }
 
+/// A mass in the plane, from (0, 0) to (1, 0).
+class MassInThePlane final : public tests::SmallProblem {
+ public:
+  MassInThePlane()
+      : SmallProblem("mass_in_the_plane", {.q = Eigen::Vector2d::Zero(), .v = Eigen::Vector2d::Zero()},
+                     {.q = Eigen::Vector2d::UnitX(), .v = Eigen::Vector2d::Zero()}, 1.0, 2) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
+};
+
+TEST(ViolationBetweenStages, IsSeenOfADiscWhateverTheFormOfItsDistance) {
+  // x goes from 0 to 1 at y = 0, past the centre (0.53, offset) of a disc, as deep in it as 1 - offset / radius.
+  const std::vector<std::function<Expression(const Expression&, double)>> forms{
+      [](const Expression& square, double r) { return square - r * r; },
+      [](const Expression& square, double r) { return sqrt(square) - r; },
+      [](const Expression& square, double r) { return log(square) - std::log(r * r); },
+      [](const Expression& square, double r) { return 1.0 / (r * r) - 1.0 / square; },
+      [](const Expression& square, double r) { return 1.0 / r - 1.0 / sqrt(square); },
+      [](const Expression& square, double r) { return 1.0 - pow(r * r / square, 3.0); }};
+  const MassInThePlane base;
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const Eigen::Index intervals : {8, 32, 128}) {
+      const Trajectory motion = solved_on(base, {method}, intervals);
+      for (std::size_t form = 0; form < forms.size(); ++form) {
+        for (int width = 0; width < 10; ++width) {
+          for (const double offset : {1e-9, 1e-3, 0.1, 0.3, 0.5, 0.99}) {
+            const double radius = 1e-4 * std::pow(2000.0, width / 9.0);
+            const Restated around(base, [&](Statement& s) {
+              s.path_constraints = [&](const ControlledState& x) {
+                const Expression along = x.q[0] - 0.53;
+                const Expression across = x.q[1] - offset * radius;
+                return ExpressionVector::Constant(1, forms[form](along * along + across * across, radius));
+              };
+            });
+            const bool is_motion = violation_of(around, motion).is_motion();
+            EXPECT_EQ(is_motion, offset > 0.95)
+                << method << ' ' << intervals << " form " << form << " radius " << radius << " offset " << offset;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(ViolationBetweenStages, CountsTheVelocityAtNodesWhereOneStageHasTheMean) {
   const tests::DoubleIntegrator base;
   for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {

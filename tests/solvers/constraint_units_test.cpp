@@ -1,8 +1,10 @@
 // Constraints times any number: what is solved is the same, or the answer says that it is not.
 #include <cmath>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +93,34 @@ TEST_P(ConstraintsTimes, APowerOfTenAreSolvedOnlyAtTheSameCost) {
     EXPECT_NEAR(solution.objective, optimum, 1e-6 * optimum) << k << ": " << solution.message;
   }
   EXPECT_TRUE(is_solved(solve(with_mean(1e3), method, solver).status));
+}
+
+/// The mean of q is between 0 and 1, the mean of q̇ is 1 and that of q̇² at least 1, whatever the control.
+TEST_P(ConstraintsTimes, AnyNumberAreNotSolvedWhereAnIntegralCannotBeReached) {
+  const auto& [method, solver] = GetParam();
+  struct Integral {
+    std::function<Expression(const ControlledState&)> of;
+    double lower = 0.0;
+    double upper = 0.0;
+  };
+  const std::vector<Integral> unreachable{{[](const ControlledState& x) { return x.v[0]; }, 2.0, 2.0},
+                                          {[](const ControlledState& x) { return x.v[0]; }, 0.0, 0.0},
+                                          {[](const ControlledState& x) { return x.v[0]; }, 2.0, unbounded},
+                                          {[](const ControlledState& x) { return x.v[0] * x.v[0]; }, -unbounded, 0.5},
+                                          {[](const ControlledState& x) { return x.q[0] * x.q[0]; }, -1.0, -1.0},
+                                          {[](const ControlledState& x) { return x.u[0]; }, 1.0, unbounded}};
+  for (const Integral& integral : unreachable) {
+    for (int k = -36; k <= -6; ++k) {
+      const double factor = std::pow(10.0, 0.5 * k);
+      const Restated limited(base_, [&](Restated::Statement& s) {
+        s.integrals = Bounds::all(1, integral.lower * factor, integral.upper * factor);
+        s.integrands = [&](const ControlledState& x) { return ExpressionVector::Constant(1, factor * integral.of(x)); };
+      });
+      const Solution solution = solve(limited, method, solver);
+      EXPECT_FALSE(is_solved(solution.status))
+          << factor << ": " << integral.lower << " to " << integral.upper << ", cost " << solution.objective;
+    }
+  }
 }
 
 }  // namespace
