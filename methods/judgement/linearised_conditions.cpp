@@ -79,8 +79,7 @@ std::unique_ptr<kkt::KktSystem> kkt_system_by_intervals(const NonlinearProgram& 
 }
 
 std::unique_ptr<kkt::SparseKkt> kkt_system_of_any_point(const NonlinearProgram& program) {
-  return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::along_the_horizon,
-                                          kkt::SparseKkt::Inertia::any);
+  return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::found, kkt::SparseKkt::Inertia::any);
 }
 
 namespace {
