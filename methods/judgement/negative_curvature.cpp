@@ -53,7 +53,7 @@ class ShiftedSystem {
   /// Solves for a right-hand side in the place of the gradient.
   [[nodiscard]] kkt::FactorisationStatus solve(double shift, const Eigen::VectorXd& right_hand_side,
                                                Eigen::VectorXd& solution) {
-    if (!kkt_) kkt_.emplace(program_, kkt::SparseKkt::Order::along_the_horizon, kkt::SparseKkt::Inertia::minimum);
+    if (!kkt_) kkt_.emplace(program_, kkt::SparseKkt::Order::found, kkt::SparseKkt::Inertia::minimum);
     return solve_by(*kkt_, shift, right_hand_side, solution);
   }
 
