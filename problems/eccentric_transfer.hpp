@@ -28,25 +28,26 @@ class EccentricTransfer : public Problem {
   [[nodiscard]] std::string name() const override { return "eccentric_transfer"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "low thrust transfer of a satellite between two ellipses, least control effort",
-            .title = "Transfer between ellipses",
-            .axis_units = AxisUnits::pure_numbers(),
-            .source =
-                "stated for this library, after the transfer between circles of Ober-Bloebaum, Junge, Marsden: Discrete "
-                "Mechanics and Optimal Control: an Analysis, section 4.2.1",
-            .guess = "trajectory on an ellipse whose axis and eccentricity change linearly with time, u = 0",
-            .time_unit = {.name = "", .factor = 1.0},
-            .reference = with_default_parameters(
-                *this, {.objective = 2.5954854061e-3,
-                        .digits = 11,
-                        .certificate = "the indirect method with Gauss schemes of orders 16 and 20; DMOC with three "
-                                       "stages on an adapted grid has the same cost to 12 digits"}),
-            .picture = [](const ControlledState& x) -> Picture {
-              return {{"x", "", x.q[0] * cos(x.q[1])},
-                      {"y", "", x.q[0] * sin(x.q[1])},
-                      {"r", "", x.q[0]},
-                      {"thrust", "", x.u[0]}};
-            }};
+    return {
+        .description = "low thrust transfer of a satellite between two ellipses, least control effort",
+        .title = "Transfer between ellipses",
+        .axis_units = AxisUnits::pure_numbers(),
+        .source =
+            "stated for this library, after the transfer between circles of Ober-Bloebaum, Junge, Marsden: Discrete "
+            "Mechanics and Optimal Control: an Analysis, section 4.2.1",
+        .guess = "trajectory on an ellipse whose axis and eccentricity change linearly with time, u = 0",
+        .time_unit = {.name = "", .factor = 1.0},
+        .reference = with_default_parameters(
+            *this, {.objective = 2.5954854061e-3,
+                    .digits = 11,
+                    .certificate = "the indirect method with Gauss schemes of orders 16 and 20; DMOC with three "
+                                   "stages on an adapted grid has the same cost to 12 digits"}),
+        .picture = [](const ControlledState& x) -> Picture {
+          return {{"x", "", x.q[0] * cos(x.q[1])},
+                  {"y", "", x.q[0] * sin(x.q[1])},
+                  {"r", "", x.q[0]},
+                  {"thrust", "", x.u[0]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"r", "phi"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }

@@ -37,22 +37,22 @@ class SatelliteDirectors final : public Problem {
   [[nodiscard]] std::string name() const override { return "satellite_directors"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {
-        .description = "a rigid satellite turns from rest to rest, with a rotation matrix as its attitude",
-        .title = "Satellite (directors)",
-        .axis_units = {.state = "dimensionless"},
-        .source =
-            "stated for this library, after the directors of Betsch and Leyendecker; closed form about a principal axis",
-        .guess = "a turn about the axis with the angle alpha (3 s^2 - 2 s^3), s = t/T; u = 0",
-        .reference =
-            with_default_parameters(*this, {.objective = 6.0 * std::numbers::pi * std::numbers::pi / 8.0,
-                                            .digits = 16,
-                                            .certificate = "closed form 6 J_1^2 pi^2/T^3: u_1 is linear in time"}),
-        .picture = [](const ControlledState& x) -> Picture {
-          return {{"d1_x", "", x.q[0]},   {"d1_y", "", x.q[1]},   {"d1_z", "", x.q[2]},
-                  {"d2_x", "", x.q[3]},   {"d2_y", "", x.q[4]},   {"d2_z", "", x.q[5]},
-                  {"u_1", "N m", x.u[0]}, {"u_2", "N m", x.u[1]}, {"u_3", "N m", x.u[2]}};
-        }};
+    return {.description = "a rigid satellite turns from rest to rest, with a rotation matrix as its attitude",
+            .title = "Satellite (directors)",
+            .axis_units = {.state = "dimensionless"},
+            .source =
+                "stated for this library, after the directors of Betsch and Leyendecker; closed form about a principal "
+                "axis",
+            .guess = "a turn about the axis with the angle alpha (3 s^2 - 2 s^3), s = t/T; u = 0",
+            .reference =
+                with_default_parameters(*this, {.objective = 6.0 * std::numbers::pi * std::numbers::pi / 8.0,
+                                                .digits = 16,
+                                                .certificate = "closed form 6 J_1^2 pi^2/T^3: u_1 is linear in time"}),
+            .picture = [](const ControlledState& x) -> Picture {
+              return {{"d1_x", "", x.q[0]},   {"d1_y", "", x.q[1]},   {"d1_z", "", x.q[2]},
+                      {"d2_x", "", x.q[3]},   {"d2_y", "", x.q[4]},   {"d2_z", "", x.q[5]},
+                      {"u_1", "N m", x.u[0]}, {"u_2", "N m", x.u[1]}, {"u_3", "N m", x.u[2]}};
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override {
     return {"d1_x", "d1_y", "d1_z", "d2_x", "d2_y", "d2_z", "d3_x", "d3_y", "d3_z"};

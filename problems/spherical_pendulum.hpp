@@ -34,7 +34,8 @@ class SphericalPendulum : public Problem {
         .description = "spherical pendulum from one steady cone to a wider one, least control effort",
         .title = "Spherical pendulum",
         .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
-        .source = "stated for this library: a mass matrix that depends on the configuration, a symmetry, both ends steady",
+        .source =
+            "stated for this library: a mass matrix that depends on the configuration, a symmetry, both ends steady",
         .configuration_units = {"rad", "rad"},
         .control_units = {"N m", "N m"},
         .reference = with_default_parameters(

@@ -71,8 +71,8 @@ struct LinearisedConditions {
 /// inequalities that are held there. One row means that its derivatives vanish. If there are several dependencies it is
 /// one of them. Empty if there is none, or if a number is not finite.
 ///
-/// `point` has variable_count() entries. It takes an elimination by intervals, or one sparse factorisation where that does not
-/// show independence, and throws `Stopped` as these do.
+/// `point` has variable_count() entries. It takes an elimination by intervals, or one sparse factorisation where that
+/// does not show independence, and throws `Stopped` as these do.
 [[nodiscard]] std::vector<std::size_t> dependent_rows(NonlinearProgram& program, const Eigen::VectorXd& point);
 
 }  // namespace dmocbench
