@@ -18,6 +18,7 @@
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
+#include "methods/solvers/solver.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/lane_transcription.hpp"
 #include "methods/transcription/start.hpp"
@@ -179,14 +180,18 @@ class Batch {
   }
 
   void keep(std::size_t number, const Solution& solution) {
+    write_answer(number, solution);
+    if (asked_.motions || (is_solved(solution.status) && are_close(solution.primal))) {
+      points_.emplace_back(number, solution.primal);
+    }
+  }
+
+  void write_answer(std::size_t number, const Solution& solution) {
     const auto row = static_cast<Eigen::Index>(number);
     answers_.status[number] = name_of(solution.status);
     answers_.is_solved[number] = is_solved(solution.status);
     answers_.cost[row] = solution.objective / program_.cost_scale();
     answers_.iterations[row] = solution.major_iterations.value_or(0);
-    if (asked_.motions || (is_solved(solution.status) && are_close(solution.primal))) {
-      points_.emplace_back(number, solution.primal);
-    }
   }
 
   /// Whether the ends of an answer differ by so little that it may hide below the tolerance (`lost_distance`).
@@ -202,22 +207,45 @@ class Batch {
     return false;
   }
 
-  /// Takes "solved" back from a motion that does not cover its distance.
-  void judge_distance(std::size_t number, const Trajectory& motion) {
-    if (!answers_.is_solved[number] || !small_distances(program_.bounds(), motion).any()) return;
-    const Accuracy found = accuracy(program_.traced_problem(), motion);
-    if (lost_distance(program_.bounds(), motion, found).empty()) return;
-    answers_.status[number] = name_of(Status::not_confirmed);
-    answers_.is_solved[number] = false;
+  /// The straight line between the ends of an instance, without round-off of a larger guess.
+  [[nodiscard]] Motion straight_motion(std::size_t number) const {
+    const BoundaryState first = state_of(instances_.first, number, first_);
+    const BoundaryState last = state_of(instances_.last, number, last_);
+    Motion motion = guessed_motion(program_);
+    motion.at = [first, last, horizon = motion.horizon, guessed = motion.at](double t) {
+      MotionPoint point = guessed(t);
+      point.q = first.q + t / horizon * (last.q - first.q);
+      point.v = (last.q - first.q) / horizon;
+      point.u.setZero();
+      return point;
+    };
+    return motion;
+  }
+
+  /// Solves an instance whose ends are close once more by itself: next to the guess of the problem, where a batch
+  /// starts, its motion is round-off. Takes "solved" back from a solution that does not cover its distance.
+  void solve_again(std::size_t number, Eigen::VectorXd& primal) {
+    set_values(number);
+    SolverOptions options;
+    options.tolerance = asked_.tolerance;
+    options.most_iterations = asked_.most_iterations;
+    Solution alone = make_solver("interior_point", options)->solve(program_, sample(program_, straight_motion(number)));
+    primal = alone.primal;
+    if (is_solved(alone.status)) {
+      const Trajectory motion = read_trajectory(program_, primal, Eigen::VectorXd());
+      const Accuracy found = accuracy(program_.traced_problem(), motion);
+      if (!lost_distance(program_.bounds(), motion, found).empty()) alone.status = Status::not_confirmed;
+    }
+    write_answer(number, alone);
   }
 
   void read_motions() {
-    for (const auto& [number, primal] : points_) {
+    for (auto& [number, primal] : points_) {
       if (primal.size() == 0 || !primal.allFinite()) continue;
+      if (answers_.is_solved[number] && are_close(primal)) solve_again(number, primal);
+      if (!asked_.motions) continue;
       set_values(number);
       const Trajectory motion = read_trajectory(program_, primal, Eigen::VectorXd());
-      judge_distance(number, motion);
-      if (!asked_.motions) continue;
       keep_motion(number, motion.q, answers_.q);
       keep_motion(number, motion.stage_u, answers_.u);
     }

@@ -9,7 +9,37 @@ import dmocbench as db
 from pendulum import PendulumSwingUp
 
 
+class Cart(db.Problem):
+    """a unit mass from rest to rest, whose least cost is 6 d^2 / T^3"""
+
+    q, u = db.coordinates("x"), db.controls("f")
+    horizon, start, end = 100.0, db.at_rest([0.0]), db.at_rest([1.0])
+
+    def lagrangian(self, x):
+        return 0.5 * x.v.x**2
+
+    def force(self, x):
+        return [x.u.f]
+
+    def running_cost(self, x):
+        return 0.5 * x.u.f**2
+
+
 class Batches(unittest.TestCase):
+    def test_over_tiny_distances_have_the_least_cost_wherever_they_are_solved(self):
+        distance = 10.0 ** np.arange(-30.0, 3.5, 0.5)
+        nothing = 0.0 * distance
+        for method in ("dmoc", "hamiltonian", "tangent"):
+            for offset in (0.0, 1.0):
+                batch = db.solve_batch(Cart(), start=np.column_stack([nothing + offset, nothing]),
+                                       end=np.column_stack([distance + offset, nothing]), intervals=32, method=method)
+                moved = (distance + offset) - offset
+                solved = np.asarray(batch.is_solved, dtype=bool)
+                self.assertTrue(solved[distance > 1e-5].all(), batch.status)
+                solved &= moved > 1e-13 * offset  # less is round-off of the ends
+                least = 6.0 * moved[solved] ** 2 / Cart.horizon**3
+                self.assertTrue((np.abs(batch.cost[solved] - least) <= 0.05 * least).all(), batch.cost[solved] / least)
+
     def test_over_states_have_the_answers_of_single_solves(self):
         start = np.column_stack([np.linspace(-0.2, 0.2, 17), np.zeros(17)])
         batch = db.solve_batch(PendulumSwingUp(), start=start, intervals=32, motions=True)
