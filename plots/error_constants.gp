@@ -24,7 +24,7 @@ do for [name in "error_constants error_constants_two_stages"] {
     do for [kind in kinds] {
       eval begin_figure(kind, problem."_".name, 520)
       figure_title = title_text(problem_label(problem).": errors times N".power,\
-          "Dashed: predicted from the exact optimum. Legends: limits, predicted and measured. Gauss, s = "\
+          "Thin lines: predicted from the exact optimum. Legends: limits, predicted and measured. Gauss, s = "\
           .entry(word(curves, 1), "stages").".", "")
       eval panels(1, 2, 95, 25, 145, 105, 0)
       eval measure(name, problem_word, "intervals", "replay_error")
