@@ -32,7 +32,7 @@ do for [name in "error_constants error_constants_two_stages"] {
       eval set_range("x", x_low, x_high, 1.1)
       do for [quantity in "replay_error objective_error"] {
         unset logscale y
-        set yrange [*:*]
+        if (quantity eq "replay_error") { set yrange [0:*] } else { set yrange [*:*] }
         set ytics autofreq
         set format y "%g"
         set key at screen (quantity eq "replay_error" ? 0.02 : 0.52), screen upwards(90) left top maxrows auto font ",12"\
