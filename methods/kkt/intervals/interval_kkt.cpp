@@ -13,16 +13,6 @@ namespace {
 /// Intervals that a new order of elimination is chosen by, besides the middle one.
 constexpr Eigen::Index sampled_intervals = 9;
 
-/// How many segments a group has: the lanes after them repeat the last one.
-int segments_of(const SegmentGroup& group) {
-  std::size_t count = lane_count;
-  const auto repeats_last = [&](std::size_t lane) {
-    return group.first[lane] == group.first.back() && group.length[lane] == group.length.back();
-  };
-  while (count > 1 && repeats_last(count - 2)) --count;
-  return static_cast<int>(count);
-}
-
 }  // namespace
 
 IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, SegmentKernelChoice choose) {
@@ -140,7 +130,7 @@ bool IntervalKkt::join_segments() {
   for (std::size_t g = groups_.size(); g-- > 0;) {
     const bool has_minima = groups_[g].group().pivots == FreePivots::positive;
     is_minimum_in_parts_ = is_minimum_in_parts_ && has_minima;
-    for (int segment = segments_of(groups_[g].group()) - 1; segment >= 0; --segment) {
+    for (int segment = lane_count - 1; segment >= 0; --segment) {
       const auto columns = [&](const double* numbers, Eigen::Index first, Eigen::Index count) {
         using Strides = Eigen::Stride<Eigen::Dynamic, lane_count>;
         return Eigen::Map<const Eigen::MatrixXd, 0, Strides>(numbers + first * X * lane_count + segment, X, count,
@@ -169,17 +159,13 @@ bool IntervalKkt::join_segments() {
 
 void IntervalKkt::substitute(const NewtonArrays& arrays, const KktStep& step) {
   chain_.back_substitute(boundary_.state(), boundary_.multiplier(), states_, multipliers_);
-  for (Eigen::Index first = 0; const GroupMemory& memory : groups_) {
-    const SegmentGroup& group = memory.group();
-    const Eigen::Index segments = segments_of(group);
-    for (Eigen::Index lane = 0; lane < lane_count; ++lane) {
-      const Eigen::Index column = first + std::min(lane, segments - 1);
-      for (Eigen::Index i = 0; i < states_.rows(); ++i) {
-        group.state[i * lane_count + lane] = states_(i, column);
-        group.multiplier[i * lane_count + lane] = multipliers_(i, column);
-      }
-    }
-    first += segments;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const SegmentGroup& group = groups_[g].group();
+    const auto first = static_cast<Eigen::Index>(g) * lane_count;
+    Eigen::Map<Eigen::MatrixXd>(group.state, lane_count, states_.rows()) =
+        states_.middleCols(first, lane_count).transpose();
+    Eigen::Map<Eigen::MatrixXd>(group.multiplier, lane_count, states_.rows()) =
+        multipliers_.middleCols(first, lane_count).transpose();
   }
   // The forward sweep writes the steps of free unknowns, `BoundarySystem` writes the steps of the ends.
   entries_.write_fixed(1, step.primal.data());

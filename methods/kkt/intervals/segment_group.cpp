@@ -17,21 +17,16 @@ constexpr std::size_t most_recorded_of_instances = most_recorded / lane_count;
 /// Intervals of a group of a long horizon: their numbers fit the second-level cache, and eight segments of an array
 /// fit a few pages of memory.
 constexpr std::size_t intervals_per_group = 1024;
-/// Up to this number of intervals four segments are faster than eight: joining a segment takes longer than the work on
-/// the intervals that it saves (`build/bench/speed/scaling`, n = 1 to 4).
-constexpr std::size_t most_in_four_segments = 32;
 /// Steps whose records fit there easily, a multiple of eight.
 constexpr int steps_per_chunk = 16;
 
 }  // namespace
 
 GroupMemory::GroupMemory(const Shape& shape, std::size_t begin, std::size_t end, bool keeps_records) {
-  const std::size_t segments = end - begin <= most_in_four_segments ? 4 : lane_count;
-  const auto begin_of = [&](std::size_t segment) { return begin + segment * (end - begin) / segments; };
+  const auto begin_of = [&](std::size_t lane) { return begin + lane * (end - begin) / lane_count; };
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const std::size_t segment = std::min(lane, segments - 1);
-    group_.first[lane] = static_cast<std::ptrdiff_t>(begin_of(segment));
-    group_.length[lane] = static_cast<int>(begin_of(segment + 1) - begin_of(segment));
+    group_.first[lane] = static_cast<std::ptrdiff_t>(begin_of(lane));
+    group_.length[lane] = static_cast<int>(begin_of(lane + 1) - begin_of(lane));
   }
   group_.steps = group_.length.back();
   group_.shortest = *std::ranges::min_element(group_.length);
