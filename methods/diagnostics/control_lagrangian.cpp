@@ -170,9 +170,10 @@ GalerkinForm galerkin_form(Transcription& program, const Eigen::VectorXd& x, con
   const ProgramBlocks& blocks = program.blocks();
   const Tableau& rates = program.functions().rates;
   const Tableau& quadrature = program.tableau();
-  if (!has_galerkin_form(program))
+  if (!has_galerkin_form(program)) {
     throw Error(
         "the Galerkin form needs dmoc or galerkin, fixed ends, and Euler-Lagrange equations as the only constraints");
+  }
   const TracedProblem& traced = program.traced_problem();
   const Eigen::Index n = traced.configuration_size();
   PointFunction formulas(n, traced.control_size(), [&](const ControlledState& point) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -155,7 +156,8 @@ class Measurement {
     scales_ << range_of_q_.each, range_of_v_.each, Ranges(trajectory.stage_u).each, Ranges(trajectory.y).each;
     if (traced.path_constraint_count() == 0) return;
     path_bounds_ = bounds.of_path(traced.path_constraint_count());
-    path_.emplace(traced, std::max(points * intervals_at_once, 2 * displacements * scales_.size() + 1));
+    path_ = std::make_unique<PathConstraints>(
+        traced, std::max(points * intervals_at_once, 2 * displacements * scales_.size() + 1));
     violated_.resize(static_cast<std::size_t>(path_->count()));
   }
 
@@ -460,7 +462,8 @@ class Measurement {
     for (Eigen::Index first = 0; first + 1 < rises.size(); first += 2 * displacements) {
       std::array<double, 2> nearest{infinite, infinite};
       for (Eigen::Index row = 0; row < 2 * displacements; ++row) {
-        if (rises[first + row] >= amount) nearest[row % 2] = std::ldexp(1.0, -static_cast<int>(row / 2));
+        if (rises[first + row] >= amount)
+          nearest[static_cast<std::size_t>(row % 2)] = std::ldexp(1.0, -static_cast<int>(row / 2));
       }
       const auto [near, far] = std::minmax(nearest[0], nearest[1]);
       if (std::isinf(far) && near > by_delta) continue;
@@ -535,7 +538,7 @@ class Measurement {
   Ranges range_of_q_;
   Ranges range_of_v_;
   std::vector<Worst> outside_;
-  std::optional<PathConstraints> path_;
+  std::unique_ptr<PathConstraints> path_;  // none without path constraints
   Bounds path_bounds_;
   std::vector<Worst> violated_;  // path constraints
   Eigen::VectorXd finest_;       // of every path constraint
@@ -561,11 +564,13 @@ std::string ViolationBetweenStages::words(const Problem& problem, const Trajecto
     text += fmt::format(" {} is violated by {:.2g} at {} (interval {}){}.", worst.constraint, worst.size,
                         time_in_words(problem, worst.time), worst.interval, size);
   };
-  if (!keeps_state())
+  if (!keeps_state()) {
     add(state, state.share > 1.0 ? ", more than its scale" : fmt::format(", {:.2g} of its scale", state.share));
-  if (!keeps_controls())
+  }
+  if (!keeps_controls()) {
     add(control,
         fmt::format("; with controls clipped to their bounds the final state moves by {:.1e} of its range", missed));
+  }
   // At a switch of a control more intervals hardly help.
   if (keeps_state()) {
     return text +

@@ -133,10 +133,11 @@ bool shows_independence(NonlinearProgram& program, const Eigen::VectorXd& point,
     compliance[i] = held[static_cast<std::size_t>(i)] ? at_bound : LinearisedConditions::no_part;
   }
   for (Eigen::Index i = 0; i < lengths.size(); ++i) {
-    if (!held[static_cast<std::size_t>(i)])
+    if (!held[static_cast<std::size_t>(i)]) {
       lengths[i] = 0.0;
-    else if (!(lengths[i] > 0.0))
+    } else if (!(lengths[i] > 0.0)) {
       return false;
+    }
   }
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(point.size());
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(point.size());
