@@ -84,7 +84,7 @@ inline constexpr double largest_cost_miss_of_a_motion = 0.12;
 ///
 /// Tolerances are absolute: next to one of 1e-8 a body that stays at rest solves the program of a distance of 1e-9. So
 /// each of `small_distances` has to show in the motion: what its jumps (`Accuracy::missed`) and its ends miss must not
-/// add up to half of it, or of the range of the entry. What a velocity misses counts for q times the horizon.
+/// add up to half of it, or of the range of the entry. A missed velocity counts for q times the horizon.
 [[nodiscard]] std::string lost_distance(const ProblemBounds& bounds, const Trajectory& motion,
                                         const Accuracy& accuracy);
 

@@ -19,7 +19,7 @@ namespace dmocbench {
 ///            momentum, with the round-off of the equations of nodes).
 /// Momenta: p = L_v(q, v) at the nodes.
 ///
-/// Velocities can be eliminated because an interval determines them at its ends. What remains per interval is one
+/// Velocities can be eliminated because an interval determines them at its ends. Each interval keeps one
 /// unknown rate more than in DMOC, because Q_i depends on the acceleration and the equations of the stages cannot be
 /// solved for it in formulas: (s + 1)n + sm unknowns, DMOC has sn + sm and tangent-space collocation 2sn + sm.
 class SecondOrderElement final : public Element {
