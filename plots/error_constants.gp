@@ -22,11 +22,11 @@ do for [name in "error_constants error_constants_two_stages"] {
     curves = distinct(name, "problem,method,tableau,stages", problem_word, "replay_error")
     power = exponent(2 * int(entry(word(curves, 1), "stages")))
     do for [kind in kinds] {
-      eval begin_figure(kind, problem."_".name, 520)
+      eval begin_figure(kind, problem."_".name, 535)
       figure_title = title_text(problem_label(problem).": errors times N".power,\
           "Thin lines: predicted from the exact optimum. Legends: limits, predicted and measured. Gauss, s = "\
           .entry(word(curves, 1), "stages").".", "")
-      eval panels(1, 2, 95, 25, 145, 105, 0)
+      eval panels(1, 2, 95, 25, 160, 105, 0)
       eval measure(name, problem_word, "intervals", "replay_error")
       eval intervals_axis
       eval set_range("x", x_low, x_high, 1.1)

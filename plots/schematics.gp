@@ -65,7 +65,7 @@ path_y(x) = 2.4 + 1.1 * sin(0.42 * x - 0.4)
 do for [kind in kinds] {
   eval begin_figure(kind, "paper_discreteforces", 470)
   eval plane(18, 7)
-  set title title_text("Left and right discrete forces", "Paper: section 2.2, fig:discreteforces",\
+  set title title_text("Left and right discrete forces", "Paper: section 2.2, fig:discreteforces.",\
       "Orange: forces from the interval before; blue: forces from the interval after.")
   do for [k = 0:2] {
     x = 3 + 6 * k
@@ -135,7 +135,7 @@ do for [figure in "paper_discretemaps paper_exact_maps"] {
 do for [kind in kinds] {
   eval begin_figure(kind, "paper_twolink", 660)
   eval plane(10, 7.2)
-  set title title_text("Model of the two-link manipulator", "Paper: section 4.2.2, fig:twolink",\
+  set title title_text("Model of the two-link manipulator", "Paper: section 4.2.2, fig:twolink.",\
       "Links with masses m, lengths l and moments of inertia J; angles counterclockwise from the horizontal.")
   angle_1 = 35.0 * pi / 180; angle_2 = 68.0 * pi / 180
   x0 = 1.6; y0 = 0.9
