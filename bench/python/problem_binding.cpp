@@ -15,6 +15,7 @@
 #include "methods/choose.hpp"
 #include "methods/expression/schedule.hpp"
 #include "methods/mechanics/member_name.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "problems/problem_registry.hpp"
@@ -55,10 +56,7 @@ ProblemHandle of_python(const py::object& original) {
 std::size_t operation_count(const ProblemHandle& handle) {
   return without_gil([&](Call&) {
     const Problem& problem = *handle.problem;
-    InputCounter inputs;
-    const auto n = problem.configuration_size();
-    ControlledState x{inputs.take(n), inputs.take(n), inputs.take(problem.control_size()), inputs.take()};
-    x.y = inputs.take(problem.first_order_size());
+    const ControlledState x = point_of_inputs(problem);
     const TracedProblem::Values values = TracedProblem(problem).at(x);
     std::vector<Expression> formulas{problem.lagrangian(x.state()), values.running_cost};
     for (const ExpressionVector* part : {&values.momentum, &values.generalised_force, &values.path_constraints}) {

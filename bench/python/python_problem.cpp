@@ -14,6 +14,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/first_order_problem.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
@@ -189,14 +190,6 @@ ProblemCard PythonProblem::card() const {
   });
 }
 
-ControlledState PythonProblem::some_point() const {
-  InputCounter inputs;
-  ControlledState x{inputs.take(configuration_size()), inputs.take(configuration_size()), inputs.take(control_size()),
-                    inputs.take()};
-  x.y = inputs.take(first_order_size());
-  return x;
-}
-
 std::shared_ptr<const PythonProblem::Numbers> PythonProblem::numbers() const {
   const Eigen::VectorXd parameters = parameter_values(*this);
   {
@@ -237,7 +230,7 @@ PythonProblem::Numbers PythonProblem::read_numbers() const {
       };
       numbers.bounds.interior.push_back({.relative_time = time, .q = part("q"), .v = part("v"), .y = part("y")});
     }
-    const ControlledState x = some_point();
+    const ControlledState x = point_of_inputs(*this);
     if (stated.contains("path_bounds"))
       numbers.bounds.path = for_each(bounds_of(stated, "path_bounds"), path_constraints(x).size());
     if (stated.contains("integrals_bounds"))

@@ -65,8 +65,6 @@ class PythonProblem final : public Problem {
   void name_entries(const State& x) const;
   [[nodiscard]] pybind11::object point(const State& x) const;
   [[nodiscard]] pybind11::object point(const ControlledState& x) const;
-  /// Inputs, to ask how many entries a formula has.
-  [[nodiscard]] ControlledState some_point() const;
   [[nodiscard]] std::shared_ptr<const Numbers> numbers() const;
   [[nodiscard]] Numbers read_numbers() const;
 

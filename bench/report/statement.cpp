@@ -14,6 +14,7 @@
 #include "bench/report/stated_problem.hpp"
 #include "methods/expression/vectors.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 
@@ -125,12 +126,7 @@ Bounds zeros(const ExpressionVector& values) { return Bounds::all(values.size(),
 
 void trace_along(const Problem& problem, const ProblemBounds& bounds, StatedProblem& result) {
   InputCounter inputs(result.letters.size());
-  ControlledState x;
-  x.q = inputs.take(problem.configuration_size());
-  x.v = inputs.take(problem.configuration_size());
-  x.u = inputs.take(problem.control_size());
-  x.y = inputs.take(problem.first_order_size());
-  x.t = inputs.take();
+  const ControlledState x = take_point(inputs, problem);
   result.along.push_back({"<mi>C</mi>", problem.running_cost(x), ""});
   result.along.push_back({"<mi>L</mi>", problem.lagrangian(x.state()), ""});
   Names forces = in_mathml(problem.configuration_names(), mathml_of_name);

@@ -9,6 +9,7 @@
 
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 
 namespace dmocbench {
 
@@ -57,13 +58,7 @@ std::string FormulaCheck::undefined_at(const MotionPoint& point, double t) {
 namespace {
 
 Schedule schedule_of(const TracedProblem& traced) {
-  InputCounter inputs;
-  const Eigen::Index n = traced.configuration_size();
-  const ExpressionVector q = inputs.take(n);
-  const ExpressionVector v = inputs.take(n);
-  const ExpressionVector u = inputs.take(traced.control_size());
-  const ExpressionVector y = inputs.take(traced.first_order_size());
-  return Schedule(traced.at(ControlledState{q, v, u, inputs.take(), y}).path_constraints);
+  return Schedule(traced.at(point_of_inputs(traced)).path_constraints);
 }
 
 }  // namespace

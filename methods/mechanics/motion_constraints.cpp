@@ -6,6 +6,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/expression/schedule.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
@@ -54,9 +55,7 @@ ExpressionVector constraint_multipliers(const Problem& problem, const Controlled
   constexpr std::size_t own = 4096;  // where inputs of these formulas begin, after the parameters
   const Eigen::Index n = x.q.size();
   InputCounter inputs(own);
-  ControlledState at{inputs.take(n), inputs.take(n), inputs.take(x.u.size()), {}};
-  at.y = inputs.take(x.y.size());
-  at.t = inputs.take();
+  const ControlledState at = take_point(inputs, n, x.u.size(), x.y.size());
   const Expression lagrangian = problem.lagrangian(at.state());
   const ExpressionVector momentum = gradient(lagrangian, at.v);
   ExpressionVector right = gradient(lagrangian, at.q) + problem.force(at) - jacobian(momentum, at.q) * at.v;

@@ -11,6 +11,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/first_order_problem.hpp"
 #include "methods/mechanics/member_name.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 
@@ -134,11 +135,7 @@ Eigen::Index held_numbers(const Problem& problem) {
 }
 
 Eigen::Index path_constraint_count(const Problem& problem) {
-  InputCounter inputs;
-  ControlledState x{inputs.take(problem.configuration_size()), inputs.take(problem.configuration_size()),
-                    inputs.take(problem.control_size()), inputs.take()};
-  x.y = inputs.take(problem.first_order_size());
-  return problem.path_constraints(x).size();
+  return problem.path_constraints(point_of_inputs(problem)).size();
 }
 
 }  // namespace
@@ -413,9 +410,7 @@ ExpressionVector PhasedProblem::boundary_conditions(const State& first, const St
 }
 
 std::string PhasedProblem::condition_in_words(std::size_t i) const {
-  InputCounter inputs;
-  const Eigen::Index n = configuration_size();
-  const State any{inputs.take(n), inputs.take(n), inputs.take(), inputs.take(first_order_size())};
+  const State any = point_of_inputs(*this).state();
   auto entry = static_cast<Eigen::Index>(i);
   for (const NamedConditions& some : named_conditions(any, any)) {
     if (entry < some.entries.size()) return fmt::format("{}, entry [{}]", some.name, entry);

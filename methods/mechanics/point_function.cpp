@@ -1,6 +1,7 @@
 #include "methods/mechanics/point_function.hpp"
 
 #include "methods/error.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 
 namespace dmocbench {
 
@@ -9,10 +10,7 @@ namespace {
 Tape trace(Eigen::Index n, Eigen::Index m, Eigen::Index l,
            const std::function<ExpressionVector(const ControlledState&)>& formulas) {
   InputCounter inputs;
-  ControlledState x{inputs.take(n), inputs.take(n), inputs.take(m), {}};
-  x.y = inputs.take(l);
-  x.t = inputs.take();
-  return Tape(Schedule(formulas(x)));
+  return Tape(Schedule(formulas(take_point(inputs, n, m, l))));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "methods/expression/vectors.hpp"
 #include "methods/mechanics/column_names.hpp"
 #include "methods/mechanics/member_name.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 #include "methods/mechanics/problem_bounds.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
@@ -103,13 +104,7 @@ void check_card(const Problem& problem, const ProblemCard& card) {
 }
 
 void check_picture(const Problem& problem) {
-  InputCounter inputs;
-  ControlledState x;
-  x.q = inputs.take(problem.configuration_size());
-  x.v = inputs.take(problem.configuration_size());
-  x.u = inputs.take(problem.control_size());
-  x.y = inputs.take(problem.first_order_size());
-  x.t = inputs.take();
+  const ControlledState x = point_of_inputs(problem);
   const Picture picture = call_formula(problem, "card().picture", [&] { return pictured_quantities(problem, x); });
   for (const PictureQuantity& quantity : picture) require_one_line(problem, "a unit of the picture", quantity.unit);
   require_names(problem, picture);

@@ -13,6 +13,7 @@
 #include "methods/mechanics/column_names.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 
 namespace dmocbench {
@@ -113,9 +114,7 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
 
 void TracedProblem::trace_formulas(const Problem& problem) {
   InputCounter inputs(parameter_inputs());
-  ControlledState point{inputs.take(n_), inputs.take(n_), inputs.take(m_), {}};
-  point.y = inputs.take(l_);
-  point.t = inputs.take();
+  const ControlledState point = take_point(inputs, n_, m_, l_);
   const Expression lagrangian = call_formula(problem, "lagrangian", [&] { return problem.lagrangian(point.state()); });
   const ExpressionVector force = call_formula(problem, "force", [&] { return problem.force(point); });
   require_size(force.size(), n_, problem, "force");

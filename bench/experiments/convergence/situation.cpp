@@ -8,6 +8,7 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {
@@ -55,19 +56,15 @@ struct ReadBy {
 };
 
 ReadBy what_path_constraints_read(const Problem& problem) {
-  InputCounter counter;
-  const ExpressionVector q = counter.take(problem.configuration_size());
-  const ExpressionVector v = counter.take(problem.configuration_size());
-  const ExpressionVector u = counter.take(problem.control_size());
-  const ExpressionVector y = counter.take(problem.first_order_size());
-  const ExpressionVector constraints = problem.path_constraints({q, v, u, counter.take(), y});
+  const ControlledState x = point_of_inputs(problem);
+  const ExpressionVector constraints = problem.path_constraints(x);
   const auto depends = [](const Expression& constraint, const ExpressionVector& inputs) {
     return std::ranges::any_of(gradient(constraint, inputs), [](const Expression& entry) { return !entry.is_zero(); });
   };
   ReadBy read;
   for (const Expression& constraint : constraints) {
-    read.control.push_back(depends(constraint, u));
-    read.state.push_back(depends(constraint, q) || depends(constraint, v) || depends(constraint, y));
+    read.control.push_back(depends(constraint, x.u));
+    read.state.push_back(depends(constraint, x.q) || depends(constraint, x.v) || depends(constraint, x.y));
   }
   return read;
 }

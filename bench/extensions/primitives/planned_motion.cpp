@@ -14,6 +14,7 @@
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/extensions/primitives/stored_roadmap.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/point_of_inputs.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
@@ -193,11 +194,7 @@ Columns<PicturePoint> picture_columns() {
 
 PictureAxes picture_axes(const PlannedMotion& planned) {
   const Problem& problem = *planned.problem;
-  InputCounter counter;
-  const ExpressionVector q = counter.take(problem.configuration_size());
-  const ExpressionVector v = counter.take(problem.configuration_size());
-  const ExpressionVector u = counter.take(problem.control_size());
-  const Picture plane = plane_of(problem, planned.system->shows_configurations, {q, v, u, counter.take()});
+  const Picture plane = plane_of(problem, planned.system->shows_configurations, point_of_inputs(problem));
   return {.x = with_unit(plane[0]), .y = with_unit(plane[1])};
 }
 
