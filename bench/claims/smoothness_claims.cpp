@@ -63,7 +63,7 @@ Finding kinks_leave_order_2(const ResultTables& tables, const std::string& /*pro
   };
   const auto kept = [](const Row& row) { return verdict_on_order(row, 4.0); };
   return found(verdict_on_all({verdict_on_all(kinked, lost), verdict_on_all(smooth, kept)}),
-               "slopes of the state with Gauss, s = 2, and kinks: {}", orders_in_words(kinked))
+               "slopes of the state with Gauss, s = 2, where the control has kinks: {}", orders_in_words(kinked))
       .also(worded("without: {}", orders_in_words(smooth)));
 }
 
@@ -176,7 +176,7 @@ Claims smoothness_claims() {
            .problems = examples,
            .where = "section 3.6, main_theorem",
            .whose = Whose::paper,
-           .states = "without constraint on the final state, state, costate and u(x, psi) have the order of the method",
+           .states = "with a free final state, state, costate and u(x, psi) have the order of the method",
            .judge = free_end_has_the_order,
            .evidence = evidence},
           {.id = "kinks_leave_order_2",

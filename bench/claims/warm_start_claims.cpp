@@ -26,7 +26,7 @@ struct StepRatios {
 
 double count(const Row& row, const char* column) {
   const double value = row.needed(column);
-  require(value >= 0.0 && value == std::floor(value), "{}: {} is {}, not a count", row.place(), column, value);
+  require(value >= 0.0 && value == std::floor(value), "{}: {} is {}, which is not a count", row.place(), column, value);
   return value;
 }
 
@@ -50,7 +50,7 @@ StepRatios ratios_of(const Selection& dmoc, const Selection& others, const std::
   require(static_cast<double>(ratios.microseconds.size()) >= enough_steps * steps,
           "sequence.csv: only {} of {} steps of {} are solved by both methods", ratios.microseconds.size(), steps,
           ratios.name());
-  require(own_iterations > 0.0, "sequence.csv: the steps of {} take no iterations", ratios.name());
+  require(own_iterations > 0.0, "sequence.csv: the steps of dmoc take no iterations ({})", ratios.name());
   ratios.iterations = other_iterations / own_iterations;
   return ratios;
 }
@@ -76,7 +76,7 @@ std::vector<StepRatios> all_ratios(const ResultTables& tables, const std::string
 Words left_out_of(const std::vector<StepRatios>& all) {
   std::size_t count = 0;
   for (const StepRatios& ratios : all) count += ratios.left_out;
-  return count == 0 ? Words() : worded("{} left out, not solved by both", counted(count, "step"));
+  return count == 0 ? Words() : worded("{} left out: not solved by both methods", counted(count, "step"));
 }
 
 Finding ratios_of_iterations(const ResultTables& tables, const std::string& problem) {
@@ -105,7 +105,7 @@ Claims warm_start_claims() {
            .states = "ratio of iterations, collocation to DMOC, when started warm from the unknowns and multipliers of "
                      "the previous problem",
            .judge = ratios_of_iterations,
-           .condition = "by interior_point",
+           .condition = "solved with interior_point",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"},
            .has_verdict = false},
           {.id = "warm_starts_in_less_time",
@@ -113,7 +113,7 @@ Claims warm_start_claims() {
            .states = "started warm from the unknowns and multipliers of the previous problem, a step with DMOC takes "
                      "less time than a step with collocation",
            .judge = less_time,
-           .condition = "by interior_point; the time of each step is the shortest of its repeats",
+           .condition = "solved with interior_point; the time of each step is the shortest of its repeats",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"}}};
 }
 
