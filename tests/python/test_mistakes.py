@@ -65,7 +65,7 @@ class Mistakes(unittest.TestCase):
             PendulumSwingUp(lenght=1.0)
 
     def test_no_return(self):
-        self.refused("lagrangian: returns None; is a \"return\" missing", variant(lagrangian=lambda self, x: None))
+        self.refused("lagrangian: returns None; add the missing \"return\"", variant(lagrangian=lambda self, x: None))
         self.refused("force: entry 0 of the returned value is None", variant(force=lambda self, x: [None]))
 
     def test_wrong_types(self):
@@ -74,7 +74,7 @@ class Mistakes(unittest.TestCase):
         self.refused("horizon: expected a number, got 'two'", variant(horizon="two"))
         self.refused("q is 'theta', expected coordinates", variant(q="theta"))
         self.refused("force is 3, expected a method", variant(force=3))
-        self.refused("expected a problem, or its name", 7)
+        self.refused("expected a problem or the name of a problem", 7)
         self.refused("intervals='many' is of the wrong type", intervals="many")
         self.refused("start= takes a Solution, a motion or arrays", start="guess")
         self.refused("intervals=16.5 is of the wrong type", intervals=16.5)
@@ -279,7 +279,7 @@ class Mistakes(unittest.TestCase):
 
     def test_arrays_of_batches_that_do_not_fit(self):
         problem = PendulumSwingUp()
-        with self.assertRaisesRegex(db.Error, "start has the shape \\(3, 3\\), expected \\(3, 2\\)"):
+        with self.assertRaisesRegex(db.Error, "start has shape \\(3, 3\\), expected \\(3, 2\\)"):
             db.solve_batch(problem, start=np.zeros((3, 3)))
         with self.assertRaisesRegex(db.Error, "same number of instances, got 3, 4"):
             db.solve_batch(problem, start=np.zeros((3, 2)), parameters={"length": np.ones(4)})
