@@ -52,7 +52,7 @@ Columns<AccuracyCost> accuracy_cost_columns() {
   using Paid = AccuracyCost;
   return head_columns<Paid>({"problem", "tableau", "stages", "solver", "derivatives"}, in_key) +
          Columns<Paid>{{"quantity", "", "quantity that is compared", &Paid::quantity, in_key},
-                       {"error", "", "error that all methods reach with this tableau, solver and derivatives",
+                       {"error", "", "error that all methods with this tableau, solver and derivatives reach",
                         &Paid::error, in_key}} +
          head_columns<Paid>({"method"}, in_key) +
          Columns<Paid>{{"intervals", "", "number of intervals N, interpolated between grids", &Paid::intervals},
@@ -255,7 +255,7 @@ Table advantage_ratios(const Selection& advantage) {
   }
   return table_of(
       compared_cost_columns({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals"},
-                            "quantity", "the quantity that is compared"),
+                            "quantity", "quantity that is compared"),
       costs);
 }
 

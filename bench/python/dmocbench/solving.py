@@ -266,8 +266,8 @@ class Solution:
     def animate(self, shape: Callable[[Any], Any] | None = None, *, frames: int = 100, seconds: float | None = None) -> Any:
         """Returns a matplotlib animation of the trajectory. shape: a function of a point x (`at`) that returns the points
         (x, y) of a line, such as the joints of an arm; by default the points of the problem's picture. seconds: the duration
-        of the animation, by default the horizon. Keep a reference to the returned animation; its save("motion.gif") writes a file,
-        and IPython.display.HTML(animation.to_jshtml()) shows it in a notebook."""
+        of the animation, by default the horizon. Keep a reference to the returned animation; its save("motion.gif") writes a
+        file, and IPython.display.HTML(animation.to_jshtml()) shows it in a notebook."""
         return plotting.animate(self, shape, frames=frames, seconds=seconds)
 
     def to_pandas(self, at: str = "nodes") -> Any:
