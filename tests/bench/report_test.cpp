@@ -237,7 +237,7 @@ TEST(Report, HoldsTheFirstRowsOfLongTablesAndSaysSo) {
   for (std::size_t n = 0; n < most_rows + 2; ++n) csv += fmt::format("{}\n", n);
   const ResultsFolder results = folder_with(Table::from_csv(csv));
   EXPECT_EQ(table_json(results.tables.front(), nullptr)["rows"].size(), most_rows);
-  EXPECT_TRUE(has(report_page(results, ""), fmt::format("The first {} rows are here.", most_rows)));
+  EXPECT_TRUE(has(report_page(results, ""), fmt::format("This page has the first {} rows.", most_rows)));
 }
 
 TEST(Report, SaysOfARunThatItIsNotComplete) {
