@@ -22,7 +22,7 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
   for (const Row& row : all.usable().sorted_by("intervals")) {
     const Selection tangent = midpoint(rows, "tangent").usable().matching(row, {"intervals"});
     if (tangent.empty()) continue;
-    ratios.push_back({"ratio of replay errors, DMOC to tangent-space collocation",
+    ratios.push_back({"ratio of replay errors (DMOC to tangent-space collocation)",
                       quotient(row, tangent.front(), "replay_error"), "dmoc", "N = " + row.text("intervals")});
     used.append(row);
   }
@@ -36,7 +36,7 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
       std::ranges::minmax_element(std::min(first, ratios.end() - 2), ratios.end(), {}, &Measurement::value);
   const auto [least_of_all, most_of_all] = std::ranges::minmax(ratios, {}, &Measurement::value);
   return found(verdict_on_interval(least->value, most->value, 0.0, 1.0),
-               "ratio of replay errors, DMOC to tangent-space collocation: {:.3f} on the finest grid (N = {}), and "
+               "ratio of replay errors (DMOC to tangent-space collocation): {:.3f} on the finest grid (N = {}), and "
                "within 1 % of this value from N = {} on",
                ratios.back(), used.back().text("intervals"), coarsest.text("intervals"))
       .also(worded("on all {} grids from N = {} on, the ratio lies between {:.3f} ({}) and {:.3f} ({})", used.size(),
@@ -101,8 +101,8 @@ Claims accuracy_claims() {
                  "state by less than the controls of tangent-space collocation",
        .judge = replay_beside_tangent,
        .condition = "the paper motivates DMOC with the control effort, which is meaningful only if the system responds "
-                    "to the forces as computed; it compares no responses; controls are constant over an interval; on "
-                    "coarse grids either method may have the smaller error",
+                    "to the forces as computed; it does not compare responses; controls are constant over an interval; "
+                    "on coarse grids either method may have the smaller error",
        .cause = "the discrete momentum balance does not bound the error of the trajectory: the errors of both methods "
                 "are of order h^2, with constants that depend on the trajectory",
        .evidence = {"convergence.csv"},

@@ -53,8 +53,8 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
         return Measurement{name, value, "indirect", "costates 0", unit};
       };
       finding.clauses.push_back(worded(
-          "the indirect method from costates 0 converges from {} of {} starts ({:.0f} to {:.0f} %), from {} of them to "
-          "the best branch",
+          "with costates 0, the indirect method converges from {} of {} starts ({:.0f} to {:.0f} %), from {} of them "
+          "to the best branch",
           of_indirect("converged", row.needed("converged")), of_indirect("starts", row.needed("starts")),
           of_indirect("lower confidence limit of the converged share", 100.0 * row.needed("converged_lower"), "%"),
           of_indirect("upper confidence limit of the converged share", 100.0 * row.needed("converged_upper"), "%"),

@@ -75,7 +75,7 @@ Finding more_entries_of_factors(const ResultTables& tables, const std::string& p
                                    more_expensive, std::numeric_limits<double>::infinity()),
                "ratio of Hamiltonian collocation to DMOC on {} grids in entries of the factor of the KKT matrix: {}",
                factors.distinct("intervals").size(), range(factors))
-      .also(worded("in entries of the matrix: {}", range(of("kkt_nonzeros"))));
+      .also(worded("ratio in entries of the matrix: {}", range(of("kkt_nonzeros"))));
 }
 
 /// The grids coarser than the finest one together, for each way separately: the smallest program alone takes less time
@@ -131,7 +131,7 @@ Predicate saves_at_equal(const char* quantity) {
                  Measurement{"largest ratio of free variables", of_method.max("variables_ratio"), method, at}));
       smallest = std::min(smallest, least);
     }
-    return found(smallest > more_expensive, "ratio of free variables, collocation to DMOC, at equal {} error: {}",
+    return found(smallest > more_expensive, "ratio of free variables (collocation to DMOC) at equal {} error: {}",
                  quantity, joined(words, ", "));
   };
 }

@@ -104,10 +104,10 @@ Words range_of(const Selection& rows, const char* derivatives, const std::string
 /// All settings together, as one sign test for each pair of rivals; in no setting differences may be better.
 Finding more_robust(const ResultTables& tables, const std::string& problem) {
   std::vector<Selection> settings{by_ipopt(tables, quasi_newton, problem)};
-  std::vector<const char*> names{"first derivatives, quasi-Newton, from a common start"};
+  std::vector<const char*> names{"quasi-Newton with first derivatives, from a common start"};
   if (tables.has(cold)) {
     settings.push_back(by_ipopt(tables, cold, problem));
-    names.push_back("second derivatives as well, from the guess");
+    names.push_back("first and second derivatives, from the guess");
   }
   std::vector<ClaimVerdict> verdicts;
   std::vector<Words> words;
@@ -140,7 +140,7 @@ Finding more_robust(const ResultTables& tables, const std::string& problem) {
         worded("from the guess, central differences solve {} of {} programs; {} are solved only with central "
                "differences, {} only with exact derivatives",
                central.by_differences, central.count, central.by_differences_alone, central.exact_alone));
-    reason = worded("{}: the error of their Jacobians, relative to the largest entry, is {}; with ADOL-C it is {}",
+    reason = worded("{}: relative to the largest entry, the error of Jacobians is {} with differences, {} with ADOL-C",
                     reason, range_of(settings.back(), "dense_differences", "jacobian_error"),
                     range_of(settings.back(), "adolc_whole", "jacobian_error"));
   }
@@ -202,8 +202,8 @@ struct Setting {
 };
 
 std::vector<Setting> settings_of(const ResultTables& tables, const std::string& problem) {
-  std::vector<Setting> settings{{by_ipopt(tables, quasi_newton, problem), "first derivatives, quasi-Newton"}};
-  if (tables.has(warm)) settings.push_back({by_ipopt(tables, warm, problem), "second derivatives as well"});
+  std::vector<Setting> settings{{by_ipopt(tables, quasi_newton, problem), "quasi-Newton with first derivatives"}};
+  if (tables.has(warm)) settings.push_back({by_ipopt(tables, warm, problem), "first and second derivatives"});
   return settings;
 }
 
@@ -248,7 +248,7 @@ Finding faster(const ResultTables& tables, const std::string& problem) {
     const std::vector<Measurement> jacobians = ratios_by_program(setting, rivals, "jacobian_over_residual", false);
     if (jacobians.empty()) continue;
     const std::vector<Measurement> iterations = ratios_by_program(setting, rivals, "major_iterations", true);
-    words.push_back(worded("{}: ratio of iterations where both solve the program {}, of times of a Jacobian {}",
+    words.push_back(worded("{}: ratio of iterations {} (where both solve), ratio of times of a Jacobian {}",
                            setting.name, range_of(iterations), range_of(jacobians)));
     if (iterations.empty()) continue;
     const auto [least, most] = std::ranges::minmax(iterations, {}, &Measurement::value);

@@ -37,7 +37,7 @@ Finding gap_beside_tangent(const ResultTables& tables, const std::string& proble
     const Selection other = rows.where("method", "tangent").matching(row, {"intervals"});
     require(!other.empty(), "invariants_energy_work.csv has no row of tangent with {} intervals",
             row.text("intervals"));
-    ratios.push_back({"ratio of the largest gaps, tangent to DMOC", quotient(other.front(), row, "largest_gap"),
+    ratios.push_back({"ratio of the largest gaps (tangent to DMOC)", quotient(other.front(), row, "largest_gap"),
                       "tangent", "N = " + row.text("intervals")});
   }
   require(dmoc.size() > 1, "invariants_energy_work.csv has {} rows of dmoc for {}; two are needed", dmoc.size(),

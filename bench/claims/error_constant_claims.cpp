@@ -72,7 +72,7 @@ Predicate limits_are_predicted(const std::string& quantity) {
         return ratio_of_limits(name, row, limits, "dmoc", "tangent", of);
       };
       finding = std::move(finding).also(worded(
-          "ratio of the errors, DMOC to tangent-space collocation, s = {}: predicted {:.4f}, measured {:.4f}",
+          "ratio of the errors (DMOC to tangent-space collocation), s = {}: predicted {:.4f}, measured {:.4f}",
           row.text("stages"), to_tangent("predicted ratio", prediction), to_tangent("measured ratio", quantity)));
     }
     return finding;
@@ -98,7 +98,7 @@ Finding second_order_replay(const ResultTables& tables, const std::string& probl
                     ratio_of_limits(name, row, limits, "second_order", "dmoc", quantity));
     });
   };
-  return found(verdict, "ratio of replay errors, second-order collocation to DMOC: {}",
+  return found(verdict, "ratio of replay errors (second-order collocation to DMOC): {}",
                ratios("ratio of replay errors", "replay_error"))
       .also(worded("ratio of the largest errors of q at the nodes: {}", ratios("ratio of errors of q", "state_error")));
 }
@@ -115,8 +115,8 @@ Claims error_constant_claims() {
                  .judge = limits_are_predicted(quantity),
                  .condition =
                      "with one and two Gauss stages; no bound is active. The uncertainty of a limit is its change when "
-                     "the finest grid is left out plus, for replays, their tolerance. A single limit further from its "
-                     "prediction than the sum of both uncertainties would refute the statement",
+                     "the finest grid is left out plus, for replays, the tolerance of the replay. A single limit "
+                     "further from its prediction than the sum of both uncertainties would refute the statement",
                  .evidence = {"error_constants_limits.csv", "error_constants_two_stages_limits.csv",
                               "figures/two_link_manipulator_error_constants.svg"}};
   };
@@ -134,8 +134,8 @@ Claims error_constant_claims() {
            .judge = second_order_replay,
            .condition = "with one Gauss stage, controls are constant over an interval. A ratio with a limit of at most "
                         "1 would refute the statement",
-           .cause = "its discrete flow has a larger error constant than DMOC's on some problems and a smaller one on "
-                    "others (replay_error_is_predicted)",
+           .cause = "the discrete flow of second-order collocation has a larger error constant than DMOC's on some "
+                    "problems and a smaller one on others (replay_error_is_predicted)",
            .evidence = {"error_constants_limits.csv", "figures/two_link_manipulator_error_constants.svg"}}};
 }
 

@@ -233,7 +233,7 @@ Claims flow_claims() {
        .where = "section 2.1, eq:noether_force",
        .whose = Whose::paper,
        .states = "along the continuous flow, the momentum changes by the integral of the force along the group action, "
-                 "and not at all if the force is orthogonal to it",
+                 "and not at all if the force is orthogonal to the group action",
        .judge = continuous_noether,
        .condition = "trajectories are integrated like replays, with an adaptive method of order 7(8)",
        .evidence = {"invariants_flow_momentum.csv"}},
@@ -243,8 +243,8 @@ Claims flow_claims() {
        .whose = Whose::paper,
        .states = "the unforced Lagrangian flow preserves the symplectic form Omega_L on TQ",
        .judge = lagrangian_form,
-       .condition = "with dv^dq in the second term of Omega_L, where dv^dv is printed; the derivative of the flow is "
-                    "the solution of the variational equations in long double",
+       .condition = "the second term of Omega_L has dv^dq here, where the paper prints dv^dv; the derivative of the "
+                    "flow is the solution of the variational equations in long double",
        .evidence = {"invariants_flow_symplecticity.csv"}},
       {.id = "energy_does_not_drift",
        .problems = simulated,

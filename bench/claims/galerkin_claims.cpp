@@ -58,7 +58,7 @@ Predicate have_the_order_of_spaces(std::string table, bool (*is_meant)(const Spa
       return worded("{} {} {} {}", row.text("method"), points, quantity, order);
     };
     return found(are_few && of_fitted == ClaimVerdict::reproduced ? ClaimVerdict::floor : of_fitted,
-                 "slopes against the indirect solution: {}", joined(rows, "; ", order_in_words))
+                 "slopes of errors relative to the indirect solution: {}", joined(rows, "; ", order_in_words))
         .also(unsolved_behind(tables, table, {{"problem", problem}}));
   };
 }

@@ -90,11 +90,11 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
     coarser = &tangent.front();
     const double ratio = error(tangent.front()) / error(row);
     if (row.needed("intervals") < coarsest_judged) {
-      below.push_back({"ratio of errors, tangent to dmoc", ratio, "tangent", "N = " + row.text("intervals")});
+      below.push_back({"ratio of errors (tangent to dmoc)", ratio, "tangent", "N = " + row.text("intervals")});
       continue;
     }
     are_equal = are_equal && ratio < equally_well && ratio > 1.0 / equally_well;
-    ratios.push_back({"ratio of errors, tangent to dmoc", ratio, "tangent", "N = " + row.text("intervals")});
+    ratios.push_back({"ratio of errors (tangent to dmoc)", ratio, "tangent", "N = " + row.text("intervals")});
   }
   require(used.size() > 1, "objective.csv has {} grids of {} solved by all three methods; two are needed", used.size(),
           problem);
@@ -102,7 +102,7 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
   const ClaimVerdict verdict = ratios.empty() ? ClaimVerdict::floor : verdict_on(is_identical && are_equal);
   return found(verdict, "the relative difference of J between dmoc and hamiltonian is {:.0e}",
                Measurement{"relative difference of J", difference, "hamiltonian"})
-      .also(worded("ratio of errors, tangent to dmoc, up to N = {}: {}", used.back().text("intervals"),
+      .also(worded("ratio of errors (tangent to dmoc) up to N = {}: {}", used.back().text("intervals"),
                    listed("{:.2f}", ratios)))
       .also(below.empty() ? Words() : worded("on coarser grids, which are not judged: {}", listed("{:.2f}", below)))
       .also(worded("{} grids with errors at the round-off of J are excluded", at_floor))
@@ -128,7 +128,7 @@ Finding variable_ratio(const ResultTables& tables, const std::string& problem) {
   const auto in_words = [&](const Row& row) {
     const std::string& method = row.text("method");
     return worded("{:.4f} of {}",
-                  Measurement{"ratio of free variables, DMOC to the method", ratio_to_dmoc(row), method}, method);
+                  Measurement{"ratio of free variables (DMOC to the method)", ratio_to_dmoc(row), method}, method);
   };
   return found(std::ranges::all_of(collocation, is_as_stated), "free variables at N = {}: {}", dmoc.text("intervals"),
                joined(collocation, ", ", in_words));

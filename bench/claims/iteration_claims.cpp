@@ -112,7 +112,7 @@ Finding minor_iterations_from_slacks(const ResultTables& tables, const std::stri
       verdicts.push_back(looser.verdict());
     }
   }
-  Finding finding = found(verdict_on_all(verdicts), "from the slack basis, ratio of collocation to DMOC {}",
+  Finding finding = found(verdict_on_all(verdicts), "from the slack basis, ratio of collocation to DMOC: {}",
                           ratios.in_words("slack basis"))
                         .also(ratios.rows_left_out());
   for (Words& clause : others) finding = std::move(finding).also(std::move(clause));
@@ -123,7 +123,8 @@ Finding minor_iterations_from_slacks(const ResultTables& tables, const std::stri
 Finding minor_iterations_from_a_crash_basis(const ResultTables& tables, const std::string& problem) {
   const SqpRatios ratios(sqp_rows(tables, problem, "basis"), "minor_iterations", published_range(problem));
   return found(verdict_on_interval(ratios.lowest(), ratios.highest(), 0.0, ratios.range.lowest),
-               "from a basis chosen without iterations, ratio of collocation to DMOC {}", ratios.in_words("free basis"))
+               "from a basis chosen without iterations, ratio of collocation to DMOC: {}",
+               ratios.in_words("free basis"))
       .also(ratios.rows_left_out());
 }
 
@@ -174,15 +175,15 @@ struct QuasiNewtonRatios {
 /// With quasi-Newton updates, as the SQP methods of the paper have them.
 Finding minor_iterations_by_quasi_newton(const ResultTables& tables, const std::string& problem) {
   const QuasiNewtonRatios ratios(tables, problem, "iterations_limited_memory_by_cost");
-  return found(verdict_on_all(ratios.verdicts), "ratio of collocation to DMOC {}", joined(ratios.words, "; "))
+  return found(verdict_on_all(ratios.verdicts), "ratio of collocation to DMOC: {}", joined(ratios.words, "; "))
       .because(worded("major iterations of collocation and DMOC: {}", joined(ratios.majors, "; ")));
 }
 
 /// The same where the unknowns are taken in the units in which they come.
 Finding minor_iterations_by_updates_of_the_identity(const ResultTables& tables, const std::string& problem) {
   const QuasiNewtonRatios ratios(tables, problem, "iterations_limited_memory");
-  return found(ClaimVerdict::measured, "ratio of collocation to DMOC {}", joined(ratios.words, "; "))
-      .also(worded("major iterations of collocation and DMOC {}", joined(ratios.majors, "; ")));
+  return found(ClaimVerdict::measured, "ratio of collocation to DMOC: {}", joined(ratios.words, "; "))
+      .also(worded("major iterations of collocation and DMOC: {}", joined(ratios.majors, "; ")));
 }
 
 /// With active bounds: the ratio of collocation's minor iterations to DMOC's, next to the ratio of the numbers of
@@ -257,7 +258,7 @@ Claims iteration_claims() {
       {.id = "quasi_newton_depends_on_units",
        .where = section,
        .figure = figure,
-       .states = "ratio of minor iterations, collocation to DMOC, if quasi-Newton updates start from the identity, "
+       .states = "ratio of minor iterations (collocation to DMOC) if quasi-Newton updates start from the identity, "
                  "that is, in the units of the unknowns",
        .judge = minor_iterations_by_updates_of_the_identity,
        .condition =
@@ -279,7 +280,7 @@ Claims iteration_claims() {
        .states = "minor iterations also reflect the reduced number of variables where bounds are active",
        .judge = minor_iterations_with_active_bounds,
        .condition = "solved cold, from the guess; the controls have bounds, unlike in the paper's problems",
-       .cause = "a step that a bound cuts short costs one additional minor iteration, with collocation as with DMOC",
+       .cause = "a step that a bound cuts short costs one additional minor iteration, with collocation and with DMOC",
        .evidence = {"iterations_bounds.csv"}},
   };
 }

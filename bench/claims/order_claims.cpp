@@ -119,7 +119,7 @@ Finding order_of_convergence(const ResultTables& tables, const std::string& prob
   require_all(orders, quantities);
   const ClaimVerdict verdict = verdict_on_orders(orders);
   if (verdict == ClaimVerdict::reproduced) require_solved_schemes(orders, tables, problem);
-  return found(verdict, "slopes of DMOC against the indirect solution: {}", in_words(orders))
+  return found(verdict, "slopes of DMOC's errors relative to the indirect solution: {}", in_words(orders))
       .also(not_in(orders, tables, problem));
 }
 
@@ -155,14 +155,14 @@ Finding stability_constant(const ResultTables& tables, const std::string& proble
           problem, all.size());
   const auto words = [](const Row& row) {
     const auto ratio = [&](const char* column, const char* grid) {
-      return Measurement{"error of the state over N times the largest jump", row.needed(column), row.text("method"),
-                         "N = " + row.text(grid)};
+      return Measurement{"error of the state divided by N times the largest jump", row.needed(column),
+                         row.text("method"), "N = " + row.text(grid)};
     };
     return worded("{} {:.4f} at N = {}, {:.4f} at N = {}", row.text("method"),
                   ratio("error_of_jumps_coarsest", "coarsest"), row.text("coarsest"),
                   ratio("error_of_jumps_finest", "finest"), row.text("finest"));
   };
-  return found(ClaimVerdict::measured, "error of the state over N times the largest jump between intervals: {}",
+  return found(ClaimVerdict::measured, "error of the state divided by N times the largest jump between intervals: {}",
                joined(rows, ", ", words));
 }
 
@@ -278,8 +278,8 @@ Claims order_claims() {
        .evidence = {"equivalence.csv", "convergence_indirect_slopes.csv", "figures/{}_adjoint.svg"}},
       {.id = "stability_constant",
        .where = "section 3.6, abstract_result",
-       .states = "the factor by which consistency errors of the state equations enter the error of the optimum, as the "
-                 "grid is refined",
+       .states = "the factor with which consistency errors of the state equations enter the error of the optimum as "
+                 "the grid is refined",
        .judge = stability_constant,
        .condition = "the factor is a lower bound on the constant of (abstract_result) for errors in this direction; "
                     "the reference, the indirect method, supports only the midpoint rule and fixed ends. The paper "

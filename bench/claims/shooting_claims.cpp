@@ -48,7 +48,7 @@ Finding order_of_shooting(const ResultTables& tables, const std::string& problem
   }
   const ClaimVerdict of_fitted = verdict_on_all(verdicts);
   const ClaimVerdict verdict = is_floor && of_fitted == ClaimVerdict::reproduced ? ClaimVerdict::floor : of_fitted;
-  return found(verdict, "slopes of the state error against the indirect solution: {}", joined(words, ", "));
+  return found(verdict, "slopes of the state error relative to the indirect solution: {}", joined(words, ", "));
 }
 
 /// The row of cold starts of a method by Ipopt.
@@ -107,7 +107,7 @@ Curves timed_curves(const ResultTables& tables, const std::string& problem, cons
                              .where("solver", "ipopt")
                              .sorted_by("intervals");
   require(rows.size() > 1 && rows.are_usable(),
-          "savings_by_solver_shooting.csv: {} by {} is not solved on the required branch on two grids", problem,
+          "savings_by_solver_shooting.csv needs several grids of {} by {}, all solved on the required branch", problem,
           method);
   Curves curves;
   for (const Row& row : rows) {

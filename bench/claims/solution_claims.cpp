@@ -361,8 +361,8 @@ Claims solution_claims() {
                  "the control Lagrangian, C + xi q'' + xi' q' with q'' a function of (q, q', u)",
        .judge = tangent_is_the_acceleration_form,
        .condition = "the multiplier xi is L_vv times the costate of the momentum; both forms of the control Lagrangian "
-                    "are equal where L_vv and L_vq are constant; this form is due to Leyendecker et al. (arXiv "
-                    "2307.13402) and Konopik et al. (arXiv 2502.04742, 2503.04466)",
+                    "are equal where L_vv and L_vq are constant; this form is the control Lagrangian of Leyendecker et "
+                    "al. (arXiv 2307.13402) and Konopik et al. (arXiv 2502.04742, 2503.04466)",
        .evidence = {"equivalence.csv"}}};
 }
 

@@ -102,7 +102,7 @@ Finding less_time(const ResultTables& tables, const std::string& problem) {
 Claims warm_start_claims() {
   return {{.id = "iterations_of_warm_starts",
            .where = "section 4.1, SQP Method",
-           .states = "ratio of iterations, collocation to DMOC, when started warm from the unknowns and multipliers of "
+           .states = "ratio of iterations (collocation to DMOC) for warm starts from the unknowns and multipliers of "
                      "the previous problem",
            .judge = ratios_of_iterations,
            .condition = "solved with interior_point",
@@ -110,8 +110,8 @@ Claims warm_start_claims() {
            .has_verdict = false},
           {.id = "warm_starts_in_less_time",
            .where = "section 3.4, rem:savings",
-           .states = "started warm from the unknowns and multipliers of the previous problem, a step with DMOC takes "
-                     "less time than a step with collocation",
+           .states = "with warm starts from the unknowns and multipliers of the previous problem, a step takes less "
+                     "time with DMOC than with collocation",
            .judge = less_time,
            .condition = "solved with interior_point; the time of each step is the shortest of its repeats",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"}}};
