@@ -134,7 +134,7 @@ class ColdStart final : public Experiment {
              .takes_batches = true},
             {{"start", "", "number of the cold start; 0 is the guess itself",
               from(&SolvedCase::the_case, &Case::variant, &Variant::label), in_key},
-             {"evaluations", "", "number of the solver's calls of the cost, the constraints and their derivatives",
+             {"evaluations", "", "number of evaluations of the cost, the constraints and their derivatives",
               from(&SolvedCase::solution, &Solution::total_evaluations)},
              {"reference_objective", "cost", "certified cost that the problem states", [](const SolvedCase& solved) {
                 const auto& reference = solved.the_case.problem->card().reference;

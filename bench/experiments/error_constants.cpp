@@ -104,10 +104,10 @@ class ErrorConstants final : public ExperimentOf<Measured> {
   [[nodiscard]] Columns<Measured> columns() const override {
     return {{"state_error", "", "largest error of q over the nodes", &Measured::state},
             {"replay_error", "", "distance from the final state in (q, v) at the end of a replay", &Measured::replay},
-            {"predicted_replay_error", "", "the same to leading order, from the exact optimum",
+            {"predicted_replay_error", "", "replay error to leading order, from the exact optimum",
              &Measured::predicted_replay},
             {"objective_error", "cost", "cost minus the optimal cost", &Measured::objective},
-            {"predicted_objective_error", "cost", "the same to leading order, from the exact optimum",
+            {"predicted_objective_error", "cost", "cost error to leading order, from the exact optimum",
              &Measured::predicted_objective}};
   }
 

@@ -49,7 +49,7 @@ class Iterations final : public ExperimentOf<Measured> {
          &Measured::predicted_minors},
         {"kkt_nonzeros", "", "entries of the lower triangle of the KKT matrix", from(fill, &KktFill::nonzeros)},
         {"factor_nonzeros", "", "nonzeros of the factor of the KKT matrix", from(fill, &KktFill::factor_nonzeros)},
-        {"evaluations", "", "number of the solver's calls of the cost, the constraints and their derivatives",
+        {"evaluations", "", "number of evaluations of the cost, the constraints and their derivatives",
          from(solution, &Solution::total_evaluations)},
         replay_error_column(&Measured::replay),
     };

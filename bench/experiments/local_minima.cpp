@@ -51,8 +51,8 @@ class LocalMinima final : public ExperimentOf<Measured> {
   LocalMinima()
       : ExperimentOf({.name = "local_minima",
                       .description = "Solves every case from many perturbed guesses. NAME_minima.csv has the minima "
-                                     "found and the number of starts that end in each, NAME_shares.csv the share that "
-                                     "ends in the best minimum, with a confidence interval. With --plane, the starts "
+                                     "found and the number of starts that end in each. NAME_shares.csv has the share "
+                                     "ending in the best minimum, with a confidence interval. With --plane, the starts "
                                      "form a plane, and NAME_basins.csv has the minimum that each start reaches.",
                       .options = {.solvers = {"auto"}, .intervals = "64", .start = "guess", .jobs = 2, .batch = true},
                       .further_files = {"_minima.csv", "_shares.csv", "_basins.csv"},

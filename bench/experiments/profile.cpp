@@ -50,7 +50,7 @@ class Profile final : public ExperimentOf<Measured> {
                 "reference: stated by the problem, or the best cost of all methods on the finest grid",
                 [](const Measured& measured) { return measured.reference ? stated_reference : ""; }},
                {"objective_error", "cost", "difference of the cost from reference_objective", &Measured::error},
-               {"evaluations", "", "number of the solver's calls of the cost, the constraints and their derivatives",
+               {"evaluations", "", "number of evaluations of the cost, the constraints and their derivatives",
                 &Measured::evaluations},
            } +
            columns_through<Measured>(&Measured::checks, check_columns());

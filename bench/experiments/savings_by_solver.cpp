@@ -60,7 +60,7 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
         {"linear_algebra_per_iteration", "s", "time of an iteration without evaluations",
          &Measured::linear_algebra_per_iteration},
         {"seconds_per_linear_system", "s", "time of a factorisation and a substitution", &Measured::per_linear_system},
-        {"objective_error", "", "relative error of the objective, compared with the indirect solution",
+        {"objective_error", "", "relative error of the objective with respect to the indirect solution",
          &Measured::objective_error},
         {"round_linear_seconds", "s", "time spent in linear systems in each round, separated by spaces",
          &Measured::linear_rounds},
@@ -71,7 +71,7 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
     line.list("--factorisation", factorisations_, "factorisation of interior_point's linear systems");
     line.ignored_unless(
         "--factorisation", [this] { return std::ranges::count(options().solvers, "interior_point") > 0; },
-        "only interior_point offers a choice of the factorisation");
+        "only interior_point offers a choice of factorisations");
   }
 
   /// Solvers but ours have no factorisation to choose.

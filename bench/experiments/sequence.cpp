@@ -147,7 +147,7 @@ int run_sequences(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program("sequence",
                      "Solves sequences of problems, each started from the trajectory, multipliers and barrier "
-                     "parameter of the previous one: a receding horizon with disturbances, and a homotopy in a "
+                     "parameter of the previous problem: a receding horizon with disturbances, and a homotopy in a "
                      "parameter. sequence.csv has the iterations and microseconds of every step, warm and cold; "
                      "sequence_summary.csv has their median, 99th percentile and maximum.",
                      argc, argv, run_sequences);

@@ -148,7 +148,7 @@ Columns<NeededGrid> needed_columns() {
              {"variables", "", "number of variables of the program", &N::variables},
              {"variables_at_accuracy", "", "number of variables times (true error / accuracy)^(1/order)",
               &N::variables_at_accuracy},
-             {"true_error", "", "relative error, compared with the certified optimum", &N::true_error},
+             {"true_error", "", "relative error with respect to the certified optimum", &N::true_error},
              {"estimated_error", "", "estimated relative error", &N::estimated_error},
              {"largest_step", "", "h", &N::largest_step},
              {"smallest_step", "", "h", &N::smallest_step},
