@@ -48,7 +48,7 @@ class Mistakes(unittest.TestCase):
     def test_wrong_sizes(self):
         self.refused("pendulum_swing_up: force has 2 entries, expected 1", variant(force=lambda self, x: [x.u[0], 0.0]))
         self.refused("lagrangian returns 2 entries", variant(lagrangian=lambda self, x: [x.v[0] ** 2, 1.0]))
-        self.refused("start: q lacks theta|start: q has an entry phi", variant(start=db.at_rest(phi=0.0)))
+        self.refused("start: q lacks theta|start: q has an unknown entry phi", variant(start=db.at_rest(phi=0.0)))
         self.refused("start: q has 2 entries, expected 1", variant(start=db.at_rest([0.0, 1.0])))
         self.refused("guess.*q has 3 entries, expected 1", variant(guess=lambda self, t: ([0, 1, 2], [0.0], [0.0])))
         self.refused("symmetry has 2 entries", variant(symmetry=lambda self, q: [1.0, 2.0]))
@@ -119,7 +119,7 @@ class Mistakes(unittest.TestCase):
 
         class Wrong(restated.PointsAtGivenTimes):
             waypoints = {0.5: db.state({"z": 1.0})}
-        self.refused("waypoints\\[0.5\\]: q has an entry z", Wrong())
+        self.refused("waypoints\\[0.5\\]: q has an unknown entry z", Wrong())
 
     def test_what_methods_do_not_know(self):
         self.refused("does not support first-order states \\(y\\)", restated.TwoLinkWithMotors(), method="multiple_shooting_rk4_1")

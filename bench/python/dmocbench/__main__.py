@@ -40,7 +40,7 @@ def problems_of(file):
 
 
 _without_problems = {"claims", "misprints", "new", "report", "step_control"}
-"""Experiments without an option --problem. They still register the problems of files."""
+"""Experiments without an option --problem; problems of files are also registered for these experiments."""
 
 
 def draw(words):

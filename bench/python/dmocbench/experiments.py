@@ -80,9 +80,9 @@ def _text(value):
 
 
 class Results(Table):
-    """The rows of an experiment. further: the other tables that it wrote, by the ends of their names ("slopes");
+    """The rows of an experiment. further: its other tables, by the ends of their names ("slopes");
     orders: the fitted orders, if there are any; files: the common beginning of the names of all files; is_complete:
-    whether everything is solved. Experiments with several tables, such as invariants, have only further tables."""
+    whether all solves succeeded. Experiments with several tables, such as invariants, have only further tables."""
 
     further: dict[str, Table]
     orders: Table | None

@@ -97,7 +97,7 @@ def animate(solution: Solution, shape: Shape | None = None, *, frames: int = 100
         places = np.array([np.asarray(shape(solution.at(t)), dtype=float) for t in times])
         if places.ndim != 3 or places.shape[2] != 2:
             raise Error(f"the function of animate() returns an array of the shape {places.shape[1:]}, expected points (x, y), "
-                        "a row each")
+                        "one per row")
     plt = pyplot()
     from matplotlib.animation import FuncAnimation
 

@@ -228,7 +228,7 @@ def _end_part(part, names, what, is_rate=False):
         _require_known(part, names, what)
         missing = [name for name in names if name not in part]
         if missing and not is_rate:
-            raise Error(f"{what} lacks {', '.join(missing)}; write free() for entries left open")
+            raise Error(f"{what} lacks {', '.join(missing)}; write free() for free entries")
         part = [part.get(name, 0.0) for name in names]
     if isinstance(part, between):
         part = [part] * len(names)
