@@ -215,7 +215,8 @@ Json accuracy(const ResultsFolder& results) {
                               on_both(compared(on_orbit, "larger", "smaller"), finest, " and on the arm ",
                                       compared(on_arm, "larger", "smaller"), finest_on_arm))},
           {"number", scientific(worst)},
-          {"unit", fmt::format("largest relative difference of their q, p, u and cost on {} grids", pairs.size())},
+          {"unit",
+           fmt::format("largest relative difference of both methods in q, p, u and cost on {} grids", pairs.size())},
           {"verdicts", verdicts_of(claims_of(results, {"equal_solutions", "state_slope"}))},
           {"cells", pictures_of([&](const std::string& problem, const AxisUnits& units) {
              return curves_picture(in_unit("state error", units.state) + " over intervals N",
@@ -254,7 +255,7 @@ Json structure(const ResultsFolder& results) {
                                 "force to round-off.")},
           {"but", replay_in_words(replays)},
           {"number", scientific(most)},
-          {"unit", "largest difference of their momentum and force on any interval of any grid"},
+          {"unit", "largest difference of momentum and force with both methods on any interval of any grid"},
           {"verdicts", verdicts_of(claims_of(results, {"momentum_consistency"}))},
           {"cells", pictures_of([&](const std::string& problem, const AxisUnits& units) {
              return curves_picture(in_unit("momentum minus force", units.momentum) + " over intervals N",
