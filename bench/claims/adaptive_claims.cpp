@@ -114,11 +114,12 @@ Finding more_variables_by_collocation(const ResultTables& tables, const std::str
       const double ratio = quotient(same.front(), own, "variables_at_accuracy");
       holds = holds && ratio > 1.0;
       const std::string stages = "s = " + own.text("stages");
-      words.push_back(worded("{} {}: {:.2f}", method, stages,
-                             Measurement{"ratio of variables to DMOC's at equal accuracy", ratio, method, stages}));
+      words.push_back(
+          worded("{} {}: {:.2f}", method, stages,
+                 Measurement{"number of variables relative to DMOC at equal accuracy", ratio, method, stages}));
     }
   }
-  return found(holds, "ratio of variables to DMOC's at equal accuracy: {}", joined(words, ", "));
+  return found(holds, "number of variables relative to DMOC at equal accuracy: {}", joined(words, ", "));
 }
 
 }  // namespace

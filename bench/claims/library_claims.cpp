@@ -139,7 +139,7 @@ Finding saving_lost_by_short_steps(const ResultTables& tables, const std::string
   return found(ClaimVerdict::measured,
                "{} pairs with equal costs: dmoc takes {:.2f} times the iterations of hamiltonian (geometric mean)",
                pairs,
-               Measurement{"ratio of iterations to Hamiltonian collocation", std::exp(sum / static_cast<double>(pairs)),
+               Measurement{"iterations relative to Hamiltonian collocation", std::exp(sum / static_cast<double>(pairs)),
                            "dmoc"})
       .also(worded("on {} of them, DMOC needs more evaluations per iteration", shortened))
       .also(worded("the saving is lost on {} pairs, on {} of these without more evaluations per iteration{}{}",

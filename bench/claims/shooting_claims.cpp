@@ -146,7 +146,7 @@ Predicate costs_more(const char* method) {
     timed.add(method, ratios);
     return found_by_times(
         timed,
-        fmt::format("ratio of solve times with Ipopt to DMOC's at a relative error of the cost of {:.1e}: ", error));
+        fmt::format("solve time with Ipopt relative to DMOC at a relative error of the cost of {:.1e}: ", error));
   };
 }
 

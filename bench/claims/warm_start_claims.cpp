@@ -83,9 +83,9 @@ Finding ratios_of_iterations(const ResultTables& tables, const std::string& prob
   const std::vector<StepRatios> all = all_ratios(tables, problem);
   const auto in_words = [](const StepRatios& ratios) {
     return worded("{} {:.2f}", ratios.name(),
-                  Measurement{"ratio of iterations to DMOC's", ratios.iterations, ratios.method, ratios.sequence});
+                  Measurement{"iterations relative to DMOC", ratios.iterations, ratios.method, ratios.sequence});
   };
-  return found(ClaimVerdict::measured, "ratio of iterations to DMOC's: {}", joined(all, ", ", in_words))
+  return found(ClaimVerdict::measured, "iterations relative to DMOC: {}", joined(all, ", ", in_words))
       .also(left_out_of(all));
 }
 
@@ -93,7 +93,7 @@ Finding less_time(const ResultTables& tables, const std::string& problem) {
   const std::vector<StepRatios> all = all_ratios(tables, problem);
   TimedRatios timed(1.0);
   for (const StepRatios& ratios : all) timed.add(ratios.name(), ratios.microseconds);
-  return found_by_times(timed, "ratio of the time of a step to DMOC's: ").also(left_out_of(all));
+  return found_by_times(timed, "time of a step relative to DMOC: ").also(left_out_of(all));
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ class Convergence final : public ExperimentOf<Measured> {
       indirect_ = std::make_shared<IndirectReference>(card_.options.out);
     }
     if (reference_ > 0 && std::ranges::count(chosen, reference_, intervals_of) == 0) {
-      throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
+      throw Error(fmt::format("--reference {0} is not one of the grids; add {0} to --intervals", reference_));
     }
     std::vector<Case> cases;
     for (std::vector<Case>& curve : curves_of(chosen)) {

@@ -123,7 +123,7 @@ class Smoothness {
     const SolvedCase fine =
         solve(case_of(situation, "dmoc", 2, finer_intervals), Start{smooth_motion(*coarse.trajectory)});
     if (!fine.trajectory || !is_solved(fine.solution.status))
-      throw Error(situation.name + " is not solved: " + fine.solution.message);
+      throw Error(situation.name + " is not solved on the reference grid: " + fine.solution.message);
     return *fine.trajectory;
   }
   void follow(const Situation& situation, const KnownOptimum& optimum, const Start& start, const std::string& method,

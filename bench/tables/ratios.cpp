@@ -58,8 +58,8 @@ Columns<AccuracyCost> accuracy_cost_columns() {
          Columns<Paid>{{"intervals", "", "number of intervals N, interpolated between grids", &Paid::intervals},
                        {"variables", "", "number of free variables", &Paid::variables},
                        {"seconds", "s", "time of a solve", &Paid::seconds},
-                       {"variables_ratio", "", "ratio of variables to dmoc's at this error", &Paid::variables_ratio},
-                       {"seconds_ratio", "", "ratio of seconds to dmoc's at this error", &Paid::seconds_ratio}};
+                       {"variables_ratio", "", "variables relative to dmoc at this error", &Paid::variables_ratio},
+                       {"seconds_ratio", "", "seconds relative to dmoc at this error", &Paid::seconds_ratio}};
 }
 
 /// The cost of every method if all of them reach the error.
