@@ -25,8 +25,8 @@ int judge_all(CommandLine& line) {
   std::filesystem::path out = "results";
   std::vector<std::string> required;
   line.option("--out", out, "the results folder");
-  line.list("--require", required, "claims that must be reproduced; exit code 1 otherwise");
-  line.exit_code_1("a claim of --require is not reproduced");
+  line.list("--require", required, "claims that must be reproduced (otherwise the exit code is 1)");
+  line.exit_code_1("a claim named with --require is not reproduced");
   line.parse();
   const ResultTables tables = ResultTables::read(out);
   std::vector<JudgedClaim> claims = judge_claims(tables);

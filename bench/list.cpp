@@ -79,8 +79,8 @@ std::string end_in_words(const Problem& problem, const BoundaryState& state, con
   sort(bounds.q, problem.configuration_names());
   sort(bounds.v, velocity_names(problem));
   return fmt::format("q = {}, v = {}{}{}{}{}", listed(state.q), listed(state.v),
-                     free.empty() ? "" : "; free (as guessed): ", fmt::join(free, ", "), between.empty() ? "" : "; ",
-                     fmt::join(between, ", "));
+                     free.empty() ? "" : "; free (values are the guess): ", fmt::join(free, ", "),
+                     between.empty() ? "" : "; ", fmt::join(between, ", "));
 }
 
 std::string horizon_in_words(const Problem& problem) {
@@ -95,7 +95,7 @@ std::string horizon_in_words(const Problem& problem) {
 void print_reference(const Problem& problem) {
   const auto reference = problem.card().reference;
   if (!reference) {
-    print_field("optimum", "unknown for these parameters");
+    print_field("optimum", "unknown for these parameter values");
     return;
   }
   print_field("optimum", fmt::format("{:#.{}g}, {} digits: {}", reference->objective, reference->digits,
@@ -118,7 +118,7 @@ std::string guess_in_words(const Problem& problem) {
       return a.size() != b.size() || a != b;
     };
     if (differ(own.q, usual.q) || differ(own.v, usual.v) || differ(own.u, usual.u)) {
-      return "defined in code and not described on its card (ProblemCard::guess)";
+      return "defined in code; the problem's card does not describe it (ProblemCard::guess)";
     }
   }
   return words;
@@ -165,7 +165,7 @@ void print_problem(const Problem& problem) {
   for (const Parameter& parameter : problem.parameters()) {
     fmt::print("    --set {}={:.6g}{}{}: {}, {}{}\n", parameter.name, parameter.value,
                parameter.unit.empty() ? "" : " ", parameter.unit, parameter.meaning, parameter.range(),
-               parameter.is_unknown ? "; an unknown, with this guess" : "");
+               parameter.is_unknown ? "; an unknown, which starts at this guess" : "");
   }
 }
 
@@ -249,23 +249,23 @@ int print_all(CommandLine& line) {
   std::vector<std::string> names;
   std::vector<std::string> settings;
   line.group(group_of_problem);
-  line.list("--problem", names, "show the complete statement of these problems");
-  line.option("--set", settings, "parameter=value of a problem; may be repeated");
+  line.list("--problem", names, "print the complete statement of these problems");
+  line.option("--set", settings, "set a parameter of a problem as PARAMETER=VALUE; may be repeated");
   line.group(group_of_output);
   bool as_json = false;
   std::string schema;
-  line.flag("--json", as_json, "print the problems as JSON, for other programs");
+  line.flag("--json", as_json, "print the problems as JSON for other programs");
   line.option("--schema", schema,
               "print a JSON Schema: problems (for --json), metadata (for NAME.json), claims, findings or claims_rows "
               "(for rows of these tables)");
   bool as_gnuplot = false;
-  line.flag("--families", as_gnuplot, "print the families of methods with labels and line styles, for figures");
+  line.flag("--families", as_gnuplot, "print the families of methods with labels and line styles for figures");
   bool as_titles = false;
-  line.flag("--titles", as_titles, "print titles and units of the problems as a table, for figures");
+  line.flag("--titles", as_titles, "print the titles and units of the problems as a table for figures");
   std::string kind;
   line.option("--names", kind,
-              "print only names, one per line, of one kind: problem, method, tableau, solver, derivatives, integrator "
-              "or program");
+              "print only the names of one kind, one per line: problem, method, tableau, solver, derivatives, "
+              "integrator or program");
   line.example("--problem cart_pole");
   line.exit_code_1("");
   parse_with_libraries(line);
@@ -283,7 +283,7 @@ int print_all(CommandLine& line) {
     for (const auto& problem : problems) print_problem(*problem);
     return code;
   }
-  fmt::print("Problems (--problem); list --problem NAME shows the complete statement of one\n\n");
+  fmt::print("Problems (--problem); list --problem NAME prints the complete statement of a problem\n\n");
   print_briefly(problems);
   fmt::print("\nMethods (--method)\n\n");
   for (const std::string& name : all_methods()) {

@@ -21,10 +21,10 @@ namespace dmocbench {
 namespace {
 
 constexpr const char* description =
-    "DMOC compared with collocation. dmocbench EXPERIMENT OPTIONS... runs an experiment; dmocbench help EXPERIMENT "
-    "lists its options and columns; dmocbench figures RESULTS draws the tables in a results folder.\n\n"
-    "First steps: dmocbench list; dmocbench solve --problem cart_pole; dmocbench new my_problem; dmocbench study "
-    "--problem cart_pole";
+    "Compares DMOC with collocation. dmocbench EXPERIMENT OPTIONS... runs an experiment; dmocbench help EXPERIMENT "
+    "lists its options and columns; dmocbench figures RESULTS draws the tables in a results folder.\n\nFirst steps: "
+    "dmocbench list; dmocbench solve --problem cart_pole; dmocbench new my_problem; dmocbench study --problem "
+    "cart_pole";
 
 void print_programs() {
   fmt::print("{}\n\n", description);
@@ -41,7 +41,7 @@ void run_installed(const std::string& name, char** argv) {
   const std::filesystem::path other = own_file().parent_path() / ("dmocbench-" + name);
   if (is_plain(name)) ::execv(other.c_str(), argv);  // returns where it fails
   const std::string meant = likely_meant(name, names_of(programs(), &Program::name));
-  throw Error(fmt::format("there is no experiment \"{}\"{}; dmocbench --help lists them", name.substr(0, 40),
+  throw Error(fmt::format("there is no experiment \"{}\"{}; dmocbench --help lists all experiments", name.substr(0, 40),
                           meant.empty() ? "" : " (did you mean " + meant + "?)"));
 }
 

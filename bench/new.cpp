@@ -22,17 +22,17 @@ constexpr const char* header = R"(#pragma once
 
 namespace dmocbench {
 
-/// Swing-up of a pendulum by a torque: replace the formulas by your own.
+/// Swing-up of a pendulum by a torque; replace the formulas with your own.
 ///
-/// Write sin, cos, sqrt, exp, log, pow on expressions; where a formula has a kink, smooth_abs, smooth_max, smooth_min or
-/// smooth_if_else. Angles are in radians; sizes near 1 suit solvers.
+/// Use sin, cos, sqrt, exp, log and pow on expressions; where a formula has a kink, use smooth_abs, smooth_max, smooth_min
+/// or smooth_if_else. Angles are in radians; solvers work best with sizes near 1.
 class CLASS : public Problem {
  public:
   CLASS()
       : Problem({{.name = "length", .value = 1.0, .unit = "m", .meaning = "of the rod", .lower = 0.1, .upper = 10.0}}) {}
 
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "swing-up of a pendulum, least torque",
+    return {.description = "swing-up of a pendulum with least torque",
             .time_unit = {"s", 1.0},
             .configuration_units = {"rad"},
             .control_units = {"N m"}};
@@ -40,14 +40,14 @@ class CLASS : public Problem {
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"theta"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"tau"}; }
 
-  /// L = T - V of a unit mass.
+  /// L = T - V for a unit mass.
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     const double l = parameter("length");
     return 0.5 * l * l * x.v[0] * x.v[0] + 9.81 * l * cos(x.q[0]);
   }
   /// The force on each coordinate.
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  /// The cost is the integral of this.
+  /// The integrand of the cost.
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 
   [[nodiscard]] BoundaryState initial_state() const override {
@@ -99,7 +99,7 @@ void require_name(const std::string& name) {
 
 int write_problem(CommandLine& line) {
   std::string name;
-  line.option("NAME", name, "name of the problem, its header and its library, such as pendulum_swing_up");
+  line.option("NAME", name, "name of the problem, of its header and of its library, such as pendulum_swing_up");
   line.example("pendulum_swing_up");
   line.exit_code_1("");
   line.parse();
@@ -122,8 +122,8 @@ int write_problem(CommandLine& line) {
 
 int run(int argc, char** argv) {
   return run_program("new",
-                     "Writes NAME.hpp, the skeleton of a problem, and a CMakeLists.txt that builds it as a library, to "
-                     "the current folder.",
+                     "Writes two files to the current folder: NAME.hpp, the skeleton of a problem, and a "
+                     "CMakeLists.txt that builds it as a library.",
                      argc, argv, write_problem);
 }
 

@@ -16,7 +16,7 @@ int write_report(CommandLine& line) {
   std::filesystem::path from = "results";
   std::string to;
   line.option("--from,--out", from, "the results folder");
-  line.option("--to", to, "the file to write; default: report.html in the results folder");
+  line.option("--to", to, "file to write; default: report.html in the results folder");
   line.exit_code_1("");
   parse_with_libraries(line);
   const ResultsFolder results = read_results_folder(from);
@@ -34,9 +34,9 @@ int write_report(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program("report",
-                     "Writes the results of a folder as one HTML page that needs no other file and no network.", argc,
-                     argv, write_report);
+  return run_program(
+      "report", "Writes the results of a folder as one HTML page that needs no other file and no network connection.",
+      argc, argv, write_report);
 }
 
 }  // namespace dmocbench::report_program

@@ -21,7 +21,7 @@ do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_adaptive", 680)
     figure_title = title_text(problem_label(problem).": steps of adapted grids",\
-        paper_note(problem, "section 5")."DMOC, Gauss with s stages, an error of 1e-8 of q, p and cost relative to their ranges.",\
+        paper_note(problem, "section 5")."DMOC with s Gauss stages; errors of q, p and cost are at most 1e-8 of their ranges.",\
         "Above: length of every step; below: the trajectory at the nodes for s = 3.")
     eval title_above
     eval place(90, 750, 310, top_of_panels(figure_title) + 15)
@@ -54,7 +54,7 @@ do for [kind in kinds] {
   eval begin_figure(kind, "adaptive_effectivity", 800)
   figure_title = title_text("Ratio of the estimated to the true error",\
       "Paper: section 5. Every problem, s = 1 and 2, uniform grids with N = 64 and 128 and adapted grids.",\
-      "True errors: against the indirect solution, above round-off; broken lines: 0.3 and 3.")
+      "True errors: relative to the indirect solution, above round-off; dashed: 0.3 and 3.")
   eval panels(2, 2, 80, 25, 115, 20, 45)
   do for [quantity in quantities] {
     eval power_axis("xy")

@@ -41,7 +41,7 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_basins", 490)
     figure_title = title_text(problem_label(problem).": minimum that each starting point reaches",\
-        paper_note(problem, "section 5").sprintf("Cold starts by %s: the guess with bulges sin(πt/T) in both coordinates; N = %s,"\
+        paper_note(problem, "section 5").sprintf("Cold starts with %s: the guess with bulges sin(πt/T) in both coordinates; N = %s,"\
         ." %d × %d starts.",\
         solver_label(entry(word(distinct(basins, "solver", group, ""), 1), "solver")), entry(group, "intervals"), places, places),\
         "Dark: not solved. Grey: too coarse (integrating an interval misses the next node).")
@@ -50,8 +50,8 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
     set yrange [B_min - half:B_max + half]
     set size ratio 1
     unset grid
-    set xlabel "bulge of q_1, over its range"
-    set ylabel "bulge of q_2, over its range" offset inwards
+    set xlabel "bulge of q_1 / range of q_1"
+    set ylabel "bulge of q_2 / range of q_2" offset inwards
     set style fill solid 1.0 noborder
     do for [i = 1:words(methods)] {
       method = word(methods, i)

@@ -141,7 +141,7 @@ do for [kind in kinds] {
 
   eval begin_figure(kind, "library_cold_start_budget", 520)
   figure_title = title_text("Every problem: cold starts that are solved and confirmed within a budget",\
-      "Mean of the problems’ shares, by interior point; an evaluation is a call for values or derivatives.", "")
+      "Mean share over the problems, with interior point; an evaluation is a call for values or derivatives.", "")
   eval panels(1, 1, 85, 15, 115, 0, 0)
   eval power_axis("x")
   set autoscale x

@@ -17,9 +17,9 @@ do for [where in problems_of("consistency", "momentum_defect_max")] {
   tangent = where.",method=tangent"
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_momentum", 620)
-    figure_title = title_text(problem_label(problem).": change of the momentum against the force",\
+    figure_title = title_text(problem_label(problem).": change of momentum compared with the force",\
         of_paper(problem, "fig:kepler\\_J", "fig:twolink\\_obj b)").conditions("consistency").".",\
-        "DMOC’s momenta are differences of positions over h: its curve shows their round-off and the residual of the solver.")
+        "DMOC’s momenta are position differences divided by h: its curve shows their round-off and the solver’s residual.")
     eval panels(1, 2, 95, 20, 135, 80, 0)
     do for [quantity in quantities] {
       eval measure("consistency", where, "intervals", quantity)

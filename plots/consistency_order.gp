@@ -35,9 +35,9 @@ do for [problem_word in problems_of("consistency_order", "error")] {
     do for [kind in kinds] {
       eval begin_figure(kind, problem."_".figure, 1000)
       figure_title = title_text(problem_label(problem)\
-          .": DMOC’s discrete objects against the exact ones, r the order of the tableau",\
-          paper_note(problem, "section 2.3, th:ordercalculation: hʳ⁺¹ for all of them"),\
-          "Legends show fitted slopes. Grey guides: C hʳ dashed, C hʳ⁺¹ dotted. No solve: both end points are given.")
+          .": errors of DMOC’s discrete objects; r is the order of the tableau",\
+          paper_note(problem, "section 2.3, th:ordercalculation: hʳ⁺¹ for all errors"),\
+          "Legends show fitted slopes. Grey guides: C hʳ dashed, C hʳ⁺¹ dotted. No solves: end points are given.")
       eval panels(3, 1, 105, 205, 84, 0, 40)
       do for [quantity in of_figure(figure)] {
         where = problem_word.",quantity=".quantity

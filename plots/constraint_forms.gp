@@ -16,9 +16,9 @@ do for [i = 1:words(mechanisms)] { if (strlen(distinct(name, "problem", statemen
 
 do for [kind in kinds] {
   eval begin_figure(kind, "constraint_forms", 120 + 230 * words(drawn))
-  figure_title = title_text("Mechanisms by multipliers, by embedding and in minimal coordinates",\
+  figure_title = title_text("Mechanisms with multipliers, embedding and minimal coordinates",\
       "DMOC with one Gauss stage, interior point; ".number_of_solves(told(name, "repeats")).".",\
-      "Left: condition of the KKT matrix, rows and columns of one size. Right: time of an iteration.")
+      "Left: condition number of the equilibrated KKT matrix. Right: time of an iteration.")
   eval panels(words(drawn), 2, 80, 15, 95, 90, 45)
   do for [place in drawn] {
     i = int(place)

@@ -47,10 +47,10 @@ do for [problem_word in problems] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_derivatives", 948)
     figure_title = title_text(problem_label(problem)\
-        .": solves by exact derivatives and by differences, ".solver_label(entry(scheme, "solver")),\
+        .": solves with exact derivatives and differences, ".solver_label(entry(scheme, "solver")),\
         paper_note(problem, "section 4.1").timed_conditions("derivatives").".",\
         (told("derivatives", "repeats") eq "1" ? "" : "Bars: quartiles. ").(strlen(further) > 0 ? "Dashed: quasi-Newton, tolerance ".entry(loosest, "tolerance")."." : "")\
-        ." Open: not solved, the time spent and the residual reached.")
+        ." Open: not solved (time spent, residual reached).")
     eval panels(2, columns_of_panels, 95, 15, 203, 12, 25)
     do for [q = 1:2] {
       quantity = word(quantities, q)

@@ -55,7 +55,7 @@ do for [where in problems_of("invariants_energy_work", "largest_gap")] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_energy_work", 760)
-    figure_title = title_text(problem_label(problem).": energy against the work of the forces along optimal trajectories",\
+    figure_title = title_text(problem_label(problem).": energy and the work of the forces along optimal trajectories",\
         paper_note(problem, "section 3.3")."Midpoint rule, each method on its own optimal trajectory; largest difference over the nodes.", "")
     eval panels(1, 2, 85, 15, 265, 85, 0)
     eval power_axis("xy")

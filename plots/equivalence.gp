@@ -37,7 +37,7 @@ do for [problem_word in problems_of(name, "")] {
     figure_title = title_text(problem_label(problem).": differences of collocation from DMOC with the same tableau",\
         paper_note(problem, "section 3.4, th:equi").conditions(name)\
         .", then Newton steps.",\
-        "Largest difference over nodes and components, relative to the largest value of the quantity by DMOC.")
+        "Largest difference over nodes and components, relative to DMOC’s largest value of the quantity.")
     eval panels(2, 1, 95, 250, 80, 0, 45)
     do for [column in "configuration_difference costate_difference"] {
       eval measure(name, problem_word, "intervals", column)
@@ -69,7 +69,7 @@ do for [problem_word in problems_of(name, "")] {
     eval begin_figure(kind, problem."_adjoint", 620)
     figure_title = title_text(problem_label(problem).": residual of the multipliers in the adjoint Runge-Kutta scheme",\
         paper_note(problem, "section 3.5, th:orderapp").conditions(name).", then Newton steps.",\
-        has_plain ? "Triangles: the coefficients of both costates not exchanged; for Gauss they are equal." : "")
+        has_plain ? "Triangles: without exchanging the coefficients of both costates (equal for Gauss)." : "")
     eval panels(1, 1, 95, 265, 80, 0, 0)
     unset title
     eval measure(name, problem_word.",method=dmoc".(has_plain ? ",tableau=lobatto" : ""), "intervals",\

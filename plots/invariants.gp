@@ -25,8 +25,8 @@ do for [where in problems_of("invariants_energy", "energy_largest")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_energy", 600)
     figure_title = title_text(\
-        "Unforced Kepler orbit, eccentricity 0.3: error of the energy", "Paper: section 3.3. Simulated, nothing is optimised.",\
-        "Energies in units of GM/a, a the semi-major axis; the Runge-Kutta methods are not symplectic.")
+        "Unforced Kepler orbit, eccentricity 0.3: error of the energy", "Paper: section 3.3. Simulated, not optimised.",\
+        "Energies in units of GM/a with the semi-major axis a; the Runge-Kutta methods are not symplectic.")
     eval title_above
     eval place(95, 460, 200, top_of_panels(figure_title))
     eval power_axis("xy")

@@ -48,7 +48,7 @@ do for [name in "iterations iterations_limited_memory"] {
         of_paper(problem, "fig:kepler\\_iterations: 1.7 times as many",\
             "fig:twolink\\_iterations: 1.5 times as many").conditions(name)."."\
         .left_out_text(count_of("all", name, where), count_of("''", name, where)),\
-        "Lines: free variables (less constraints, from a free basis) plus later majors.")
+        "Lines: free variables (minus constraints, from a free basis) plus later major iterations.")
     do for [kind in kinds] {
       eval begin_figure(kind, figure_of(problem), 680)
       plot for [curve in slack] rows(name, with_start(curve, "none"), "minor_iterations")\
@@ -64,7 +64,7 @@ do for [name in "iterations iterations_limited_memory"] {
              .",crash=none'", name) using (column("intervals")):\
              (stringcolumn("branch") eq "same" ? NaN : column("minor_iterations")) with points\
              linetype method_style(entry(word(others, k), "method")) pointtype 2 pointsize 1.1 notitle,\
-           keyentry with lines linecolor rgb "white" title "{/:Bold from the basis of slacks}",\
+           keyentry with lines linecolor rgb "white" title "{/:Bold from the slack basis}",\
            for [curve in slack] rows(name, with_start(curve, "none"), "minor_iterations")\
              using (column("intervals")):(column("minor_iterations")) with points\
              linetype method_style(entry(curve, "method")) pointsize size(curve, 1)\

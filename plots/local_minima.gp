@@ -57,7 +57,7 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
         paper_note(problem, "section 4.1").sprintf("Cold starts (the guess and perturbed guesses) by %s; tolerance %s; N = %s.%s",\
         solver_label(entry(word(distinct(shares, "solver", group, ""), 1), "solver")), told("local_minima", "tolerance"), entry(group, "intervals"), found > drawn\
             ? sprintf(" The %d lowest of %d confirmed minima.", drawn, found) : ""),\
-        "Unconfirmed: too coarse, integrating each interval misses the next node.")
+        "Unconfirmed: too coarse (integrating each interval misses the next node).")
     eval title_above
     eval place(90, 755, 425, top_of_panels(figure_title) - 15)
     set xtics nomirror scale 0 () font ",13"

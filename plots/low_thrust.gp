@@ -21,7 +21,7 @@ do for [problem_word in problems_of("low_thrust", "cost_error")] {
     eval begin_figure(kind, problem."_low_thrust", 400 * lines_of_figure + 210)
     figure_title = title_text(problem_label(problem)." with many revolutions: error of the optimal cost",\
         for_paper(problem, "Paper: section 4.2.1, one revolution", "")."One Gauss stage or one step of shooting per interval.",\
-        "Titles state J*: the indirect solution, or the value on which two methods agree. One start for all solves.")
+        "Titles state J*: of the indirect solution, or of two methods that agree. All solves have the same start.")
     eval panels(lines_of_figure, columns_of_figure, 90, 15, 165, 80, 110)
     do for [panel in panels] {
       where = problem_word.",revolutions=".entry(panel, "revolutions")

@@ -30,8 +30,8 @@ do for [where in problems_of("objective", "")] {
     figure_title = title_text(problem_label(problem).": cost over the number of intervals",\
         of_paper(problem, "no figure", "fig:twolink\\_obj a)").conditions("objective").".",\
         panels == 1 ? "" : is_certified\
-        ? "Right: J* is the certified cost of the continuous problem; an error that changes its sign dips."\
-        : "Right: against the cost of ".reference_words("convergence", where)."; an error that changes its sign dips.")
+        ? "Right: J* is the certified cost of the continuous problem; dips are sign changes of the error."\
+        : "Right: against the cost of ".reference_words("convergence", where)."; dips are sign changes of the error.")
     if (panels == 2) { eval panels(1, 2, 90, 15, 115, 100, 0) } else { set title figure_title }
     if (panels == 2) { eval key_below } else { set key top right }
     eval measure("objective", where, "intervals", "objective")

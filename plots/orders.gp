@@ -46,8 +46,8 @@ do for [problem_word in problems_of(name, "state_error")] {
       eval begin_figure(kind, figure, 1080)
       figure_title = title_text(problem_label(problem).": errors of DMOC at the ".place.", every tableau",\
           paper_note(problem, "order 2s for Gauss, 2s − 2 for Lobatto"),\
-          "Against the indirect solution. No slope: too few grids above round-off"\
-          ." (“floor”) or that agree (“unsteady”). Grey: powers of N.")
+          "Reference: indirect solution. No slope: too few grids above round-off"\
+          ." (“floor”) or in agreement (“unsteady”). Grey: powers of N.")
       eval panels(4, 1, 65, 285, 84, 0, 36)
       do for [quantity in panels_here] {
         error = quantity."_error"

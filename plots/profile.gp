@@ -36,7 +36,7 @@ variant_label(i) = (differ("tableau") ? ", ".entry(where_of(i), "tableau") : "")
     .(differ("solver") ? ", ".solver_label(entry(where_of(i), "solver")) : "")
 plateau_label(i) = sprintf("%s: %d of %d", label_of(i), successes(i), instances)
 left_out = count < words(all_competitors)\
-    ? sprintf(" Shown are the %d of %d that solve most.", count, words(all_competitors)) : ""
+    ? sprintf(" The %d of %d with most successes are shown.", count, words(all_competitors)) : ""
 # A line style from text cannot stand in a plot with iteration.
 do for [i = 1:count] { eval sprintf("set linetype %d %s pointtype %d pointsize 0.7", 20 + i, line_of(i), marker(i)) }
 
@@ -127,7 +127,7 @@ do for [page = 1:pages] { do for [kind in kinds] {
   eval begin_figure(kind, page_name(page), 160 + bottom + 210 * lines_here)
   figure_title = title_text(\
       "Effort for an accurate cost on every problem of the library", timed_conditions("profile").".",\
-      "Each line goes over the grids, coarsest first; only solves that met the reference's cost are drawn.".left_out)
+      "Each line joins the grids, coarsest first; only solves that reached the reference cost are drawn.".left_out)
   eval panels(lines_here, columns, 85, 20, bottom, 60, 75)
   do for [p = first:last] {
     problem_word = word(problems, p)
@@ -153,7 +153,7 @@ do for [page = 1:pages] { do for [kind in kinds] {
       unset xtics; unset ytics; unset mytics
       set xrange [0:1]; set yrange [0:1]
       set label 1 (place_in(without_reference, problem_word) > 0 ? "no reference cost\nto compare with"\
-          : "no solve met\nthe reference's cost") at graph 0.5, 0.55 center font ",13" textcolor rgb grey
+          : "no solve reached\nthe reference cost") at graph 0.5, 0.55 center font ",13" textcolor rgb grey
     }
     legend = p == first ? count : 0
     if (drawn) {

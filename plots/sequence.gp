@@ -21,9 +21,9 @@ do for [problem_word in problems_of("sequence", "microseconds")] {
   grid = entry(distinct("sequence", "intervals", problem_word, ""), "intervals")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_sequence", 420 * words(sequences) + 90)
-    figure_title = title_text(problem_label(problem).": time of a step that starts warm",\
-        "Each solve starts from unknowns and multipliers of the previous one; interior point, N = ".grid.".",\
-        "Medians of iterations and of times; the time of a step is the solver’s alone, the smallest of its repeats.")
+    figure_title = title_text(problem_label(problem).": time of a warm-started step",\
+        "Each solve starts from the previous unknowns and multipliers; interior point, N = ".grid.".",\
+        "Medians of iterations and times; the time of a step is the solver’s shortest time over the repeats.")
     eval title_above
     do for [panel = 1:words(sequences)] {
       where = problem_word.",".word(sequences, panel)

@@ -35,9 +35,9 @@ do for [problem_word in distinct("shooting", "problem", "", "")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_shooting", has_errors ? 940 : 520)
     figure_title = title_text(problem_label(problem).": DMOC and shooting",\
-        paper_note(problem, "section 3.3").(has_errors ? "Errors against the indirect solution. " : "").starts." cold starts by Ipopt,"\
+        paper_note(problem, "section 3.3").(has_errors ? "Reference: indirect solution. " : "").starts." cold starts by Ipopt,"\
         ." N = ".grid.".",\
-        "Condition: KKT matrix, rows and columns of one size. One rk4 step and s = 1 unless stated.")
+        "Condition number of the equilibrated KKT matrix. One rk4 step and s = 1 unless stated.")
     eval title_above
     if (has_errors) {
       eval place(105, 755, 530, top_of_panels(figure_title))

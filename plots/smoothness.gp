@@ -29,7 +29,7 @@ do for [kind in kinds] {
   unset key; unset grid; unset border
   unset label
   set title title_text("Order of the state error of DMOC with 1 and 2 Gauss stages",\
-      "Paper: section 3.6, order 2s where the optimum is smooth. A mark is the number of stages s.", "") offset 0, 1.2
+      "Paper: section 3.6, order 2s where the optimum is smooth. Marks show the number of stages s.", "") offset 0, 1.2
   set lmargin at screen 0.30; set rmargin at screen 0.72; set tmargin at screen 0.80; set bmargin at screen 0.13
   set xrange [1:5]; set yrange [total + 0.6:0.4]
   set xtics 1, 1, 5; set format x "%g"; unset ytics

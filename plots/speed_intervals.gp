@@ -37,7 +37,7 @@ do for [problem in paper] { if (here("way=tape,problem=".problem, "nanoseconds")
 if (words(drawn) > 0) {
   do for [kind in kinds] {
     eval begin_figure(kind, "speed_ways", 90 + 350 * words(drawn))
-    figure_title = title_text("Cost of exact derivatives of an interval, for every way", "",\
+    figure_title = title_text("Time of exact derivatives per interval, for every way", "",\
         sprintf("DMOC with the midpoint rule, N = %s, %s, one core; smaller is better.", intervals, set_label))
     eval panels(words(drawn), 1, 90, 15, 100, 0, 45)
     do for [i = 1:words(drawn)] {

@@ -18,7 +18,7 @@ do for [p = 1:3] { if (here(p)) { drawn = drawn.sprintf(" %d", p) } }
 do for [kind in kinds] {
   eval begin_figure(kind, "speed_published", 560)
   set title title_text("Seconds of a solve, published and here", "The published quadrotor has nine states, ours twelve.",\
-      "Hollow: on other machines, by other discretisations, to other tolerances. Unsolved cases are left out.")
+      "Hollow: other machines, other discretisations, other tolerances. Unsolved cases are left out.")
   eval power_axis("y")
   set ylabel "time of the solver [s]"
   set xrange [0.5:words(groups) + 0.5]

@@ -2,7 +2,7 @@
 # A script sets `plots` (this folder) and loads this file; `results` is the folder of the tables.
 if (!exists("results")) results = "results"
 # gnuplot runs text between backquotes, wherever the folder's name is evaluated.
-if (strstrt(results, '`') > 0) { print "the folder of the results must have no backquote in its name"; exit status 1 }
+if (strstrt(results, '`') > 0) { print "the name of the results folder must not contain a backquote"; exit status 1 }
 set encoding utf8
 set datafile separator comma
 set datafile columnheaders

@@ -22,7 +22,7 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
   for (const Row& row : all.usable().sorted_by("intervals")) {
     const Selection tangent = midpoint(rows, "tangent").usable().matching(row, {"intervals"});
     if (tangent.empty()) continue;
-    ratios.push_back({"ratio of replay errors, DMOC to tangent-space collocation",
+    ratios.push_back({"ratio of replay errors (DMOC to tangent-space collocation)",
                       quotient(row, tangent.front(), "replay_error"), "dmoc", "N = " + row.text("intervals")});
     used.append(row);
   }
@@ -36,12 +36,12 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
       std::ranges::minmax_element(std::min(first, ratios.end() - 2), ratios.end(), {}, &Measurement::value);
   const auto [least_of_all, most_of_all] = std::ranges::minmax(ratios, {}, &Measurement::value);
   return found(verdict_on_interval(least->value, most->value, 0.0, 1.0),
-               "ratio of replay errors, DMOC to tangent-space collocation: {:.3f} on the finest grid, N = {}, "
-               "and within 1 % of it from N = {} on",
+               "ratio of replay errors (DMOC to tangent-space collocation): {:.3f} on the finest grid (N = {}), and "
+               "within 1 % of this value from N = {} on",
                ratios.back(), used.back().text("intervals"), coarsest.text("intervals"))
-      .also(worded("on all {} grids, from N = {} on, between {:.3f} ({}) and {:.3f} ({})", used.size(),
+      .also(worded("on all {} grids from N = {} on, the ratio lies between {:.3f} ({}) and {:.3f} ({})", used.size(),
                    used.front().text("intervals"), least_of_all, least_of_all.at, most_of_all, most_of_all.at))
-      .also(left_out(all, used, "not solved by both, in favour of"));
+      .also(left_out(all, used, "not solved by both methods, which favours"));
 }
 
 /// The momentum balance at the level of rounding, on the finest grid that both methods solve.
@@ -58,7 +58,7 @@ Finding rounding_floor(const ResultTables& tables, const std::string& problem) {
     finest.append(row);
     finest.append(same.front());
   }
-  require(!finest.empty(), "consistency.csv has no grid of {} solved by dmoc and hamiltonian with a tolerance",
+  require(!finest.empty(), "consistency.csv has no grid of {} solved by dmoc and hamiltonian to a stated tolerance",
           problem);
   return found(ClaimVerdict::measured,
                "largest defect of the momentum balance at N = {}: dmoc {:.1e}, hamiltonian {:.1e}, ratio {:.1f}",
@@ -86,7 +86,7 @@ Finding interior_point_beside_ipopt(const ResultTables& tables, const std::strin
           compared, problem);
   constexpr double equal = 1e-9;
   return found(largest < equal,
-               "costs of {} programs by interior_point and by Ipopt have relative differences of at most {:.0e}",
+               "costs of {} programs from interior_point and Ipopt have relative differences of at most {:.0e}",
                compared, Measurement{"largest relative difference of the costs", largest});
 }
 
@@ -97,26 +97,26 @@ Claims accuracy_claims() {
   return {
       {.id = "replay_beside_tangent",
        .where = "section 1",
-       .states = "replayed on the continuous equations, DMOC's controls miss the final state by less than the controls "
-                 "of tangent-space collocation, in the limit of fine grids",
+       .states = "in the limit of fine grids, DMOC's controls, replayed on the continuous equations, miss the final "
+                 "state by less than the controls of tangent-space collocation",
        .judge = replay_beside_tangent,
-       .condition = "the paper motivates DMOC by effort that is meaningful only if the system responds to the "
-                    "forces as computed, and compares no responses; controls are constant over an interval; on coarse "
-                    "grids either method may have the smaller error",
+       .condition = "the paper motivates DMOC with the control effort, which is meaningful only if the system responds "
+                    "to the forces as computed; it does not compare responses; controls are constant over an interval; "
+                    "on coarse grids either method may have the smaller error",
        .cause = "the discrete momentum balance does not bound the error of the trajectory: the errors of both methods "
                 "are of order h^2, with constants that depend on the trajectory",
        .evidence = {"convergence.csv"},
        .headline = true},
       {.id = "rounding_floor",
        .where = "section 3.3, Implementation",
-       .states = "round-off in the momentum balance of DMOC, whose states are in Q x Q, on the finest grid",
+       .states = "round-off in the momentum balance of DMOC, whose states lie in Q x Q, on the finest grid",
        .judge = rounding_floor,
-       .condition = "DMOC's momenta are differences of positions divided by h, so that their round-off grows as 1/h",
+       .condition = "DMOC's momenta are differences of positions divided by h, so their round-off grows as 1/h",
        .evidence = {"consistency.csv", "figures/{}_momentum.svg"},
        .has_verdict = false},
       {.id = "interior_point_beside_ipopt",
        .where = "section 4.1, SQP Method",
-       .states = "interior_point, the solver of experiments that do not compare solvers, ends in the minima of Ipopt",
+       .states = "interior_point, the solver of experiments that do not compare solvers, finds the minima of Ipopt",
        .judge = interior_point_beside_ipopt,
        .condition =
            "warm starts from a common trajectory; the solutions of both solvers are refined by Newton steps, so "

@@ -16,7 +16,7 @@ const Problems uneven_problems{"eccentric_transfer", "hypersensitive"};
 
 double effectivity_of(const Row& row) {
   const double value = row.needed("effectivity");
-  require(value >= 0.0, "{}: effectivity is {}, below 0", row.place(), value);
+  require(value >= 0.0, "{}: the effectivity is {}; it must not be negative", row.place(), value);
   return value;
 }
 
@@ -45,12 +45,13 @@ Finding effective(const ResultTables& tables, const std::string& /*problem*/) {
   const Selection coarse = all.where("status", "too coarse");
   const Selection unsolved =
       all.where([](const Row& row) { return row.text("status") != "solved" && row.text("status") != "too coarse"; });
-  return found(outside == 0, "ratio of estimated to true error from {} to {}", words_of_effectivity(*least),
+  return found(outside == 0, "the ratio of estimated to true error ranges from {} to {}", words_of_effectivity(*least),
                words_of_effectivity(*most))
-      .also(worded("{} of {} outside 0.3 to 3", outside, judged_rows.size()))
-      .also(worded("of {} with errors above 1 %, {} are outside", large.size(), count_outside(large)))
-      .also(worded("{} below the floor, {} solutions too coarse, {} not solved", all.where("verdict", "floor").size(),
-                   coarse.size(), unsolved.size()))
+      .also(worded("{} of {} ratios lie outside 0.3 to 3", outside, judged_rows.size()))
+      .also(worded("of {} ratios for errors above 1 %, {} lie outside", large.size(), count_outside(large)))
+      .also(worded(
+          "not judged: {} errors below the floor of round-off, {} solutions that are too coarse, {} unsolved programs",
+          all.where("verdict", "floor").size(), coarse.size(), unsolved.size()))
       .also(worded("{} problems", measured.distinct("problem").size()));
 }
 
@@ -62,7 +63,7 @@ Selection reached(const ResultTables& tables, const std::string& problem, const 
                        .where("grid", grid)
                        .where("status", "solved")
                        .with_number("intervals");
-  require(!rows.empty(), "adaptive.csv has no {} grid of {} by {} that reaches the accuracy", grid, problem, method);
+  require(!rows.empty(), "adaptive.csv has no {} grid of {} on which {} reaches the accuracy", grid, problem, method);
   return rows;
 }
 
@@ -83,10 +84,10 @@ Finding fewer_intervals(const ResultTables& tables, const std::string& problem) 
     const Row& best = fewest_intervals(adapted);
     const Row& other = fewest_intervals(uniform);
     const auto ratio = [&](const Row& uniform_row, const Row& adapted_row, const std::string& at) {
-      return Measurement{"ratio of intervals, uniform to adapted grids",
+      return Measurement{"ratio of intervals (uniform to adapted grids)",
                          quotient(uniform_row, adapted_row, "intervals"), method, at};
     };
-    std::vector<Words> of_method{worded("{} {} (s = {}) against {} (s = {}), {:.2f} times", method,
+    std::vector<Words> of_method{worded("{} {} (s = {}) instead of {} (s = {}), ratio {:.2f}", method,
                                         best.text("intervals"), best.text("stages"), other.text("intervals"),
                                         other.text("stages"), ratio(other, best, "the best numbers of stages"))};
     for (const Row& row : adapted) {
@@ -97,7 +98,7 @@ Finding fewer_intervals(const ResultTables& tables, const std::string& problem) 
     }
     words.push_back(joined(of_method, ", "));
   }
-  return found(ClaimVerdict::measured, "adapted grids need {}", joined(words, "; "));
+  return found(ClaimVerdict::measured, "intervals on adapted grids instead of uniform grids: {}", joined(words, "; "));
 }
 
 Finding more_variables_by_collocation(const ResultTables& tables, const std::string& problem) {
@@ -113,11 +114,12 @@ Finding more_variables_by_collocation(const ResultTables& tables, const std::str
       const double ratio = quotient(same.front(), own, "variables_at_accuracy");
       holds = holds && ratio > 1.0;
       const std::string stages = "s = " + own.text("stages");
-      words.push_back(worded("{} {}: {:.2f}", method, stages,
-                             Measurement{"ratio of variables to DMOC's at equal accuracy", ratio, method, stages}));
+      words.push_back(
+          worded("{} {}: {:.2f}", method, stages,
+                 Measurement{"number of variables relative to DMOC at equal accuracy", ratio, method, stages}));
     }
   }
-  return found(holds, "ratio of variables to DMOC's at equal accuracy: {}", joined(words, ", "));
+  return found(holds, "number of variables relative to DMOC at equal accuracy: {}", joined(words, ", "));
 }
 
 }  // namespace
@@ -129,30 +131,29 @@ Claims adaptive_claims() {
        .problems = examples,
        .where = "section 5, Adaptive Time Steps",
        .whose = Whose::extension,
-       .states = "from one solve, the error of state, momentum, costate and cost is estimated within a factor of 0.3 "
-                 "to 3",
+       .states = "the errors of state, momentum, costate and cost are estimated from a single solve to within a factor "
+                 "of 0.3 to 3",
        .judge = effective,
-       .condition =
-           "true errors are measured against the indirect solution, above round-off, for solutions whose largest "
-           "relative error is at most 1 %",
+       .condition = "true errors are measured against the indirect solution; only errors above round-off count, in "
+                    "solutions whose largest relative error is at most 1 %",
        .evidence = {"adaptive_effectivity.csv", "figures/adaptive_effectivity.svg"}},
       {.id = "adapted_grids_need_fewer_intervals",
        .problems = uneven_problems,
        .where = "section 5, Adaptive Time Steps",
        .whose = Whose::extension,
-       .states = "ratio of intervals for an error of 1e-8, uniform grids to grids adapted by error control, each with "
-                 "its best number of stages",
+       .states = "ratio of intervals for an error of 1e-8 (uniform grids to grids adapted by error control, each with "
+                 "its best number of stages)",
        .judge = fewer_intervals,
-       .condition = "true errors of q, p and cost, relative to their ranges",
+       .condition = "errors are true errors of q, p and cost, relative to their ranges",
        .evidence = {"adaptive.csv", "figures/{}_adaptive.svg"},
        .has_verdict = false},
       {.id = "dmoc_keeps_its_advantage_on_adapted_grids",
        .problems = uneven_problems,
        .where = "section 5, Adaptive Time Steps",
        .whose = Whose::extension,
-       .states = "on grids adapted to the same error collocation needs more variables than DMOC",
+       .states = "on grids adapted to the same error, collocation needs more variables than DMOC",
        .judge = more_variables_by_collocation,
-       .condition = "by the true error and the order at exactly 1e-8",
+       .condition = "the true error and the order give the number of variables for an error of exactly 1e-8",
        .evidence = {"adaptive.csv"}}};
 }
 

@@ -53,8 +53,7 @@ Finding finding_of(const Judge& judge) {
   }
 }
 
-/// The same for a judge that reads tables. A missing column would be read as empty fields, so columns are checked
-/// afterwards.
+/// The same for a judge that reads tables. Columns are checked afterwards: a missing one reads as empty fields.
 template <std::invocable Judge>
 Finding finding_in(const ResultTables& tables, const ReadFields& fields, const Judge& judge) {
   Finding finding = finding_of(judge);
@@ -126,7 +125,7 @@ std::vector<Words> reasons_of(const Claim& claim, const std::string& problem, co
   reasons.push_back({.text = claim.condition.on(problem)});
   if (claim.by_counting) {
     reasons.push_back(
-        {.text = "it follows from counting the unknowns or from a choice, so that no solve can change it"});
+        {.text = "the statement follows from counting the unknowns or from a choice, so no solve can change it"});
   }
   reasons.push_back(finding.reason);
   std::erase_if(reasons, [](const Words& words) { return words.is_empty(); });
@@ -211,7 +210,7 @@ Words left_out(const Selection& all, const Selection& used, std::string_view why
     favoured.push_back(fmt::format("{} ({}{}{})", rows.front().text("method"), rows.size(),
                                    grids.empty() ? "" : ": N = ", fmt::join(grids, ", ")));
   }
-  return worded("{} of {} rows left out, {} {}", unused.size(), all.size(), why, fmt::join(favoured, ", "));
+  return worded("{} of {} rows left out: {} {}", unused.size(), all.size(), why, fmt::join(favoured, ", "));
 }
 
 Words unsolved_behind(const ResultTables& tables, std::string_view table, const Texts& wanted) {

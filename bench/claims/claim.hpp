@@ -223,9 +223,9 @@ void require(bool is_there, fmt::format_string<Values...> words, Values&&... val
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
 /// How many rows a claim leaves out, of which methods, why, and which method this favours; no words if it uses all
-/// rows: "2 of 24 rows left out, not solved on the required branch, in favour of tangent (2: N = 8, 16)".
+/// rows: "2 of 24 rows left out: not solved on the required branch, which favours tangent (2: N = 8, 16)".
 [[nodiscard]] Words left_out(const Selection& all, const Selection& used,
-                             std::string_view why = "not solved on the required branch, in favour of");
+                             std::string_view why = "not solved on the required branch, which favours");
 
 /// The same for the rows with these texts in the table of solves that the claim reads a summary of; no words if this
 /// table does not exist.

@@ -39,7 +39,7 @@ const Columns<JudgedClaim>& claim_columns() {
        [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
       {"reason", "", "reason for the difference, or conditions of the statement", &JudgedClaim::reason},
       {"evidence", "", "tables and figures", evidence_in_words},
-      {"sure", "", "exact, or the share of replicates with the same verdict", &JudgedClaim::sure},
+      {"sure", "", "certainty: exact, or share of replicates with the same verdict", &JudgedClaim::sure},
   };
   return all;
 }
@@ -49,13 +49,13 @@ const Columns<JudgedClaim>& finding_columns() {
   static const Columns<JudgedClaim> all{
       {"finding", "", "problem and short name", &JudgedClaim::id, in_key},
       {"where", "", "related place in the paper", &JudgedClaim::where},
-      {"whose", "", "ours, or an extension of the suite",
+      {"whose", "", "source of the finding: ours or extension",
        [](const JudgedClaim& claim) { return name_of(claim.whose); }},
       {"question", "", "the measured quantity", &JudgedClaim::states},
       {"measured", "", "the measurement, in words and numbers", &JudgedClaim::measured},
       {"condition", "", "conditions of the measurement", &JudgedClaim::reason},
       {"evidence", "", "tables and figures", evidence_in_words},
-      {"sure", "", "exact, or the share of replicates within the intervals", &JudgedClaim::sure},
+      {"sure", "", "certainty: exact, or the share of replicates within the intervals", &JudgedClaim::sure},
   };
   return all;
 }
@@ -81,7 +81,7 @@ struct Title {
 Title title_of(Whose whose) {
   constexpr std::array titles{
       Title{"the paper's statements and remarks", "The paper's statements and remarks"},
-      Title{"our findings", "Our findings: sharper forms, and questions that the paper leaves open"},
+      Title{"our findings", "Our findings: sharper statements, and questions that the paper leaves open"},
       Title{"misprints", "Misprints: the printed and the intended statement"},
       Title{"extensions", "Extensions of the suite"}};
   return titles[static_cast<std::size_t>(whose)];
@@ -212,8 +212,8 @@ Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
   };
   const Columns<Evidence> columns{
       {"claim", "", "name of the claim", &Evidence::claim, in_key},
-      {"table", "", "the file that was read", &Evidence::table, in_key},
-      {"records", "", "records that were read, such as 2-5 9; the header is record 1", &Evidence::records},
+      {"table", "", "file that was read", &Evidence::table, in_key},
+      {"records", "", "records that were read, such as 2-5 9 (the header is record 1)", &Evidence::records},
       {"columns", "", "columns that were read, separated by spaces", &Evidence::columns}};
   std::vector<Evidence> evidence;
   for (const JudgedClaim& claim : claims) {
@@ -242,10 +242,11 @@ Table findings_table(const std::vector<JudgedClaim>& claims) {
 
 std::string claims_markdown(const std::vector<JudgedClaim>& claims) {
   std::string text =
-      "# Claims, measured\n\nEach verdict is computed by a predicate on the tables next to this file. *Reproduced*: it "
-      "holds. *Differs*: it does not. *Undecided*: the interval of the measurement contains the threshold. *Floor*: "
-      "only round-off was measured. *Not judged*: a table, a number or usable rows are missing; failed solves do not "
-      "affect verdicts. *Sure* is *exact* if the verdict depends neither on times nor on random numbers.\n\n" +
+      "# Claims, measured\n\nEach verdict is computed by a predicate on the tables next to this file. *Reproduced*: "
+      "the predicate holds. *Differs*: it does not hold. *Undecided*: the interval of the measurement contains the "
+      "threshold. *Floor*: only round-off was measured. *Not judged*: a table, a number or usable rows are missing; "
+      "failed solves do not affect verdicts. *Sure* is *exact* if the verdict depends neither on times nor on random "
+      "numbers.\n\n" +
       summary_markdown(claims);
   for (const Whose whose : all_sources) {
     const std::vector<JudgedClaim> of_source = stated_by(claims, whose);
@@ -253,8 +254,8 @@ std::string claims_markdown(const std::vector<JudgedClaim>& claims) {
     text += fmt::format("\n## {}\n\n{}", title_of(whose).heading, markdown_table(claims_table(of_source)));
   }
   if (const Table findings = findings_table(claims); !findings.rows().empty()) {
-    text += fmt::format("\n## Measurements without a verdict: their numbers are the result\n\n{}",
-                        markdown_table(findings));
+    text +=
+        fmt::format("\n## Measurements without a verdict: the numbers are the result\n\n{}", markdown_table(findings));
   }
   return text;
 }
@@ -303,7 +304,7 @@ std::vector<std::string> not_reproduced(const std::vector<JudgedClaim>& claims, 
   for (const std::string& name : names) {
     const auto claim = std::ranges::find(claims, name, &JudgedClaim::id);
     if (claim == claims.end() || !claim->has_verdict)
-      throw Error(fmt::format("there is no claim {}; claims.csv lists all", name));
+      throw Error(fmt::format("there is no claim {}; claims.csv lists all claims", name));
     if (claim->verdict == ClaimVerdict::reproduced) continue;
     sentences.push_back(
         fmt::format("{} is not reproduced but {}: {}", name, name_of(claim->verdict), claim->measured()));

@@ -12,8 +12,8 @@ namespace {
 
 /// The interval of a difference in words.
 const char* in_words(const ShareInterval& difference) {
-  if (difference.lower > 0.0) return "DMOC more often";
-  return difference.upper < 0.0 ? "DMOC less often" : "no difference shown";
+  if (difference.lower > 0.0) return "DMOC succeeds more often";
+  return difference.upper < 0.0 ? "DMOC succeeds less often" : "no significant difference";
 }
 
 /// "dmoc 4 of 5"
@@ -39,7 +39,7 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
             others.size(), problem, method);
     const ShareCount count = count_of_cold_starts(others.front(), column);
     const ShareInterval difference = difference_interval(own, count);
-    finding.clauses.push_back(worded("{}, difference {:+.1f} to {:+.1f} %: {}", share_in_words(method, count),
+    finding.clauses.push_back(worded("{}, shares differ by {:+.1f} to {:+.1f} %: {}", share_in_words(method, count),
                                      Measurement{"lower confidence limit of DMOC's share minus the method's",
                                                  100.0 * difference.lower, method, "", "%"},
                                      Measurement{"upper confidence limit of DMOC's share minus the method's",
@@ -53,15 +53,15 @@ Finding how_often(const ResultTables& tables, const std::string& problem, const 
         return Measurement{name, value, "indirect", "costates 0", unit};
       };
       finding.clauses.push_back(worded(
-          "the indirect method with costates 0 converges from {} of {} ({:.0f} to {:.0f} %), from {} to the best "
-          "branch",
+          "with costates 0, the indirect method converges from {} of {} starts ({:.0f} to {:.0f} %), from {} of them "
+          "to the best branch",
           of_indirect("converged", row.needed("converged")), of_indirect("starts", row.needed("starts")),
-          of_indirect("lower confidence limit of the share converged", 100.0 * row.needed("converged_lower"), "%"),
-          of_indirect("upper confidence limit of the share converged", 100.0 * row.needed("converged_upper"), "%"),
+          of_indirect("lower confidence limit of the converged share", 100.0 * row.needed("converged_lower"), "%"),
+          of_indirect("upper confidence limit of the converged share", 100.0 * row.needed("converged_upper"), "%"),
           of_indirect("in the best minimum", row.needed("best"))));
     }
   }
-  return std::move(finding).also(worded("95 % intervals")).as_sure_as(fmt::format("95 % of {} starts", own.trials));
+  return std::move(finding).also(worded("95 % intervals")).as_sure_as(fmt::format("95 %, {} starts", own.trials));
 }
 
 Predicate how_often_in(const char* column) {
@@ -72,13 +72,13 @@ Predicate how_often_in(const char* column) {
 }  // namespace
 
 ShareCount count_of_cold_starts(const Row& row, const char* column) {
-  require(row.text("start_kind") == "cold", "{}, column start_kind: the claim is about cold starts", row.place());
+  require(row.text("start_kind") == "cold", "{}, column start_kind: the claim needs cold starts", row.place());
   const double starts = row.needed("starts");
   const double hits = row.needed(column);
   constexpr double most_starts = 1e9;
   const bool are_counts = starts == std::floor(starts) && hits == std::floor(hits);
   require(are_counts && starts >= 1.0 && starts <= most_starts && hits >= 0.0 && hits <= starts,
-          "{}: {} of {} starts in column {}", row.place(), hits, starts, column);
+          "{}: {} of {} starts is not a valid count in column {}", row.place(), hits, starts, column);
   return {.hits = static_cast<std::size_t>(hits), .trials = static_cast<std::size_t>(starts)};
 }
 
@@ -91,7 +91,7 @@ Claims cold_start_claims() {
            .states = "share of cold starts (the guess and perturbed guesses) with a solved and confirmed program, for "
                      "DMOC and collocation",
            .judge = how_often_in("confirmed"),
-           .condition = "by interior_point; section 3.3 names the indirect methods",
+           .condition = "direct methods use interior_point; section 3.3 names the indirect methods",
            .evidence = evidence,
            .has_verdict = false},
           {.id = "cold_starts_best",
@@ -99,7 +99,7 @@ Claims cold_start_claims() {
            .states = "share of cold starts (the guess and perturbed guesses) that end in the best minimum, for DMOC "
                      "and collocation",
            .judge = how_often_in("best"),
-           .condition = "by interior_point",
+           .condition = "solved with interior_point",
            .evidence = evidence,
            .has_verdict = false}};
 }

@@ -24,7 +24,7 @@ constexpr std::array statements{
 
 Finding equal_under_constraints(const Selection& all, double rounding) {
   const Selection rows = all.usable();
-  require(!rows.empty(), "DMOC and Hamiltonian collocation have no solved grid with constraints");
+  require(!rows.empty(), "no table has a grid with constraints that both dmoc and hamiltonian solved");
   double largest = 0.0;
   for (const char* column :
        {"configuration_difference", "momentum_difference", "control_difference", "objective_difference"}) {
@@ -34,7 +34,7 @@ Finding equal_under_constraints(const Selection& all, double rounding) {
                "{} grids of {} with {}, largest relative difference of q, projected p, u and J: {:.0e}", rows.size(),
                fmt::join(rows.distinct("problem"), ", "), fmt::join(rows.distinct("tableau"), " and "),
                Measurement{"largest relative difference of q, p, u and J", largest})
-      .also(worded("of costates {:.0e}",
+      .also(worded("largest relative difference of the costates: {:.0e}",
                    Measurement{"largest relative difference of the costates", rows.max("costate_difference")}))
       .also(left_out(all, rows));
 }
@@ -59,7 +59,7 @@ Finding balance_of_momentum(const ResultTables& tables, const std::string& table
   const Selection rows = tables.rows(table).usable();
   const auto of = [&](const char* method) { return rows.where("method", method); };
   require(!of("dmoc").empty() && !of("hamiltonian").empty() && !of("tangent").empty(),
-          "{}.csv needs solved rows of three methods", table);
+          "{}.csv needs solved rows of all three methods", table);
   const auto largest = [&](const char* method) {
     return Measurement{"largest defect of an interval", of(method).max("momentum_defect_max"), method};
   };
@@ -87,9 +87,9 @@ Finding orders_with_velocity_constraints(const ResultTables& tables, const std::
   const Selection rows = tables.rows("convergence_velocity_constraints_slopes").where([](const Row& row) {
     return row.text("verdict") == "slope" && row.text("quantity") != "control" && row.text("quantity") != "replay";
   });
-  require(!rows.empty(), "convergence_velocity_constraints_slopes.csv needs fitted orders");
+  require(!rows.empty(), "convergence_velocity_constraints_slopes.csv has no fitted order");
   const auto deviation = [](const Row& row) { return std::abs(row.needed("slope") - 2.0); };
-  return found(rows.max(deviation) < tolerance, "{} orders of {}: at most {:.2f} away from 2", rows.size(),
+  return found(rows.max(deviation) < tolerance, "{} orders of {} differ from 2 by at most {:.2f}", rows.size(),
                fmt::join(rows.distinct("problem"), ", "),
                Measurement{"largest distance of an order from 2", rows.max(deviation)});
 }
@@ -168,73 +168,73 @@ Finding embedding_with_constraints(const ResultTables& tables, const std::string
                            fine.text("intervals"), three("free_variables", "{:.0f}"), three("constraints", "{:.0f}"),
                            three("major_iterations", "{:.0f}"), three("condition", "{:.0e}")));
   }
-  return found(holds,
-               "largest relative difference of the costs, then multipliers, embedding and minimal coordinates: {}",
-               joined(words, "; "));
+  return found(
+      holds, "largest relative difference of the costs; numbers for multipliers, embedding and minimal coordinates: {}",
+      joined(words, "; "));
 }
 
 }  // namespace
 
 /// Holonomic constraints g(q) = 0 (DMOCC), velocity constraints A(q) q̇ = 0.
 Claims constraint_claims() {
-  return {{.id = "equal_solutions",
-           .problems = constrained,
-           .where = "section 1, DMOCC; th:equi",
-           .whose = Whose::extension,
-           .states = "with constraints g(q) = 0 DMOC and Hamiltonian collocation have equal solutions, too",
-           .judge = equal_with_constraints,
-           .condition = "momenta are the projected ones; Gauss with one stage, or Lobatto",
-           .evidence = {"equivalence_constrained.csv", "equivalence_constrained_lobatto.csv"}},
-          {.id = "momentum",
-           .problems = constrained,
-           .where = "section 1, DMOCC; eq:noether_force_d",
-           .whose = Whose::extension,
-           .states = "with constraints g(q) = 0 the change in momentum equals the work of the forces for DMOC and "
-                     "Hamiltonian collocation, not for tangent-space collocation",
-           .judge = momentum_with_constraints,
-           .condition = "the force along the symmetry is the intended one also off the manifold",
-           .evidence = {"consistency_constrained.csv"}},
-          {.id = "costs",
-           .problems = constrained,
-           .where = "section 1, DMOCC",
-           .whose = Whose::extension,
-           .states = "the optimal costs in redundant and in minimal coordinates agree to ten digits",
-           .judge = costs_with_constraints,
-           .evidence = {"objective_constrained.csv"}},
-          {.id = "embedding",
-           .problems = constrained,
-           .where = "section 1, DMOCC",
-           .whose = Whose::extension,
-           .states = "for DMOC with one Gauss stage, an embedding q = Φ(θ) at the nodes has the same optimal costs as "
-                     "multipliers, with fewer unknowns and constraints",
-           .judge = embedding_with_constraints,
-           .evidence = {"objective_forms.csv", "figures/constraint_forms.svg"}},
-          {.id = "velocity_equal_solutions",
-           .problems = constrained,
-           .where = "section 1, nonholonomic constraints; th:equi",
-           .whose = Whose::extension,
-           .states = "with velocity constraints A(q) q̇ = 0 DMOC and Hamiltonian collocation have equal solutions, too",
-           .judge = equal_with_velocity_constraints,
-           .condition = "momenta are the projected ones; Gauss with one stage",
-           .evidence = {"equivalence_velocity_constraints.csv"}},
-          {.id = "velocity_momentum",
-           .problems = constrained,
-           .where = "section 1, nonholonomic constraints; eq:noether_force_d",
-           .whose = Whose::extension,
-           .states = "with velocity constraints the change in momentum equals the work of the forces and the impulses "
-                     "of the forces of constraint for DMOC and Hamiltonian collocation, not for tangent-space "
-                     "collocation",
-           .judge = momentum_with_velocity_constraints,
-           .condition = "L_vv depends on q; where it is constant, tangent-space collocation with one Gauss stage "
-                        "balances them, too",
-           .evidence = {"consistency_velocity_constraints.csv"}},
-          {.id = "velocity_orders",
-           .problems = constrained,
-           .where = "section 1, nonholonomic constraints; main_theorem",
-           .whose = Whose::extension,
-           .states = "with velocity constraints and one Gauss stage states, momenta, costates and cost have order 2",
-           .judge = orders_with_velocity_constraints,
-           .evidence = {"convergence_velocity_constraints_slopes.csv"}}};
+  return {
+      {.id = "equal_solutions",
+       .problems = constrained,
+       .where = "section 1, DMOCC; th:equi",
+       .whose = Whose::extension,
+       .states = "with constraints g(q) = 0, DMOC and Hamiltonian collocation have equal solutions",
+       .judge = equal_with_constraints,
+       .condition = "momenta are projected; the tableaus are Gauss with one stage and Lobatto",
+       .evidence = {"equivalence_constrained.csv", "equivalence_constrained_lobatto.csv"}},
+      {.id = "momentum",
+       .problems = constrained,
+       .where = "section 1, DMOCC; eq:noether_force_d",
+       .whose = Whose::extension,
+       .states = "with constraints g(q) = 0, the change in momentum equals the work of the forces for DMOC and "
+                 "Hamiltonian collocation, not for tangent-space collocation",
+       .judge = momentum_with_constraints,
+       .condition = "off the constraint manifold, too, the force along the symmetry is the intended force",
+       .evidence = {"consistency_constrained.csv"}},
+      {.id = "costs",
+       .problems = constrained,
+       .where = "section 1, DMOCC",
+       .whose = Whose::extension,
+       .states = "the optimal costs in redundant and in minimal coordinates agree to ten digits",
+       .judge = costs_with_constraints,
+       .evidence = {"objective_constrained.csv"}},
+      {.id = "embedding",
+       .problems = constrained,
+       .where = "section 1, DMOCC",
+       .whose = Whose::extension,
+       .states = "for DMOC with one Gauss stage, an embedding q = Φ(θ) at the nodes has the same optimal costs as "
+                 "multipliers, with fewer unknowns and constraints",
+       .judge = embedding_with_constraints,
+       .evidence = {"objective_forms.csv", "figures/constraint_forms.svg"}},
+      {.id = "velocity_equal_solutions",
+       .problems = constrained,
+       .where = "section 1, nonholonomic constraints; th:equi",
+       .whose = Whose::extension,
+       .states = "with velocity constraints A(q) q̇ = 0, DMOC and Hamiltonian collocation have equal solutions",
+       .judge = equal_with_velocity_constraints,
+       .condition = "momenta are projected; the tableau is Gauss with one stage",
+       .evidence = {"equivalence_velocity_constraints.csv"}},
+      {.id = "velocity_momentum",
+       .problems = constrained,
+       .where = "section 1, nonholonomic constraints; eq:noether_force_d",
+       .whose = Whose::extension,
+       .states = "with velocity constraints, the change in momentum equals the work of the forces and the impulses of "
+                 "the forces of constraint for DMOC and Hamiltonian collocation, not for tangent-space collocation",
+       .judge = momentum_with_velocity_constraints,
+       .condition = "L_vv depends on q; where L_vv is constant, tangent-space collocation with one Gauss stage keeps "
+                    "this balance, too",
+       .evidence = {"consistency_velocity_constraints.csv"}},
+      {.id = "velocity_orders",
+       .problems = constrained,
+       .where = "section 1, nonholonomic constraints; main_theorem",
+       .whose = Whose::extension,
+       .states = "for velocity constraints and one Gauss stage, states, momenta, costates and cost have order 2",
+       .judge = orders_with_velocity_constraints,
+       .evidence = {"convergence_velocity_constraints_slopes.csv"}}};
 }
 
 }  // namespace dmocbench

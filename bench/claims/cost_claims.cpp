@@ -30,7 +30,7 @@ std::string way_of(const Row& row) { return row.text(row.text("solver") == "ipop
 
 std::vector<double> rounds_of(const Row& row) {
   std::vector<double> of_rounds = row.numbers("round_ratios");
-  require(!of_rounds.empty(), "{}, column round_ratios: there is no number", row.place());
+  require(!of_rounds.empty(), "{}, column round_ratios: the field contains no number", row.place());
   return of_rounds;
 }
 
@@ -46,8 +46,8 @@ Predicate more_expensive_by(const ExpenseByWay& add_ratios) {
     add_ratios(ratios, ipopt);
     add_ratios(ratios, hamiltonian_ratios(tables, problem, "seconds_per_linear_system"));
     return found_by_times(ratios,
-                          "ratio of Hamiltonian collocation to DMOC, time of an iteration by ipopt and of a linear "
-                          "system by interior_point: ");
+                          "ratio of the times of Hamiltonian collocation to DMOC, for an iteration of ipopt and a "
+                          "linear system of interior_point: ");
   };
 }
 
@@ -73,9 +73,9 @@ Finding more_entries_of_factors(const ResultTables& tables, const std::string& p
   };
   return found(verdict_on_interval(factors.min("ratio_at_equal_intervals"), factors.max("ratio_at_equal_intervals"),
                                    more_expensive, std::numeric_limits<double>::infinity()),
-               "ratio of Hamiltonian collocation to DMOC on {} grids, entries of the factor of the KKT matrix: {}",
+               "ratio of Hamiltonian collocation to DMOC on {} grids in entries of the factor of the KKT matrix: {}",
                factors.distinct("intervals").size(), range(factors))
-      .also(worded("entries of the matrix: {}", range(of("kkt_nonzeros"))));
+      .also(worded("ratio in entries of the matrix: {}", range(of("kkt_nonzeros"))));
 }
 
 /// The grids coarser than the finest one together, for each way separately: the smallest program alone takes less time
@@ -83,7 +83,7 @@ Finding more_entries_of_factors(const ResultTables& tables, const std::string& p
 void add_coarse_grids(TimedRatios& ratios, const Selection& rows) {
   const std::string finest = rows.sorted_by("intervals").back().text("intervals");
   const Selection coarse = rows.where([&](const Row& row) { return row.text("intervals") != finest; });
-  require(!coarse.empty(), "savings_by_solver_ratios.csv has only N = {}", finest);
+  require(!coarse.empty(), "savings_by_solver_ratios.csv has only N = {}; a coarser grid is needed", finest);
   for (const Selection& way : coarse.group_by({"solver", "factorisation"})) {
     std::vector<std::vector<double>> of_grids;
     for (const Row& row : way) of_grids.push_back(rounds_of(row));
@@ -131,7 +131,7 @@ Predicate saves_at_equal(const char* quantity) {
                  Measurement{"largest ratio of free variables", of_method.max("variables_ratio"), method, at}));
       smallest = std::min(smallest, least);
     }
-    return found(smallest > more_expensive, "ratio of free variables, collocation to DMOC, at equal {} error: {}",
+    return found(smallest > more_expensive, "ratio of free variables (collocation to DMOC) at equal {} error: {}",
                  quantity, joined(words, ", "));
   };
 }
@@ -168,23 +168,23 @@ Finding whole_solves(const ResultTables& tables, const std::string& problem) {
 Claims cost_claims() {
   const std::vector<std::string> advantage{"savings_by_solver_ratios.csv", "figures/{}_savings_by_solver.svg"};
   const std::vector<std::string> accuracy{"convergence_equal_accuracy.csv", "figures/{}_work_precision.svg"};
-  const char* const warm = "times are warm, from the common start";
+  const char* const warm = "times are measured for warm solves from the common start";
   return {
       {.id = "counts_of_variables_and_constraints",
        .where = "section 3.4, rem:savings",
        .whose = Whose::paper,
-       .states = "twice as many state variables and (Ns + 1)n more constraints for collocation of Hamilton's equations",
+       .states = "collocation of Hamilton's equations has twice as many state variables and (Ns + 1)n more constraints",
        .judge = counts_of_remark,
-       .condition = "DMOC's constraints are counted without the 2n conditions at the ends, as in the paper",
+       .condition = "DMOC's constraints are counted without the 2n boundary conditions, as in the paper",
        .evidence = {"convergence_stages.csv"},
        .by_counting = true},
       {.id = "collocation_more_expensive",
        .where = "section 3.4, rem:savings",
        .whose = Whose::paper,
-       .states = "its size makes collocation of Hamilton's equations numerically more expensive",
+       .states = "because of its size, collocation of Hamilton's equations is numerically more expensive",
        .judge = more_entries_of_factors,
-       .condition = "the paper names no currency: expense is judged by the entries of a sparse factor (approximate "
-                    "minimum degree), which times follow (`collocation_takes_longer`)",
+       .condition = "the paper does not state how expense is measured; here it is the number of entries of a sparse "
+                    "factor (approximate minimum degree), which the times follow (`collocation_takes_longer`)",
        .evidence = {"iterations_common_ratios.csv", "iterations_common.csv"},
        .by_counting = true},
       {.id = "collocation_takes_longer",
@@ -198,27 +198,27 @@ Claims cost_claims() {
        .where = "section 3.4, rem:savings",
        .states = "collocation of Hamilton's equations is more expensive on coarse grids too",
        .judge = more_expensive_by(add_coarse_grids),
-       .condition = "times are warm, from the common start; geometric mean over the coarse grids",
+       .condition = "times are measured for warm solves from the common start; geometric mean over the coarse grids",
        .evidence = advantage},
       {.id = "whole_solves_at_equal_accuracy",
        .where = "section 4.2",
-       .states = "ratio of iterations and of time of whole solves, collocation to DMOC, at equal accuracy",
+       .states = "ratio of collocation to DMOC in iterations and in the time of whole solves, at equal accuracy",
        .judge = whole_solves,
-       .condition =
-           "warm, from the common start; equal replay errors for iterations, equal errors of the cost for times",
+       .condition = "solves are warm, from the common start; iterations are compared at equal replay errors, times at "
+                    "equal errors of the cost",
        .evidence = {"iterations_common_ratios.csv", "savings_by_solver_ratios.csv"},
        .has_verdict = false},
       {.id = "savings_at_equal_state_error",
        .where = "section 5",
        .states = "DMOC saves variables at equal state error",
        .judge = saves_at_equal("state"),
-       .condition = "errors against the method's own grid of N = 1024",
+       .condition = "errors are measured against the method's own solution with N = 1024",
        .evidence = accuracy},
       {.id = "savings_at_equal_replay_error",
        .where = "section 5",
        .states = "DMOC saves variables at equal replay error",
        .judge = saves_at_equal("replay"),
-       .condition = "the controls are integrated on the continuous equations",
+       .condition = "a replay integrates the continuous equations with the computed controls",
        .evidence = accuracy},
   };
 }

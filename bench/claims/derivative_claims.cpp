@@ -22,8 +22,7 @@ Selection by_ipopt(const ResultTables& tables, const char* table, const std::str
   return tables.rows(table, problem).where("solver", "ipopt");
 }
 
-/// The row of the same program, solved to the same tolerance with the same Hessian; a row without fields if no such
-/// row exists.
+/// The row of the same program, solved to the same tolerance with the same Hessian, or else a row without fields.
 const Row& partner_of(const Row& row, const Selection& others) {
   return others.matching(row, {"method", "tableau", "stages", "intervals", "tolerance", "hessian"}).front();
 }
@@ -41,8 +40,7 @@ struct Rivals {
   const char* in_words;  ///< of the exact ones
 };
 
-/// The paper's: dense forward differences against ADOL-C, which records the program once. The tape where ADOL-C is not
-/// part of the build.
+/// The paper's: dense forward differences against ADOL-C, which records the program once; the tape without ADOL-C.
 Rivals of_the_paper(const Selection& rows) {
   const bool has_adolc = !rows.where("derivatives", "adolc_whole").empty();
   return has_adolc ? Rivals{"adolc_whole", "dense_differences", "ADOL-C, recorded once,"}
@@ -106,10 +104,10 @@ Words range_of(const Selection& rows, const char* derivatives, const std::string
 /// All settings together, as one sign test for each pair of rivals; in no setting differences may be better.
 Finding more_robust(const ResultTables& tables, const std::string& problem) {
   std::vector<Selection> settings{by_ipopt(tables, quasi_newton, problem)};
-  std::vector<const char*> names{"first derivatives, quasi-Newton, from a common start"};
+  std::vector<const char*> names{"quasi-Newton with first derivatives, from a common start"};
   if (tables.has(cold)) {
     settings.push_back(by_ipopt(tables, cold, problem));
-    names.push_back("second derivatives too, from the guess");
+    names.push_back("first and second derivatives, from the guess");
   }
   std::vector<ClaimVerdict> verdicts;
   std::vector<Words> words;
@@ -130,20 +128,20 @@ Finding more_robust(const ResultTables& tables, const std::string& problem) {
     chances.push_back(fmt::format("{:.1g}", std::min(chance_of(all.exact_alone, all.by_differences_alone),
                                                      chance_of(all.by_differences_alone, all.exact_alone))));
     words.push_back(
-        worded("programs solved by {} and by {} ({})", rivals.in_words, rivals.differences, fmt::join(counts, "; ")));
+        worded("programs solved with {} and {} ({})", rivals.in_words, rivals.differences, fmt::join(counts, "; ")));
   }
-  require(!verdicts.empty(), "{}.csv and {}.csv: no program of {} is solved by exact derivatives or by differences",
+  require(!verdicts.empty(), "{}.csv and {}.csv: no program of {} is solved with exact derivatives or with differences",
           quasi_newton, cold, problem);
-  Words reason = worded("solves by differences end above the tolerance");
+  Words reason = worded("solves with differences end above the tolerance");
   if (tables.has(cold)) {
     Pairs central;
     central.add(settings.back(), {"tape", "finite_differences", ""});
     words.push_back(
-        worded("from the guess central differences solve {} of {} programs; {} are solved only by central differences, "
-               "{} only by exact derivatives",
+        worded("from the guess, central differences solve {} of {} programs; {} are solved only with central "
+               "differences, {} only with exact derivatives",
                central.by_differences, central.count, central.by_differences_alone, central.exact_alone));
-    reason = worded("{}: relative to the largest entry, the error of their Jacobians is {}, of ADOL-C's {}", reason,
-                    range_of(settings.back(), "dense_differences", "jacobian_error"),
+    reason = worded("{}: relative to the largest entry, the error of Jacobians is {} with differences, {} with ADOL-C",
+                    reason, range_of(settings.back(), "dense_differences", "jacobian_error"),
                     range_of(settings.back(), "adolc_whole", "jacobian_error"));
   }
   return Finding{.clauses = std::move(words), .verdict = verdict_on_all(verdicts)}.because(reason).as_sure_as(
@@ -163,12 +161,12 @@ Words add_ratio(TimedRatios& ratios, const Selection& rows, const std::string& n
     const Row& other = partner_of(row, faster);
     if (other.text("status").empty()) continue;
     of_programs.push_back(round_ratios(row.numbers("round_seconds"), other.numbers("round_seconds")));
-    require(!of_programs.back().empty(), "{}, column round_seconds: there is no number", row.place());
+    require(!of_programs.back().empty(), "{}, column round_seconds: the field contains no number", row.place());
     timed.append(row);
   }
   const std::vector<double> means = means_of_rounds(of_programs);
   if (!means.empty()) ratios.add(fmt::format("{} on {} programs", name, of_programs.size()), means);
-  return left_out(slower, timed, fmt::format("not solved by {} or {}, in favour of {} by", slow, fast, slow));
+  return left_out(slower, timed, fmt::format("not solved with {} or {}, which favours {} with", slow, fast, slow));
 }
 
 /// "12 %": the share of time in evaluations of solves, where both were measured.
@@ -192,8 +190,8 @@ Words costs_of_jacobians(const ResultTables& tables, const std::string& problem)
   const Selection rows = by_ipopt(tables, warm, problem);
   const auto cost = [&](const char* derivatives) { return range_of(rows, derivatives, "jacobian_over_residual"); };
   return worded(
-      "a Jacobian costs as much as {} residuals by dense differences, {} by ADOL-C recorded once and {} interval by "
-      "interval, {} by structured differences, {} by the tape",
+      "a Jacobian costs as much as {} residuals with dense differences, {} with ADOL-C recorded once and {} interval "
+      "by interval, {} with structured differences, {} with the tape",
       cost("dense_differences"), cost("adolc_whole"), cost("adolc"), cost("forward_differences"), cost("tape"));
 }
 
@@ -204,8 +202,8 @@ struct Setting {
 };
 
 std::vector<Setting> settings_of(const ResultTables& tables, const std::string& problem) {
-  std::vector<Setting> settings{{by_ipopt(tables, quasi_newton, problem), "first derivatives, quasi-Newton"}};
-  if (tables.has(warm)) settings.push_back({by_ipopt(tables, warm, problem), "second derivatives too"});
+  std::vector<Setting> settings{{by_ipopt(tables, quasi_newton, problem), "quasi-Newton with first derivatives"}};
+  if (tables.has(warm)) settings.push_back({by_ipopt(tables, warm, problem), "first and second derivatives"});
   return settings;
 }
 
@@ -223,7 +221,7 @@ std::vector<Measurement> ratios_by_program(const Setting& setting, const Rivals&
   for (const Row& row : by(rivals.differences)) {
     const Row& other = partner_of(row, exact);
     if (other.text("status").empty()) continue;
-    ratios.push_back({std::string(column) + " by differences over exact derivatives", quotient(row, other, column),
+    ratios.push_back({std::string(column) + " with differences over exact derivatives", quotient(row, other, column),
                       row.text("method"), fmt::format("{}, N = {}", setting.name, row.text("intervals"))});
   }
   return ratios;
@@ -250,20 +248,21 @@ Finding faster(const ResultTables& tables, const std::string& problem) {
     const std::vector<Measurement> jacobians = ratios_by_program(setting, rivals, "jacobian_over_residual", false);
     if (jacobians.empty()) continue;
     const std::vector<Measurement> iterations = ratios_by_program(setting, rivals, "major_iterations", true);
-    words.push_back(worded("{}: iterations of the programs that both solve {}, time of a Jacobian {}", setting.name,
-                           range_of(iterations), range_of(jacobians)));
+    words.push_back(worded("{}: ratio of iterations {} (where both solve), ratio of times of a Jacobian {}",
+                           setting.name, range_of(iterations), range_of(jacobians)));
     if (iterations.empty()) continue;
     const auto [least, most] = std::ranges::minmax(iterations, {}, &Measurement::value);
     verdicts.push_back(verdict_on_interval(least.value, most.value, 1.0, std::numeric_limits<double>::infinity()));
   }
-  require(!words.empty(), "{}.csv has no program of {} by {} and by {}", quasi_newton, problem, rivals.differences,
+  require(!words.empty(), "{}.csv has no program of {} with {} and with {}", quasi_newton, problem, rivals.differences,
           rivals.exact);
   return found(verdicts.empty() ? ClaimVerdict::undecided : verdict_on_all(verdicts), "{} over {}, {}",
                rivals.differences, rivals.exact, joined(words, "; "))
-      .because(worded("first derivatives and residuals take {} of the time of a quasi-Newton solve by {}, {} by {}, so "
-                      "that the time of a whole solve follows the iterations (`automatic_differentiation_saves_time`)",
-                      share_of_evaluations(settings.front().rows, rivals.differences), rivals.differences,
-                      share_of_evaluations(settings.front().rows, rivals.exact), rivals.exact));
+      .because(worded(
+          "first derivatives and residuals take {} of the time of a quasi-Newton solve with {} and {} with {}, so the "
+          "time of a whole solve follows the number of iterations (`automatic_differentiation_saves_time`)",
+          share_of_evaluations(settings.front().rows, rivals.differences), rivals.differences,
+          share_of_evaluations(settings.front().rows, rivals.exact), rivals.exact));
 }
 
 Finding saves_time(const ResultTables& tables, const std::string& problem) {
@@ -276,12 +275,12 @@ Finding saves_time(const ResultTables& tables, const std::string& problem) {
     unsolved.push_back(add_ratio(ratios, rows, name, rivals.differences, rivals.exact));
     static_cast<void>(add_ratio(structured, rows, name, of_the_suite.differences, of_the_suite.exact));
   }
-  require(ratios.rounds() > 0, "{}.csv and {}.csv: no program of {} is solved by {} and by {}", quasi_newton, warm,
+  require(ratios.rounds() > 0, "{}.csv and {}.csv: no program of {} is solved with {} and with {}", quasi_newton, warm,
           problem, rivals.differences, rivals.exact);
   const Words aside = structured.rounds() > 0
-                          ? worded("by structured differences and by the tape: {}", structured.in_words())
+                          ? worded("with structured differences and with the tape: {}", structured.in_words())
                           : Words();
-  return found_by_times(ratios, fmt::format("ratio of the times of whole solves by {} and by {}: ", rivals.differences,
+  return found_by_times(ratios, fmt::format("ratio of times of whole solves with {} and with {}: ", rivals.differences,
                                             rivals.exact))
       .also(aside)
       .also(joined(unsolved, "; "))
@@ -294,8 +293,9 @@ Finding saves_time(const ResultTables& tables, const std::string& problem) {
 Claims derivative_claims() {
   const char* const section = "section 4.1, Automatic Differentiation";
   const char* const setting =
-      "by Ipopt, to the tolerances 1e-6, as with fmincon, and 1e-8, in at most 150 iterations; dense differences up to "
-      "N = 64; dense forward differences and quasi-Newton updates by fmincon and nag_opt_nlp_sparse are our inference";
+      "solved with Ipopt to the tolerances 1e-6 (as with fmincon) and 1e-8 in at most 150 iterations; dense "
+      "differences are used up to N = 64; we infer that fmincon and nag_opt_nlp_sparse used dense forward differences "
+      "and quasi-Newton updates";
   return {{.id = "automatic_differentiation_more_robust",
            .where = section,
            .whose = Whose::paper,

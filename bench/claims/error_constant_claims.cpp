@@ -61,19 +61,18 @@ Predicate limits_are_predicted(const std::string& quantity) {
     });
     const double relative =
         measured.max([&](const Row& row) { return difference(row) / std::abs(row.needed("constant")); });
-    Finding finding =
-        found(of_known <= 1.0,
-              "{} limits: predicted and measured differ by at most {:.0e}, relative, and at most by {:.2f} "
-              "of the sum of their uncertainties",
-              measured.size(), Measurement{"largest relative difference of the limits", relative},
-              Measurement{"largest share of the uncertainties", of_known});
+    Finding finding = found(of_known <= 1.0,
+                            "{} predicted and measured limits have relative differences of at most {:.0e} and differ "
+                            "by at most {:.2f} times the sum of their uncertainties",
+                            measured.size(), Measurement{"largest relative difference of the limits", relative},
+                            Measurement{"largest share of the uncertainties", of_known});
     for (const Row& row : measured.where("method", "dmoc")) {
       if (problem == "examples") break;
       const auto to_tangent = [&](const char* name, const std::string& of) {
         return ratio_of_limits(name, row, limits, "dmoc", "tangent", of);
       };
       finding = std::move(finding).also(worded(
-          "ratio of the errors, DMOC to tangent-space collocation, s = {}: predicted {:.4f}, measured {:.4f}",
+          "ratio of the errors (DMOC to tangent-space collocation), s = {}: predicted {:.4f}, measured {:.4f}",
           row.text("stages"), to_tangent("predicted ratio", prediction), to_tangent("measured ratio", quantity)));
     }
     return finding;
@@ -99,9 +98,9 @@ Finding second_order_replay(const ResultTables& tables, const std::string& probl
                     ratio_of_limits(name, row, limits, "second_order", "dmoc", quantity));
     });
   };
-  return found(verdict, "ratio of replay errors, second-order collocation to DMOC: {}",
+  return found(verdict, "ratio of replay errors (second-order collocation to DMOC): {}",
                ratios("ratio of replay errors", "replay_error"))
-      .also(worded("of the largest errors of q at the nodes: {}", ratios("ratio of errors of q", "state_error")));
+      .also(worded("ratio of the largest errors of q at the nodes: {}", ratios("ratio of errors of q", "state_error")));
 }
 
 }  // namespace
@@ -116,27 +115,27 @@ Claims error_constant_claims() {
                  .judge = limits_are_predicted(quantity),
                  .condition =
                      "with one and two Gauss stages; no bound is active. The uncertainty of a limit is its change when "
-                     "the finest grid is left out and, for replays, their tolerance. One limit further from its "
-                     "prediction than both uncertainties together would refute it",
+                     "the finest grid is left out plus, for replays, the tolerance of the replay. A single limit "
+                     "further from its prediction than the sum of both uncertainties would refute the statement",
                  .evidence = {"error_constants_limits.csv", "error_constants_two_stages_limits.csv",
                               "figures/two_link_manipulator_error_constants.svg"}};
   };
   return {predicted("replay_error_is_predicted", "replay_error",
-                    "to leading order the error of the replay is the global error of the discrete flow with the exact "
+                    "to leading order, the error of the replay is the global error of the discrete flow with the exact "
                     "optimal controls: errors of the optimum do not enter"),
           predicted("cost_error_is_predicted", "objective_error",
-                    "to leading order the error of the cost is the sum of the defects of the exact optimum in the "
+                    "to leading order, the error of the cost is the sum of the defects of the exact optimum in the "
                     "discrete flow, each times the costate, and of the errors of the quadrature"),
           {.id = "second_order_replay",
            .problems = of_paper_and_examples,
            .where = "section 3.3, Implementation",
-           .states = "second-order collocation has positions alone at its nodes, as DMOC, but its controls miss the "
-                     "final state by more than DMOC's, in the limit of fine grids",
+           .states = "like DMOC, second-order collocation has only positions at its nodes, but in the limit of fine "
+                     "grids its controls miss the final state by more than DMOC's",
            .judge = second_order_replay,
-           .condition = "one Gauss stage, controls are constant over an interval. A limit of the ratio of 1 or less "
-                        "would refute it",
-           .cause = "its flow has a larger error constant on some problems and a smaller one on others "
-                    "(replay_error_is_predicted)",
+           .condition = "with one Gauss stage, controls are constant over an interval. A ratio with a limit of at most "
+                        "1 would refute the statement",
+           .cause = "the discrete flow of second-order collocation has a larger error constant than DMOC's on some "
+                    "problems and a smaller one on others (replay_error_is_predicted)",
            .evidence = {"error_constants_limits.csv", "figures/two_link_manipulator_error_constants.svg"}}};
 }
 

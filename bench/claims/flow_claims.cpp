@@ -78,12 +78,12 @@ Finding forced_noether(const ResultTables& tables, const std::string& /*problem*
   const double in_long_double = dmoc.max("defect_in_long_double");
   return found(dmoc.max(miss) < rounding_in_double && defect < rounding_in_double &&
                    in_long_double < rounding_in_long_double && least_work > some_work,
-               "{} simulations of 400 steps with arbitrary controls: change of momentum minus the work of f_d at most "
-               "{:.1e}, at any step {:.1e}, in long double {:.1e}",
+               "{} simulations of 400 steps with arbitrary controls: change of momentum minus the work of f_d is at "
+               "most {:.1e}, at any single step {:.1e}, in long double {:.1e}",
                dmoc.size(), Measurement{"change of momentum minus the work", dmoc.max(miss), "dmoc"},
                Measurement{"largest defect", defect, "dmoc"},
                Measurement{"largest defect in long double", in_long_double, "dmoc"})
-      .also(worded("work at least {:.1e}", Measurement{"least work", least_work, "dmoc"}))
+      .also(worded("the work is at least {:.1e}", Measurement{"least work", least_work, "dmoc"}))
       .also(defect_of_tangent(rows));
 }
 
@@ -97,8 +97,8 @@ Finding momentum_preserved(const ResultTables& tables, const std::string& /*prob
   const double in_long_double = dmoc.max("defect_in_long_double");
   return found(change < rounding_in_double && work < rounding_in_double && defect < rounding_in_double &&
                    in_long_double < rounding_in_long_double,
-               "{} simulations of 400 steps with arbitrary controls: momentum changes by at most {:.1e}, forces do the "
-               "work {:.1e} along the group",
+               "{} simulations of 400 steps with arbitrary controls: the momentum changes by at most {:.1e}, while the "
+               "forces do work of {:.1e} along the group action",
                dmoc.size(), Measurement{"largest change of momentum", change, "dmoc"},
                Measurement{"largest work", work, "dmoc"})
       .also(worded("largest defect {:.1e}, in long double {:.1e}", Measurement{"largest defect", defect, "dmoc"},
@@ -131,10 +131,10 @@ Finding continuous_noether(const ResultTables& tables, const std::string& /*prob
   const Selection rows = tables.rows("invariants_flow_momentum");
   const Selection along = rows.where("force", "along");
   const Selection orthogonal = rows.where("force", "orthogonal");
-  require(
-      !along.empty() && !orthogonal.empty(),
-      "invariants_flow_momentum.csv has {} trajectories with forces along the group action and {} with orthogonal ones",
-      along.size(), orthogonal.size());
+  require(!along.empty() && !orthogonal.empty(),
+          "invariants_flow_momentum.csv has {} trajectories with forces along the group action and {} with orthogonal "
+          "forces; both kinds are needed",
+          along.size(), orthogonal.size());
   const auto miss = [](const Row& row) { return std::abs(row.needed("momentum_change") - row.needed("work")); };
   const auto in_tolerances = [&](const Row& row) {
     require(row.needed("tolerance") > 0.0, "{}, column tolerance: the value must be positive", row.place());
@@ -143,11 +143,11 @@ Finding continuous_noether(const ResultTables& tables, const std::string& /*prob
   const double least_work = -along.max([](const Row& row) { return -std::abs(row.needed("work")); });
   const double change = orthogonal.max([](const Row& row) { return std::abs(row.needed("momentum_change")); });
   return found(rows.max(in_tolerances) < within_tolerance && least_work > some_work,
-               "{} trajectories under smooth controls: change of momentum minus the integral of the force at most "
-               "{:.1e}, the integral at least {:.1e} along the group action",
+               "{} trajectories with smooth controls: change of momentum minus the integral of the force along the "
+               "group action is at most {:.1e}, the integral itself at least {:.1e}",
                rows.size(), Measurement{"largest change of momentum minus the integral", rows.max(miss)},
                Measurement{"least integral", least_work})
-      .also(worded("with orthogonal forces the momentum changes by at most {:.1e}",
+      .also(worded("with orthogonal forces, the momentum changes by at most {:.1e}",
                    Measurement{"largest change of momentum", change}));
 }
 
@@ -163,7 +163,7 @@ Finding lagrangian_form(const ResultTables& tables, const std::string& /*problem
                Measurement{"horizon", rows.front().needed("horizon")}, rows.size(),
                Measurement{"largest defect", rows.max("defect")},
                Measurement{"largest defect in units of round-off", rows.max(defect)})
-      .also(worded("of the form as printed, whose dv^dv vanishes, up to {:.1e}",
+      .also(worded("for the form as printed, in which dv^dv vanishes, up to {:.1e}",
                    Measurement{"largest change of the form as printed", rows.max("printed_change")}));
 }
 
@@ -232,8 +232,8 @@ Claims flow_claims() {
        .problems = simulated,
        .where = "section 2.1, eq:noether_force",
        .whose = Whose::paper,
-       .states = "along the continuous flow the momentum changes by the integral of the force along the group action, "
-                 "and not at all if the force is orthogonal to it",
+       .states = "along the continuous flow, the momentum changes by the integral of the force along the group action, "
+                 "and not at all if the force is orthogonal to the group action",
        .judge = continuous_noether,
        .condition = "trajectories are integrated like replays, with an adaptive method of order 7(8)",
        .evidence = {"invariants_flow_momentum.csv"}},
@@ -243,17 +243,17 @@ Claims flow_claims() {
        .whose = Whose::paper,
        .states = "the unforced Lagrangian flow preserves the symplectic form Omega_L on TQ",
        .judge = lagrangian_form,
-       .condition = "with dv^dq in the second term of Omega_L, where dv^dv is printed; the derivative of the flow is "
-                    "the solution of the variational equations in long double",
+       .condition = "the second term of Omega_L has dv^dq here, where the paper prints dv^dv; the derivative of the "
+                    "flow is the solution of the variational equations in long double",
        .evidence = {"invariants_flow_symplecticity.csv"}},
       {.id = "energy_does_not_drift",
        .problems = simulated,
        .where = "section 3.3, Conservation of a Modified Energy",
-       .states = "with DMOC the energy of an unforced ellipse oscillates without drift; with explicit Runge-Kutta "
-                 "methods and Radau it drifts",
+       .states = "with DMOC, the energy of an unforced elliptic orbit oscillates without drift; with explicit "
+                 "Runge-Kutta methods and Radau it drifts",
        .judge = energy_oscillates,
-       .condition = "the energy itself, not a modified one; in Cartesian coordinates the mass matrix is constant and "
-                    "the paper's three methods coincide, so this is not a comparison with collocation",
+       .condition = "the energy itself is measured, not a modified energy; in Cartesian coordinates the mass matrix is "
+                    "constant and the paper's three methods coincide, so this is not a comparison with collocation",
        .evidence = {"invariants_energy_behaviour.csv", "figures/kepler_energy.svg"}}};
 }
 

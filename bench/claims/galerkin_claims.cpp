@@ -58,7 +58,7 @@ Predicate have_the_order_of_spaces(std::string table, bool (*is_meant)(const Spa
       return worded("{} {} {} {}", row.text("method"), points, quantity, order);
     };
     return found(are_few && of_fitted == ClaimVerdict::reproduced ? ClaimVerdict::floor : of_fitted,
-                 "slopes against the indirect solution: {}", joined(rows, "; ", order_in_words))
+                 "slopes of errors relative to the indirect solution: {}", joined(rows, "; ", order_in_words))
         .also(unsolved_behind(tables, table, {{"problem", problem}}));
   };
 }
@@ -80,7 +80,7 @@ Finding galerkin_is_dmoc(const ResultTables& tables, const std::string& problem)
       ++pairs;
     }
   }
-  require(pairs > 0, "convergence_galerkin.csv has no solve of {} by dmoc and by galerkin with r = s = m", problem);
+  require(pairs > 0, "convergence_galerkin.csv has no solve of {} by both dmoc and galerkin with r = s = m", problem);
   return found(std::max(of_cost, of_state) < equal_solutions,
                "{} pairs of solves: largest relative difference of the cost {:.1e}, of the errors of q {:.1e}", pairs,
                Measurement{"largest relative difference of the cost", of_cost},
@@ -114,8 +114,8 @@ Finding variation_commutes(const ResultTables& tables, const std::string& proble
     return (has_any(spaces) ? spaces.degree : row.needed("stages")) > 1.0;
   });
   require(!curved.empty(),
-          "equivalence_galerkin.csv and equivalence_galerkin_lobatto.csv have {} solved rows of {}, and "
-          "none with q of degree two or more",
+          "equivalence_galerkin.csv and equivalence_galerkin_lobatto.csv have {} solved rows of {}, but none with q of "
+          "degree two or more",
           rows.size(), problem);
   const double largest = rows.max("galerkin_form_difference");
   const double least = curved.min("straight_form_difference");
@@ -142,36 +142,36 @@ Claims galerkin_claims() {
                      "interval, r the number of quadrature points",
                  .evidence = {std::string(table) + "_slopes.csv"}};
   };
-  return {
-      order("control_space_large_enough", "convergence_galerkin", is_large_enough,
-            "with m >= s and any Gauss quadrature of r >= s points state and costates at the nodes have order 2s: "
-            "neither more control nodes nor more quadrature points raise it"),
-      order("control_space_too_small", "convergence_galerkin", is_too_small,
-            "with m < s the order of state and costates at the nodes is 2m"),
-      order("control_space_continuous", "convergence_galerkin_shared", has_any,
-            "continuous controls through m Lobatto nodes, m >= 2, have order 2 min(s, m) as well"),
-      order("control_space_by_lobatto_quadrature", "convergence_galerkin_lobatto", has_any,
-            "with s + 1 Lobatto points the order is 2 min(s, m) as well"),
-      {.id = "galerkin_is_dmoc",
-       .where = "section 3.4, eq:DMOC_RK_L",
-       .states = "with r = s = m and Gauss quadrature, the Galerkin integrator has the same solutions as DMOC",
-       .judge = galerkin_is_dmoc,
-       .evidence = {"convergence_galerkin.csv"}},
-      {.id = "variation_and_discretisation_commute",
-       .where = "section 3.5",
-       .states =
-           "for every degree s of q, quadrature and control space the Lagrangian of the nonlinear program is the "
-           "Galerkin form of the control Lagrangian C + xi (L_q + f) + xi' L_v: variation and discretisation commute",
-       .judge = variation_commutes,
-       .condition = "xi is the polynomial of degree s through the multipliers; one triple with a difference above "
-                    "round-off would refute it; Campos et al. (2015) prove it for their families, and Konopik et "
-                    "al. (arXiv 2502.04742) construct direct methods that are equivalent to schemes of low order",
-       .evidence = {"equivalence_galerkin.csv", "equivalence_galerkin_lobatto.csv"}},
-      {.id = "galerkin_momentum",
-       .where = "section 2.2, eq:noether_force_d",
-       .states = "for every control space the change of momentum equals the work of the forces to round-off",
-       .judge = galerkin_keeps_momentum,
-       .evidence = {"consistency_galerkin.csv"}}};
+  return {order("control_space_large_enough", "convergence_galerkin", is_large_enough,
+                "with m >= s and any Gauss quadrature of r >= s points, state and costates at the nodes have order 2s: "
+                "neither more control nodes nor more quadrature points raise the order"),
+          order("control_space_too_small", "convergence_galerkin", is_too_small,
+                "with m < s, the order of state and costates at the nodes is 2m"),
+          order("control_space_continuous", "convergence_galerkin_shared", has_any,
+                "continuous controls through m Lobatto nodes, m >= 2, have order 2 min(s, m) as well"),
+          order("control_space_by_lobatto_quadrature", "convergence_galerkin_lobatto", has_any,
+                "with a quadrature of s + 1 Lobatto points, the order is 2 min(s, m) as well"),
+          {.id = "galerkin_is_dmoc",
+           .where = "section 3.4, eq:DMOC_RK_L",
+           .states = "with r = s = m and Gauss quadrature, the Galerkin integrator has the same solutions as DMOC",
+           .judge = galerkin_is_dmoc,
+           .evidence = {"convergence_galerkin.csv"}},
+          {.id = "variation_and_discretisation_commute",
+           .where = "section 3.5",
+           .states = "for every degree s of q, every quadrature and every control space, the Lagrangian of the "
+                     "nonlinear program is the Galerkin form of the control Lagrangian C + xi (L_q + f) + xi' L_v: "
+                     "variation and discretisation commute",
+           .judge = variation_commutes,
+           .condition =
+               "xi is the polynomial of degree s through the multipliers; a single triple with a difference above "
+               "round-off would refute the statement; Campos et al. (2015) prove it for their families, and Konopik et "
+               "al. (arXiv 2502.04742) construct direct methods that are equivalent to schemes of low order",
+           .evidence = {"equivalence_galerkin.csv", "equivalence_galerkin_lobatto.csv"}},
+          {.id = "galerkin_momentum",
+           .where = "section 2.2, eq:noether_force_d",
+           .states = "for every control space, the change of momentum equals the work of the forces to round-off",
+           .judge = galerkin_keeps_momentum,
+           .evidence = {"consistency_galerkin.csv"}}};
 }
 
 }  // namespace dmocbench

@@ -84,17 +84,17 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
     }
     if (coarser != nullptr &&
         (coarser->needed("objective") > optimum) != (tangent.front().needed("objective") > optimum)) {
-      reason = worded("the error of tangent changes its sign between N = {} and {}", coarser->text("intervals"),
+      reason = worded("the error of tangent changes sign between N = {} and {}", coarser->text("intervals"),
                       tangent.front().text("intervals"));
     }
     coarser = &tangent.front();
     const double ratio = error(tangent.front()) / error(row);
     if (row.needed("intervals") < coarsest_judged) {
-      below.push_back({"ratio of errors, tangent to dmoc", ratio, "tangent", "N = " + row.text("intervals")});
+      below.push_back({"ratio of errors (tangent to dmoc)", ratio, "tangent", "N = " + row.text("intervals")});
       continue;
     }
     are_equal = are_equal && ratio < equally_well && ratio > 1.0 / equally_well;
-    ratios.push_back({"ratio of errors, tangent to dmoc", ratio, "tangent", "N = " + row.text("intervals")});
+    ratios.push_back({"ratio of errors (tangent to dmoc)", ratio, "tangent", "N = " + row.text("intervals")});
   }
   require(used.size() > 1, "objective.csv has {} grids of {} solved by all three methods; two are needed", used.size(),
           problem);
@@ -102,11 +102,11 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
   const ClaimVerdict verdict = ratios.empty() ? ClaimVerdict::floor : verdict_on(is_identical && are_equal);
   return found(verdict, "the relative difference of J between dmoc and hamiltonian is {:.0e}",
                Measurement{"relative difference of J", difference, "hamiltonian"})
-      .also(worded("ratio of errors, tangent to dmoc, up to N = {}: {}", used.back().text("intervals"),
+      .also(worded("ratio of errors (tangent to dmoc) up to N = {}: {}", used.back().text("intervals"),
                    listed("{:.2f}", ratios)))
       .also(below.empty() ? Words() : worded("on coarser grids, which are not judged: {}", listed("{:.2f}", below)))
       .also(worded("{} grids with errors at the round-off of J are excluded", at_floor))
-      .also(left_out(dmoc, used, "not solved by all, in favour of"))
+      .also(left_out(dmoc, used, "not solved by all methods, which favours"))
       .because(reason);
 }
 
@@ -117,7 +117,7 @@ Finding variable_ratio(const ResultTables& tables, const std::string& problem) {
   Selection collocation;
   for (const char* method : {"hamiltonian", "tangent"}) {
     const Selection finest = midpoint(rows, method).usable().matching(dmoc, {"intervals"});
-    require(!finest.empty(), "convergence.csv: {} by {} is not solved at N = {}, where dmoc is", problem, method,
+    require(!finest.empty(), "convergence.csv: {} by {} is not solved at N = {}, where dmoc is solved", problem, method,
             dmoc.text("intervals"));
     collocation.append(finest.front());
   }
@@ -128,7 +128,7 @@ Finding variable_ratio(const ResultTables& tables, const std::string& problem) {
   const auto in_words = [&](const Row& row) {
     const std::string& method = row.text("method");
     return worded("{:.4f} of {}",
-                  Measurement{"ratio of free variables, DMOC to the method", ratio_to_dmoc(row), method}, method);
+                  Measurement{"ratio of free variables (DMOC to the method)", ratio_to_dmoc(row), method}, method);
   };
   return found(std::ranges::all_of(collocation, is_as_stated), "free variables at N = {}: {}", dmoc.text("intervals"),
                joined(collocation, ", ", in_words));
@@ -143,7 +143,7 @@ Finding reference_step(const ResultTables& tables, const std::string& problem) {
   const double step = grid.front().needed("step");
   return found(std::abs(step - (is_orbit ? 2.9e-3 : 1.9e-3)) < last_digit, "h = {:.4e} {}",
                Measurement{"h", step, "dmoc", std::string("N = ") + intervals, is_orbit ? "h" : "s"},
-               is_orbit ? "h" : "s (1.9 if cut, 2.0 if rounded)");
+               is_orbit ? "h" : "s (1.9 if truncated, 2.0 if rounded)");
 }
 
 }  // namespace
@@ -154,29 +154,29 @@ Claims grid_claims() {
   const Wording figure{"fig:kepler_error", "fig:twolink_error"};
   const auto order_two = [&](const char* id, Problems problems, const std::string& table, const char* quantity,
                              const std::string& reference) {
-    return Claim{
-        .id = id,
-        .problems = std::move(problems),
-        .where = section,
-        .figure = figure,
-        .whose = Whose::paper,
-        .states = reference.empty() ? "O(h^2) for all three methods" : "O(h^2) for all three methods, against N = 512",
-        .judge = is_of_order_two(table, quantity),
-        .evidence = {table + "_slopes.csv", table + ".csv",
-                     fmt::format("figures/{{}}_{}_error{}.svg", quantity, reference)}};
+    return Claim{.id = id,
+                 .problems = std::move(problems),
+                 .where = section,
+                 .figure = figure,
+                 .whose = Whose::paper,
+                 .states = reference.empty() ? "O(h^2) for all three methods"
+                                             : "O(h^2) for all three methods, measured against N = 512",
+                 .judge = is_of_order_two(table, quantity),
+                 .evidence = {table + "_slopes.csv", table + ".csv",
+                              fmt::format("figures/{{}}_{}_error{}.svg", quantity, reference)}};
   };
   const auto objective = [](Problems problems, Wording where, Wording shown_in, Whose whose) {
-    return Claim{
-        .id = "objective_evolution",
-        .problems = std::move(problems),
-        .where = where,
-        .figure = shown_in,
-        .whose = whose,
-        .states = "DMOC and Hamiltonian have identical cost; tangent-space collocation performs equally well",
-        .judge = objective_evolution,
-        .condition =
-            "errors against the certified optimum, from N = 16 on; \"equally well\" means within a factor of two",
-        .evidence = {"objective.csv", "convergence_indirect_reference.csv", "figures/{}_objective.svg"}};
+    return Claim{.id = "objective_evolution",
+                 .problems = std::move(problems),
+                 .where = where,
+                 .figure = shown_in,
+                 .whose = whose,
+                 .states = "DMOC and Hamiltonian have identical cost; tangent-space collocation performs equally well",
+                 .judge = objective_evolution,
+                 .condition =
+                     "errors are measured against the certified optimum from N = 16 on; \"equally well\" means within "
+                     "a factor of two",
+                 .evidence = {"objective.csv", "convergence_indirect_reference.csv", "figures/{}_objective.svg"}};
   };
   return {
       order_two("state_slope", of_paper, "convergence", "state", ""),
@@ -197,9 +197,9 @@ Claims grid_claims() {
        .whose = Whose::paper,
        .states = Wording("h = 2.9e-3 at N = 1024", "h = 1.9e-3 at N = 512"),
        .judge = reference_step,
-       .condition = Wording("the paper prints neither the number of revolutions nor the unit of time; two revolutions "
-                            "and hours are chosen so that this holds",
-                            "it follows from the horizon of 1 s"),
+       .condition = Wording("the paper prints neither the number of revolutions nor the unit of time; we chose two "
+                            "revolutions and hours so that the statement holds",
+                            "the step follows from the horizon of 1 s"),
        .evidence = {"convergence.csv"},
        .by_counting = true},
   };

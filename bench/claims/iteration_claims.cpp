@@ -78,7 +78,7 @@ struct SqpRatios {
                   Measurement{"highest ratio of " + quantity, highest(), "", at}, ratios.size(), grids(),
                   by_grid.front().text("intervals"), by_grid.back().text("intervals"));
   }
-  [[nodiscard]] Words rows_left_out() const { return left_out(all, used, "not solved by both, in favour of"); }
+  [[nodiscard]] Words rows_left_out() const { return left_out(all, used, "not solved by both methods, which favours"); }
 
  private:
   static void append(Selection& rows, const Row& row) {
@@ -112,7 +112,7 @@ Finding minor_iterations_from_slacks(const ResultTables& tables, const std::stri
       verdicts.push_back(looser.verdict());
     }
   }
-  Finding finding = found(verdict_on_all(verdicts), "from the slack basis, ratio of collocation to DMOC {}",
+  Finding finding = found(verdict_on_all(verdicts), "from the slack basis, ratio of collocation to DMOC: {}",
                           ratios.in_words("slack basis"))
                         .also(ratios.rows_left_out());
   for (Words& clause : others) finding = std::move(finding).also(std::move(clause));
@@ -123,7 +123,8 @@ Finding minor_iterations_from_slacks(const ResultTables& tables, const std::stri
 Finding minor_iterations_from_a_crash_basis(const ResultTables& tables, const std::string& problem) {
   const SqpRatios ratios(sqp_rows(tables, problem, "basis"), "minor_iterations", published_range(problem));
   return found(verdict_on_interval(ratios.lowest(), ratios.highest(), 0.0, ratios.range.lowest),
-               "from a basis chosen without iterations, ratio of collocation to DMOC {}", ratios.in_words("free basis"))
+               "from a basis chosen without iterations, ratio of collocation to DMOC: {}",
+               ratios.in_words("free basis"))
       .also(ratios.rows_left_out());
 }
 
@@ -167,22 +168,22 @@ struct QuasiNewtonRatios {
       }
     }
     require(!verdicts.empty(), "{}.csv: {}", table,
-            words.empty() ? "there is no such table" : joined(words, "; ").text);
+            words.empty() ? "the folder has no such table" : joined(words, "; ").text);
   }
 };
 
 /// With quasi-Newton updates, as the SQP methods of the paper have them.
 Finding minor_iterations_by_quasi_newton(const ResultTables& tables, const std::string& problem) {
   const QuasiNewtonRatios ratios(tables, problem, "iterations_limited_memory_by_cost");
-  return found(verdict_on_all(ratios.verdicts), "ratio of collocation to DMOC {}", joined(ratios.words, "; "))
+  return found(verdict_on_all(ratios.verdicts), "ratio of collocation to DMOC: {}", joined(ratios.words, "; "))
       .because(worded("major iterations of collocation and DMOC: {}", joined(ratios.majors, "; ")));
 }
 
 /// The same where the unknowns are taken in the units in which they come.
 Finding minor_iterations_by_updates_of_the_identity(const ResultTables& tables, const std::string& problem) {
   const QuasiNewtonRatios ratios(tables, problem, "iterations_limited_memory");
-  return found(ClaimVerdict::measured, "ratio of collocation to DMOC {}", joined(ratios.words, "; "))
-      .also(worded("major iterations of collocation and DMOC {}", joined(ratios.majors, "; ")));
+  return found(ClaimVerdict::measured, "ratio of collocation to DMOC: {}", joined(ratios.words, "; "))
+      .also(worded("major iterations of collocation and DMOC: {}", joined(ratios.majors, "; ")));
 }
 
 /// With active bounds: the ratio of collocation's minor iterations to DMOC's, next to the ratio of the numbers of
@@ -209,7 +210,7 @@ Finding minor_iterations_with_active_bounds(const ResultTables& tables, const st
                            Measurement{"highest ratio of free_variables", variables.highest(), "", problem}));
     words.push_back(minors.rows_left_out());
   }
-  require(problems > 1, "iterations_bounds.csv needs several problems by sqp from the slack basis");
+  require(problems > 1, "iterations_bounds.csv needs several problems solved by sqp from the slack basis");
   return found(holds, "from the slack basis, ratio of collocation to DMOC: {}", joined(words, "; "));
 }
 
@@ -223,7 +224,7 @@ Claims iteration_claims() {
   const Wording stated{"DMOC needs about 1.7 times fewer minor iterations",
                        "DMOC needs about 1.5 times fewer minor iterations"};
   const char* const condition =
-      "by an SQP method with exact second derivatives that starts at the slack basis, cold, without active "
+      "solved with an SQP method with exact second derivatives, cold, from the slack basis, without active "
       "inequalities; \"about\" means within 0.1 of the printed number, from N = 32 on";
   return {
       {.id = "minor_iteration_ratio",
@@ -238,8 +239,8 @@ Claims iteration_claims() {
        .where = section,
        .figure = figure,
        .whose = Whose::paper,
-       .states = Wording("in exact agreement with the reduced number of variables",
-                         "this factor reflects that DMOC uses 2/3 of the variables"),
+       .states = Wording("the ratio is in exact agreement with the reduced number of variables",
+                         "this ratio reflects that DMOC uses 2/3 of the variables"),
        .judge = minor_iterations_equal_variables,
        .condition = condition,
        .evidence = evidence},
@@ -249,37 +250,37 @@ Claims iteration_claims() {
        .whose = Whose::paper,
        .states = stated,
        .judge = minor_iterations_by_quasi_newton,
-       .condition = "we infer that the paper's SQP methods use quasi-Newton updates; limited-memory BFGS in the "
-                    "suite's SQP method, from the slack basis, initialised with the curvatures of the cost, because "
-                    "the paper does not print the scaling of its unknowns",
+       .condition = "we infer that the paper's SQP methods use quasi-Newton updates; here the suite's SQP method uses "
+                    "limited-memory BFGS from the slack basis, initialised with the curvatures of the cost because the "
+                    "paper does not state the scaling of its unknowns",
        .cause = "each major iteration adds one minor iteration for every method",
        .evidence = {"iterations_limited_memory_by_cost.csv", "iterations_limited_memory_by_cost_common.csv"}},
       {.id = "quasi_newton_depends_on_units",
        .where = section,
        .figure = figure,
-       .states = "ratio of minor iterations, collocation to DMOC, if quasi-Newton updates start from the identity, "
+       .states = "ratio of minor iterations (collocation to DMOC) if quasi-Newton updates start from the identity, "
                  "that is, in the units of the unknowns",
        .judge = minor_iterations_by_updates_of_the_identity,
        .condition =
            "the cost is flat in these units: every method takes many major iterations, each with an additional minor "
-           "iteration, and DMOC takes the most on the orbit; scaling constraints, by the step or to one size, changes "
-           "little; scaling the control to unit curvature of the cost saves most iterations",
+           "iteration, and DMOC takes the most on the orbit; scaling the constraints by the step or to a common size "
+           "changes little; scaling the control to unit curvature of the cost saves most of the iterations",
        .evidence = {"iterations_limited_memory.csv", "iterations_limited_memory_common.csv"},
        .has_verdict = false},
       {.id = "minor_iterations_saved_in_phase_1",
        .where = section,
        .figure = figure,
-       .states = "the saving lies in phase 1 from the slack basis: from a basis chosen without iterations it is below "
-                 "the published factor on every grid",
+       .states = "the saving arises in phase 1 from the slack basis: from a basis chosen without iterations, the "
+                 "saving is below the published factor on every grid",
        .judge = minor_iterations_from_a_crash_basis,
        .evidence = evidence},
       {.id = "minor_iteration_ratio_with_active_bounds",
        .problems = examples,
        .where = "section 4.2",
-       .states = "minor iterations reflect the reduced number of variables also where bounds are active",
+       .states = "minor iterations also reflect the reduced number of variables where bounds are active",
        .judge = minor_iterations_with_active_bounds,
-       .condition = "cold, from the guess; problems other than the paper's, whose controls have no bounds",
-       .cause = "a step that a bound cuts short costs one additional minor iteration, with collocation as with DMOC",
+       .condition = "solved cold, from the guess; the controls have bounds, unlike in the paper's problems",
+       .cause = "a step that a bound cuts short costs one additional minor iteration, with collocation and with DMOC",
        .evidence = {"iterations_bounds.csv"}},
   };
 }

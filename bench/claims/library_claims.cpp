@@ -32,7 +32,7 @@ Words in_library(const ResultTables& tables) {
   }
   if (all == 0) return {};
   const ShareInterval share = wilson_interval({.hits = several, .trials = all});
-  return worded("on {1} of {0} some cold starts end outside the best minimum ({2:.0f} to {3:.0f} %)",
+  return worded("on {1} of {0}, some cold starts end outside the best minimum ({2:.0f} to {3:.0f} %)",
                 counted(all, "problem"), several,
                 Measurement{"lower confidence limit of the share", 100.0 * share.lower, "", "cold starts", "%"},
                 Measurement{"upper confidence limit of the share", 100.0 * share.upper, "", "cold starts", "%"});
@@ -58,13 +58,13 @@ Finding local_minima(const ResultTables& tables, const std::string& /*problem*/)
       return worded("{:.5g}", Measurement{"cost of a minimum", row.needed("objective"), "", problem});
     };
     words.push_back(
-        worded("{}: {:g} solved starts end in {} confirmed minima, {} of them by more than one method, J = {}", problem,
+        worded("{}: {:g} solved starts end in {} confirmed minima, {} found by more than one method, J = {}", problem,
                Measurement{"solved starts", starts, "", problem}, minima.where("is_motion", "yes").size(),
                shared.size(), shared.empty() ? worded("(none)") : joined(shared, ", ", objective)));
     words.push_back(worded("not counted: {} artefacts of the grid", minima.where("is_motion", "no").size()));
   }
   require(are_several || are_enough,
-          "local_minima_shares.csv: a problem has fewer than {:g} solved starts, without a second minimum among them",
+          "local_minima_shares.csv: a problem has fewer than {:g} solved starts and no second minimum among them",
           enough_starts);
   return Finding{.clauses = std::move(words), .verdict = verdict_on(are_several)}.also(in_library(tables));
 }
@@ -81,13 +81,13 @@ Predicate dmoc_best_by(const std::string& measure) {
   return [wins = "wins_" + measure, measure](const ResultTables& tables, const std::string&) -> Finding {
     const Selection rows = tables.rows("profile");
     const Selection successes = rows.where("success", "yes");
-    require(!successes.empty(), "profile.csv has no success in {}", counted(rows.size(), "row"));
+    require(!successes.empty(), "profile.csv has no successful solve in {}", counted(rows.size(), "row"));
     for (const Row& row : successes) static_cast<void>(row.needed("objective"));
     const auto wins_in_words = [&](const Row& row) {
-      return worded("{} {} {}: best on {}, solves {}", row.text("method"), row.text("tableau"), row.text("stages"),
+      return worded("{} {} {} is best on {}, solves {}", row.text("method"), row.text("tableau"), row.text("stages"),
                     row.text(wins), row.text("successes"));
     };
-    Finding finding = found(true, "by {}, methods compared within one solver", measure);
+    Finding finding = found(true, "measured in {}, with methods compared within each solver", measure);
     bool holds = true;
     for (const Selection& solves : rows.group_by({"solver"})) {
       require_told(solves.where("success", "yes"), measure);
@@ -137,12 +137,13 @@ Finding saving_lost_by_short_steps(const ResultTables& tables, const std::string
   }
   require(pairs > 0, "profile_three_stages.csv has no pair of solves with equal costs");
   return found(ClaimVerdict::measured,
-               "{} pairs with equal costs: DMOC takes {:.2f} times Hamiltonian's iterations (geometric mean)", pairs,
-               Measurement{"iterations over Hamiltonian collocation's", std::exp(sum / static_cast<double>(pairs)),
+               "{} pairs with equal costs: dmoc takes {:.2f} times the iterations of hamiltonian (geometric mean)",
+               pairs,
+               Measurement{"iterations relative to Hamiltonian collocation", std::exp(sum / static_cast<double>(pairs)),
                            "dmoc"})
-      .also(worded("on {} of them it evaluates more often per iteration", shortened))
-      .also(worded("the saving is lost on {}, on {} of these without more evaluations per iteration{}{}", lost.size(),
-                   lost_by_full_steps, lost.empty() ? "" : ": ", fmt::join(lost, ", ")));
+      .also(worded("on {} of them, DMOC needs more evaluations per iteration", shortened))
+      .also(worded("the saving is lost on {} pairs, on {} of these without more evaluations per iteration{}{}",
+                   lost.size(), lost_by_full_steps, lost.empty() ? "" : ": ", fmt::join(lost, ", ")));
 }
 
 }  // namespace
@@ -157,7 +158,7 @@ Claims minima_claims() {
                "different initial guesses can lead to different solutions, which was observed in almost all example "
                "computations",
            .judge = local_minima,
-           .condition = "\"can\" is judged, on the paper's two problems; \"almost all\" is about computations that are "
+           .condition = "\"can\" is judged on the paper's two problems; \"almost all\" refers to computations that are "
                         "not published, so the share of problems is reported without a verdict",
            .evidence = {"local_minima_minima.csv", "local_minima_shares.csv", "cold_start_shares.csv",
                         "figures/two_link_manipulator_local_minima.svg"}}};
@@ -170,24 +171,24 @@ Claims library_claims() {
     claims.push_back({.id = "dmoc_best_by_" + measure,
                       .problems = Problems(1, "library"),
                       .where = "section 5, on two problems",
-                      .states = "DMOC needs less effort than collocation also on problems other than the paper's two",
+                      .states = "DMOC also needs less effort than collocation on problems other than the paper's two",
                       .judge = dmoc_best_by(measure),
                       .evidence = {"profile.csv", "figures/profile.svg"},
                       .needs = "profile"});
   }
-  claims.push_back({.id = "saving_lost_by_short_steps",
-                    .problems = Problems(1, "library"),
-                    .where = "section 5, on two problems",
-                    .states = "with three stages on fine grids, number of pairs in which extra iterations cost DMOC "
-                              "its saving, and number of these with more evaluations per iteration",
-                    .judge = saving_lost_by_short_steps,
-                    .condition = "from each problem's guess, by interior_point; lost where DMOC's iterations exceed "
-                                 "Hamiltonian's by more than the ratio of variables; short steps of the line search "
-                                 "show as evaluations; the few lost savings belong to two problems, too few for a "
-                                 "statement",
-                    .evidence = {"profile_three_stages.csv"},
-                    .has_verdict = false,
-                    .needs = "profile_three_stages"});
+  claims.push_back(
+      {.id = "saving_lost_by_short_steps",
+       .problems = Problems(1, "library"),
+       .where = "section 5, on two problems",
+       .states = "number of pairs of solves, with three stages on fine grids, in which DMOC loses its saving to "
+                 "additional iterations, and number of these pairs with more evaluations per iteration",
+       .judge = saving_lost_by_short_steps,
+       .condition = "solved with interior_point from each problem's guess; the saving is lost where DMOC's iterations "
+                    "exceed Hamiltonian's by more than the ratio of variables; short steps of the line search appear "
+                    "as evaluations; the few lost savings belong to two problems, too few for a general statement",
+       .evidence = {"profile_three_stages.csv"},
+       .has_verdict = false,
+       .needs = "profile_three_stages"});
   return claims;
 }
 

@@ -38,7 +38,7 @@ Selection fitted_of(const Selection& orders) { return orders.where(has_order); }
 Words not_in(const Selection& orders, const ResultTables& tables, const std::string& problem) {
   return joined(
       {left_out(orders, fitted_of(orders),
-                "without an order (few grids above round-off, no four that agree, or finer ones that contradict):"),
+                "no order was fitted (few grids above round-off, no four that agree, or finer ones that contradict):"),
        unsolved_behind(tables, "convergence_indirect", {{"problem", problem}})},
       "; ");
 }
@@ -61,8 +61,8 @@ void require_solved_schemes(const Selection& orders, const ResultTables& tables,
   if (!tables.has("convergence_indirect")) return;
   for (const Selection& scheme : tables.rows("convergence_indirect", problem).group_by({"tableau", "stages"})) {
     require(!orders.matching(scheme.front(), {"tableau", "stages"}).empty(),
-            "convergence_indirect_slopes.csv has no order for {}, {} {}, which convergence_indirect.csv has", problem,
-            scheme.front().text("tableau"), scheme.front().text("stages"));
+            "convergence_indirect_slopes.csv lacks an order for {}, {} {}, which convergence_indirect.csv contains",
+            problem, scheme.front().text("tableau"), scheme.front().text("stages"));
   }
 }
 
@@ -119,7 +119,7 @@ Finding order_of_convergence(const ResultTables& tables, const std::string& prob
   require_all(orders, quantities);
   const ClaimVerdict verdict = verdict_on_orders(orders);
   if (verdict == ClaimVerdict::reproduced) require_solved_schemes(orders, tables, problem);
-  return found(verdict, "slopes of DMOC against the indirect solution: {}", in_words(orders))
+  return found(verdict, "slopes of DMOC's errors relative to the indirect solution: {}", in_words(orders))
       .also(not_in(orders, tables, problem));
 }
 
@@ -136,10 +136,10 @@ Finding order_of_adjoint_scheme(const ResultTables& tables, const std::string& p
   const double residual = solves.max("adjoint_residual");
   const double plain = lobatto.min("adjoint_residual_by_plain_coefficients");
   return found(verdict_on_orders(orders, residual < rounding_of_costates && plain > far_above_rounding),
-               "costates from the multipliers of {} solves have a relative residual of at most {:.1e} (Lobatto with "
-               "halves not exchanged: at least {:.1e})",
+               "costates from the multipliers of {} solves have a relative residual of at most {:.1e} (for Lobatto "
+               "without exchanging the halves: at least {:.1e})",
                solves.size(), Measurement{"largest residual of the adjoint scheme", residual},
-               Measurement{"smallest residual with coefficients that are not exchanged", plain})
+               Measurement{"smallest residual without exchanging the coefficients", plain})
       .also(left_out(all, solves))
       .also(worded("slopes of DMOC's costate: {}", in_words(orders)))
       .also(not_in(orders, tables, problem));
@@ -151,18 +151,18 @@ Finding stability_constant(const ResultTables& tables, const std::string& proble
     return is_structured(row) && row.text("tableau") == "gauss" && row.text("stages") == "1";
   });
   const Selection rows = all.where("verdict", "slope");
-  require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} with the midpoint rule in {} rows",
+  require(!rows.empty(), "convergence_indirect_jumps.csv has no fitted row of {} with the midpoint rule among {} rows",
           problem, all.size());
   const auto words = [](const Row& row) {
     const auto ratio = [&](const char* column, const char* grid) {
-      return Measurement{"error of the state over N times the largest jump", row.needed(column), row.text("method"),
-                         "N = " + row.text(grid)};
+      return Measurement{"error of the state divided by N times the largest jump", row.needed(column),
+                         row.text("method"), "N = " + row.text(grid)};
     };
     return worded("{} {:.4f} at N = {}, {:.4f} at N = {}", row.text("method"),
                   ratio("error_of_jumps_coarsest", "coarsest"), row.text("coarsest"),
                   ratio("error_of_jumps_finest", "finest"), row.text("finest"));
   };
-  return found(ClaimVerdict::measured, "error of the state over N times the largest jump between intervals: {}",
+  return found(ClaimVerdict::measured, "error of the state divided by N times the largest jump between intervals: {}",
                joined(rows, ", ", words));
 }
 
@@ -232,7 +232,7 @@ Finding first_order_orders(const ResultTables& tables, const std::string& table,
   require(!words.empty(), "{}.csv has no order for {}", table, problem);
   const auto verdict_of = [&](const Row& row) { return verdict_on_order(row, expected(row)); };
   return found(verdict_on_all(fitted, verdict_of), "lowest and highest slope of all methods: {}", joined(words, "; "))
-      .also(left_out(all, fitted, "without a fit, in favour of the claim:"));
+      .also(left_out(all, fitted, "no order was fitted, which favours the claim:"));
 }
 
 Finding orders_with_first_order_states(const ResultTables& tables, const std::string& problem) {
@@ -258,32 +258,32 @@ Claims order_claims() {
       {.id = "order_of_convergence",
        .where = "section 3.6, main_theorem",
        .whose = Whose::paper,
-       .states = "order kappa for state, costate and u(x, psi) at the nodes",
+       .states = "state, costate and u(x, psi) have order kappa at the nodes",
        .judge = order_of_convergence,
-       .condition = "the optimum is smooth, which makes tau of (eq:conv_estimate) O(h), a term that no table has; its "
-                    "final state is fixed, which the theorem excludes",
+       .condition = "the optimum is smooth, so tau of (eq:conv_estimate), which no table contains, is O(h); the final "
+                    "state is fixed, which the theorem excludes",
        .evidence = {"convergence_indirect_slopes.csv", "convergence_indirect.csv", "figures/{}_orders.svg"}},
       {.id = "order_eight_of_four_stages",
        .where = "section 3.6, main_theorem",
        .states = "four Gauss stages have order 8 in state, costate and u(x, psi)",
        .judge = order_eight,
-       .condition = "round-off leaves few grids; a fit needs four above it",
+       .condition = "round-off leaves few grids; a fit needs four grids above round-off",
        .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}},
       {.id = "order_of_adjoint_scheme",
        .where = "section 3.5, th:orderapp, eq:stateco5-eq:stateco9",
        .whose = Whose::paper,
-       .states = "the adjoint scheme is the scheme of the states with both halves exchanged, and has the same order",
+       .states = "the adjoint scheme is the scheme of the states with both halves exchanged and has the same order",
        .judge = order_of_adjoint_scheme,
        .condition = "Gauss is its own conjugate, so only Lobatto can distinguish the two",
        .evidence = {"equivalence.csv", "convergence_indirect_slopes.csv", "figures/{}_adjoint.svg"}},
       {.id = "stability_constant",
        .where = "section 3.6, abstract_result",
-       .states = "the factor by which consistency errors of the state equations enter the error of the optimum, as the "
-                 "grid is refined",
+       .states = "the factor with which consistency errors of the state equations enter the error of the optimum as "
+                 "the grid is refined",
        .judge = stability_constant,
-       .condition = "a lower bound on the constant of (abstract_result), only for errors in this direction; midpoint "
-                    "rule and fixed ends, because the reference, the indirect method, supports no others. The paper "
-                    "quotes (abstract_result) and assumes (P1) to (P3): no table has epsilon, r or sigma",
+       .condition = "the factor is a lower bound on the constant of (abstract_result) for errors in this direction; "
+                    "the reference, the indirect method, supports only the midpoint rule and fixed ends. The paper "
+                    "quotes (abstract_result) and assumes (P1) to (P3): no table contains epsilon, r or sigma",
        .evidence = {"convergence_indirect_jumps.csv"},
        .has_verdict = false},
       {.id = "order_with_first_order_states",
@@ -306,7 +306,7 @@ Claims stage_control_claims() {
                  "nodes",
        .judge = order_of_stage_controls,
        .condition = "the paper estimates u(x_k, psi_k) and states nothing about the controls u_k of the stages",
-       .cause = "the costate of the optimum is nearly constant: terms of order s + 1 are too small to be seen on "
+       .cause = "the costate of the optimum is nearly constant: terms of order s + 1 are too small to be visible on "
                 "these grids, and the errors fall as at the nodes",
        .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}},
       {.id = "stage_controls_of_first_order_states",
@@ -314,7 +314,7 @@ Claims stage_control_claims() {
        .where = "section 3.6, remark after main_theorem",
        .states = "stage controls that drive first-order states have order s + 1 (Gauss) and s - 1 (Lobatto)",
        .judge = stage_controls_of_first_order_states,
-       .condition = "H_u contains the costate of y, which the other half of the tableau carries",
+       .condition = "H_u contains the costate of y, which is discretised with the other half of the tableau",
        .evidence = {"convergence_stage_controls_slopes.csv", "convergence_stage_controls.csv"},
        .needs = "convergence_stage_controls_slopes"}};
 }

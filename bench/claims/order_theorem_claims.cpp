@@ -22,7 +22,7 @@ Finding exact_transforms_agree(const ResultTables& tables, const std::string& pr
                     quotient_of(row, "right_defect", "largest_momentum"));
   };
   return found(rows.max(defect) < rounding_of_differences,
-               "largest difference over 8 trajectories and {} steps, relative to the largest momentum: {:.1e}",
+               "largest difference over 8 trajectories and {} step sizes, relative to the largest momentum: {:.1e}",
                rows.size(), Measurement{"largest relative difference", rows.max(defect)});
 }
 
@@ -76,14 +76,14 @@ Finding theorem_as_printed(const ResultTables& tables, const std::string& proble
                                              {"(iii) L_d", {"lagrangian"}, 1}})(tables, problem);
   std::vector<Measurement> shares;
   for (const Row& row : tables.rows("consistency_order_transforms", problem)) {
-    shares.push_back({"h d(f_d - f_d^E) over f_d - f_d^E", quotient_of(row, "force_error_curl", "force_error"), "dmoc",
-                      "h = " + row.text("h")});
+    shares.push_back({"ratio of h d(f_d - f_d^E) to f_d - f_d^E", quotient_of(row, "force_error_curl", "force_error"),
+                      "dmoc", "h = " + row.text("h")});
   }
   const auto [least, most] = std::ranges::minmax(shares, {}, &Measurement::value);
   const ClaimVerdict has_pair = verdict_on_interval(least.value, most.value, -1.0, rounding_of_differences);
   finding.verdict = verdict_on_all({finding.verdict, has_pair});
   return std::move(finding).also(worded(
-      "(iii) f_d: {}, its error with the midpoint rule {} a differential, h d(f_d - f_d^E) is {} of f_d - f_d^E",
+      "(iii) f_d: {}; with the midpoint rule its error {} a differential, and h d(f_d - f_d^E) is {} of f_d - f_d^E",
       outcome_in_words(has_pair), has_pair == ClaimVerdict::reproduced ? "is" : "is not", listed("{:.0e}", shares)));
 }
 
@@ -106,22 +106,20 @@ Claims order_theorem_claims() {
       {.id = "order_theorem",
        .where = "section 2.3, th:ordercalculation",
        .whose = Whose::paper,
-       .states =
-           "these are equivalent: (i) the map is of order r, (ii) the Legendre transforms are, (iii) (L_d, f_d) is "
-           "equivalent to a pair of order r; all with errors of h^(r + 1)",
+       .states = "these are equivalent: (i) the map is of order r, (ii) the Legendre transforms are of order r, (iii) "
+                 "(L_d, f_d) is equivalent to a pair of order r; all with errors of h^(r + 1)",
        .judge = theorem_as_printed,
-       .condition =
-           "the transforms lose a power: at fixed end points the derivative of h^(r + 1) e((q_0 + q_1)/2, (q_1 - "
-           "q_0)/h) by q_1 is of order h^r, while L_d and the map keep h^(r + 1) (methods/diagnostics/README.md, "
-           "\"Order of consistency\"); Patrick and Cuell, whom the paper cites for another proof, find it for the "
-           "unforced theorem: divisions by the time step cost one order, which a symmetry between past and future "
-           "repairs for the map (Error analysis of variational integrators of unconstrained Lagrangian systems, Numer. "
-           "Math. 113, 2009)",
+       .condition = "the transforms lose a power: at fixed end points the derivative of h^(r + 1) e((q_0 + q_1)/2, "
+                    "(q_1 - q_0)/h) with respect to q_1 is of order h^r, while L_d and the map keep h^(r + 1) "
+                    "(methods/diagnostics/README.md, \"Order of consistency\"); Patrick and Cuell, whom the paper "
+                    "cites for another proof, find this for the unforced theorem: divisions by the time step cost one "
+                    "order, which a symmetry between past and future repairs for the map (Error analysis of "
+                    "variational integrators of unconstrained Lagrangian systems, Numer. Math. 113, 2009)",
        .cause = Wording("(i) holds, (ii) and (iii) do not: the force (0, r u) depends on the state, and the error of "
-                        "order h^r of f_d is not a differential, so that no equivalent pair has forces of order r",
-                        "(i) and (iii) hold, (ii) does not: the force does not depend on the state, so that f_d and "
-                        "f_d^E are the differentials of W_d and W^E, the work sum and integral of f q, and (L_d + W_d "
-                        "- W^E, f_d - d(W_d - W^E)) is an equivalent pair of order r"),
+                        "order h^r of f_d is not a differential, so no equivalent pair has forces of order r",
+                        "(i) and (iii) hold, (ii) does not: the force does not depend on the state, so f_d and f_d^E "
+                        "are the differentials of W_d and W^E, the work sum and integral of f q, and (L_d + W_d - W^E, "
+                        "f_d - d(W_d - W^E)) is an equivalent pair of order r"),
        .evidence = evidence},
       {.id = "order_theorem_with_one_power_less",
        .where = "section 2.3, th:ordercalculation",

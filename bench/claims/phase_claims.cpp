@@ -15,7 +15,7 @@ Finding equal_across_switches(const ResultTables& tables, const std::string& /*p
   constexpr double rounding = 1e-11;
   const Selection all = tables.rows("equivalence_phases").where("method", "hamiltonian");
   const Selection rows = all.usable();
-  require(rows.group_by({"stages"}).size() > 1, "equivalence_phases.csv needs solved rows of two numbers of stages");
+  require(rows.group_by({"stages"}).size() > 1, "equivalence_phases.csv needs solved rows with two numbers of stages");
   double largest = 0.0;
   for (const char* column :
        {"configuration_difference", "momentum_difference", "control_difference", "objective_difference"}) {
@@ -24,7 +24,7 @@ Finding equal_across_switches(const ResultTables& tables, const std::string& /*p
   return found(largest < rounding, "{} grids of {}, largest relative difference of q, p, u and J: {:.0e}", rows.size(),
                fmt::join(rows.distinct("problem"), ", "),
                Measurement{"largest relative difference of q, p, u and J", largest})
-      .also(worded("of costates {:.0e}",
+      .also(worded("largest relative difference of the costates: {:.0e}",
                    Measurement{"largest relative difference of the costates", rows.max("costate_difference")}))
       .also(left_out(all, rows));
 }
@@ -51,9 +51,9 @@ Finding orders_with_free_times(const ResultTables& tables, const std::string& /*
   const Selection rows = tables.rows("convergence_phases_slopes").where([](const Row& row) {
     return row.text("verdict") == "slope" && row.text("quantity") != "control" && row.text("quantity") != "replay";
   });
-  require(rows.group_by({"stages"}).size() > 1, "convergence_phases_slopes.csv needs orders of two numbers of stages");
+  require(rows.group_by({"stages"}).size() > 1, "convergence_phases_slopes.csv needs orders for two numbers of stages");
   const auto deviation = [](const Row& row) { return std::abs(row.needed("slope") - 2.0 * row.needed("stages")); };
-  return found(rows.max(deviation) < tolerance, "{} orders of {}: at most {:.2f} away from 2s", rows.size(),
+  return found(rows.max(deviation) < tolerance, "{} orders of {} differ from 2s by at most {:.2f}", rows.size(),
                fmt::join(rows.distinct("problem"), ", "),
                Measurement{"largest distance of an order from 2s", rows.max(deviation)});
 }
@@ -74,9 +74,8 @@ Finding energy_at_impacts(const ResultTables& tables, const std::string& /*probl
   const auto in_words = [&](const char* force, const char* condition) {
     const Selection rows = orders.where("force", force).where("condition", condition);
     require(rows.group_by({"stages"}).size() > 1,
-            "invariants_impacts_slopes.csv needs orders of {}, force {}, of two "
-            "numbers of stages",
-            condition, force);
+            "invariants_impacts_slopes.csv needs orders of {} with force {} for two numbers of stages", condition,
+            force);
     return joined(rows, ", ", [](const Row& row) {
       return worded("{:.2f}", Measurement{"order of the state", row.needed("slope"), "dmoc", row.text("condition")});
     });
@@ -84,11 +83,11 @@ Finding energy_at_impacts(const ResultTables& tables, const std::string& /*probl
   const ClaimVerdict of_orders =
       verdict_on_all(orders, [](const Row& row) { return verdict_on_order(row, order_of_impact(row), near); });
   return found(verdict_on_all({of_orders, verdict_on(kept.max("energy_change") < rounding)}),
-               "orders under a drag, s = 1, 2: energies of the steps {}, with half of the work {}, momenta {}",
+               "orders with drag, s = 1, 2: energies of the steps {}, with half of the work {}, momenta {}",
                in_words("drag", "steps"), in_words("drag", "steps_and_work"), in_words("drag", "momenta"))
       .also(worded("without force: energies of the steps {}, momenta {}", in_words("none", "steps"),
                    in_words("none", "momenta")))
-      .also(worded("change of energy by momenta at most {:.0e}",
+      .also(worded("with the impact law for momenta, the energy changes by at most {:.0e}",
                    Measurement{"largest change of energy at an impact", kept.max("energy_change")}));
 }
 
@@ -97,38 +96,39 @@ Finding energy_at_impacts(const ResultTables& tables, const std::string& /*probl
 /// Phases.
 Claims phase_claims() {
   const Problems phases{"phases"};
-  return {{.id = "equal_solutions",
-           .problems = phases,
-           .where = "section 1, hybrid systems; th:equi",
-           .whose = Whose::extension,
-           .states = "across switches with free switching times DMOC and Hamiltonian collocation have equal solutions",
-           .judge = equal_across_switches,
-           .evidence = {"equivalence_phases.csv"}},
-          {.id = "momentum",
-           .problems = phases,
-           .where = "section 1, nonsmooth integrators; eq:noether_force_d",
-           .whose = Whose::extension,
-           .states = "across an impact whose guard has the symmetry the change in momentum equals the work of the "
-                     "forces for DMOC and Hamiltonian collocation, not for tangent-space collocation",
-           .judge = momentum_across_impacts,
-           .evidence = {"consistency_phases.csv"}},
-          {.id = "orders",
-           .problems = phases,
-           .where = "section 1, hybrid systems; main_theorem",
-           .whose = Whose::extension,
-           .states = "with free switching times states, momenta, costates and cost keep the order 2s",
-           .judge = orders_with_free_times,
-           .evidence = {"convergence_phases_slopes.csv"}},
-          {.id = "energy_at_impacts",
-           .problems = phases,
-           .where = "section 1, nonsmooth integrators",
-           .whose = Whose::extension,
-           .states = "as soon as forces act, equal discrete energies of the two steps next to an elastic impact, the "
-                     "condition of variational collision integrators, have order 1, with half of the forces' work "
-                     "order 2; the impact law for the Legendre-transformed momenta has order 2s and keeps the energy",
-           .judge = energy_at_impacts,
-           .condition = "without forces, equal energies of the steps are a correct condition, of order 2s",
-           .evidence = {"invariants_impacts.csv", "invariants_impacts_slopes.csv"}}};
+  return {
+      {.id = "equal_solutions",
+       .problems = phases,
+       .where = "section 1, hybrid systems; th:equi",
+       .whose = Whose::extension,
+       .states = "across switches with free switching times, DMOC and Hamiltonian collocation have equal solutions",
+       .judge = equal_across_switches,
+       .evidence = {"equivalence_phases.csv"}},
+      {.id = "momentum",
+       .problems = phases,
+       .where = "section 1, nonsmooth integrators; eq:noether_force_d",
+       .whose = Whose::extension,
+       .states = "across an impact whose guard has the symmetry, the change in momentum equals the work of the forces "
+                 "for DMOC and Hamiltonian collocation, not for tangent-space collocation",
+       .judge = momentum_across_impacts,
+       .evidence = {"consistency_phases.csv"}},
+      {.id = "orders",
+       .problems = phases,
+       .where = "section 1, hybrid systems; main_theorem",
+       .whose = Whose::extension,
+       .states = "with free switching times, states, momenta, costates and cost keep the order 2s",
+       .judge = orders_with_free_times,
+       .evidence = {"convergence_phases_slopes.csv"}},
+      {.id = "energy_at_impacts",
+       .problems = phases,
+       .where = "section 1, nonsmooth integrators",
+       .whose = Whose::extension,
+       .states = "as soon as forces act, the condition of variational collision integrators, equal discrete energies "
+                 "of the two steps next to an elastic impact, has order 1, and with half of the forces' work it has "
+                 "order 2; the impact law for the Legendre-transformed momenta has order 2s and conserves the energy",
+       .judge = energy_at_impacts,
+       .condition = "without forces, equal energies of the steps are a correct condition, of order 2s",
+       .evidence = {"invariants_impacts.csv", "invariants_impacts_slopes.csv"}}};
 }
 
 }  // namespace dmocbench

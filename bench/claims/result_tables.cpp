@@ -104,7 +104,7 @@ void check_keys(const Table& table, const ColumnNames& key) {
     for (const std::string& column : key) fields.push_back(row.text(column));
     if (const auto [first, is_new] = seen.try_emplace(fields, &row); !is_new) {
       throw Error(
-          fmt::format("{} has the key of {}: {}", row.place(), first->second->place(), fmt::join(fields, ", ")));
+          fmt::format("{} has the same key as {}: {}", row.place(), first->second->place(), fmt::join(fields, ", ")));
     }
   }
 }
@@ -157,7 +157,7 @@ nlohmann::ordered_json metadata_of_whole_run(const std::filesystem::path& folder
   if (!metadata.is_object() || complete == metadata.end() || !complete->is_boolean()) {
     throw Error(fmt::format("{} does not state whether the run was completed", file));
   }
-  if (!complete->get<bool>()) throw Error(fmt::format("the run was interrupted according to {}; run it again", file));
+  if (!complete->get<bool>()) throw Error(fmt::format("according to {}, the run was interrupted; run it again", file));
   if (metadata.contains("cases") && metadata["cases"] != metadata.value("rows", nlohmann::ordered_json())) {
     throw Error(
         fmt::format("{} lists {} cases, not all of which have a row; run it again", file, metadata["cases"].dump()));

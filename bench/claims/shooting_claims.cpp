@@ -48,7 +48,7 @@ Finding order_of_shooting(const ResultTables& tables, const std::string& problem
   }
   const ClaimVerdict of_fitted = verdict_on_all(verdicts);
   const ClaimVerdict verdict = is_floor && of_fitted == ClaimVerdict::reproduced ? ClaimVerdict::floor : of_fitted;
-  return found(verdict, "slopes of the state error against the indirect solution: {}", joined(words, ", "));
+  return found(verdict, "slopes of the state error relative to the indirect solution: {}", joined(words, ", "));
 }
 
 /// The row of cold starts of a method by Ipopt.
@@ -81,8 +81,8 @@ Finding more_often(const ResultTables& tables, const std::string& problem, const
                                                  : ClaimVerdict::undecided);
     const std::string starts = fmt::format("starts {}", column);
     words.push_back(worded(
-        "{} {} {} of {}, {} {} of {}, difference {:+.1f} to {:+.1f} %", column, first, count(starts, own.hits, first),
-        count("starts", own.trials, first), second, count(starts, others.hits, second),
+        "{} {} {} of {}, {} {} of {}, shares differ by {:+.1f} to {:+.1f} %", column, first,
+        count(starts, own.hits, first), count("starts", own.trials, first), second, count(starts, others.hits, second),
         count("starts", others.trials, second),
         Measurement{"lower confidence limit of the difference of " + starts, 100.0 * difference.lower, first, "", "%"},
         Measurement{"upper confidence limit of the difference of " + starts, 100.0 * difference.upper, first, "",
@@ -95,8 +95,8 @@ Finding more_often(const ResultTables& tables, const std::string& problem, const
   };
   return found(verdict_on_all(verdicts), "cold starts {}", joined(words, "; "))
       .also(worded("95 % intervals"))
-      .because(worded("failures by {}; by {}", failures(row, first), failures(other, second)))
-      .as_sure_as(fmt::format("95 % of {} starts", row.text("starts")));
+      .because(worded("failures of {}; of {}", failures(row, first), failures(other, second)))
+      .as_sure_as(fmt::format("95 %, {} starts", row.text("starts")));
 }
 
 /// Errors of the cost with the times of solves, one curve for each round.
@@ -107,20 +107,20 @@ Curves timed_curves(const ResultTables& tables, const std::string& problem, cons
                              .where("solver", "ipopt")
                              .sorted_by("intervals");
   require(rows.size() > 1 && rows.are_usable(),
-          "savings_by_solver_shooting.csv: {} by {} is not solved on the required branch on several grids", problem,
+          "savings_by_solver_shooting.csv needs several grids of {} by {}, all solved on the required branch", problem,
           method);
   Curves curves;
   for (const Row& row : rows) {
     const std::vector<double> seconds = row.numbers("round_seconds");
     const double error = row.needed("objective_error");
-    require(error > 0.0, "{}, column objective_error: {} is not an error", row.place(), error);
+    require(error > 0.0, "{}, column objective_error: {} is not positive", row.place(), error);
     if (&row == &rows.front()) curves.resize(seconds.size());
     curves.resize(std::min(curves.size(), seconds.size()));
     for (std::size_t round = 0; round < curves.size(); ++round) {
       curves[round].push_back({std::log10(error), seconds[round]});
     }
   }
-  require(!curves.empty(), "{}, column round_seconds: there is no number", rows.front().place());
+  require(!curves.empty(), "{}, column round_seconds: the field contains no number", rows.front().place());
   return curves;
 }
 
@@ -146,7 +146,7 @@ Predicate costs_more(const char* method) {
     timed.add(method, ratios);
     return found_by_times(
         timed,
-        fmt::format("ratio of solve times by Ipopt to DMOC's at a relative error of the cost of {:.1e}: ", error));
+        fmt::format("solve time with Ipopt relative to DMOC at a relative error of the cost of {:.1e}: ", error));
   };
 }
 
@@ -157,7 +157,7 @@ Claims shooting_claims() {
   const std::vector<std::string> cold{"cold_start_shooting_shares.csv", "figures/{}_shooting.svg"};
   const char* const where = "section 3.3, direct methods";
   const char* const by_ipopt =
-      "by Ipopt on one grid; DMOC is of order 2, and shooting uses rk4 with one step per interval";
+      "solved with Ipopt on one grid; DMOC is of order 2, and shooting uses rk4 with one step per interval";
   const auto succeeds_more_often = [](const char* first, const char* second) -> Predicate {
     return [=](const ResultTables& tables, const std::string& problem) {
       return more_often(tables, problem, first, second);
@@ -168,7 +168,7 @@ Claims shooting_claims() {
                  .where = where,
                  .states = states,
                  .judge = costs_more(method),
-                 .condition = "warm, from the common start; all by Ipopt, rk4 with one step per interval, s = 1",
+                 .condition = "warm solves from the common start with Ipopt, s = 1, one rk4 step per interval",
                  .evidence = {"savings_by_solver_shooting.csv"}};
   };
   return {{.id = "order_of_shooting",
@@ -182,16 +182,16 @@ Claims shooting_claims() {
           {.id = "multiple_shooting_more_robust_than_single",
            .problems = with_swing_up,
            .where = where,
-           .states = "from cold starts (the guess and perturbed guesses), multiple shooting is solved more often than "
-                     "single shooting, and confirmed more often",
+           .states = "from cold starts (the guess and perturbed guesses), programs of multiple shooting are solved "
+                     "more often, and confirmed more often, than programs of single shooting",
            .judge = succeeds_more_often(multiple, single),
            .condition = by_ipopt,
            .evidence = cold},
           {.id = "dmoc_more_robust_than_multiple_shooting",
            .problems = with_swing_up,
            .where = where,
-           .states = "from cold starts (the guess and perturbed guesses), DMOC is solved more often than multiple "
-                     "shooting, and confirmed more often",
+           .states = "from cold starts (the guess and perturbed guesses), programs of DMOC are solved more often, and "
+                     "confirmed more often, than programs of multiple shooting",
            .judge = succeeds_more_often("dmoc", multiple),
            .condition = by_ipopt,
            .evidence = cold},

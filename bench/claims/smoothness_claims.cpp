@@ -63,7 +63,7 @@ Finding kinks_leave_order_2(const ResultTables& tables, const std::string& /*pro
   };
   const auto kept = [](const Row& row) { return verdict_on_order(row, 4.0); };
   return found(verdict_on_all({verdict_on_all(kinked, lost), verdict_on_all(smooth, kept)}),
-               "slopes of the state with Gauss, s = 2, and kinks: {}", orders_in_words(kinked))
+               "slopes of the state with Gauss, s = 2, where the control has kinks: {}", orders_in_words(kinked))
       .also(worded("without: {}", orders_in_words(smooth)));
 }
 
@@ -141,25 +141,25 @@ Claims coercivity_claims() {
     return [=](const ResultTables& tables, const std::string& problem) { return coercive(tables, problem, end); };
   };
   const char* const where = "section 3.5, assumption of coercivity";
-  return {{.id = "coercive",
-           .where = where,
-           .states = "along the discrete optima the second variation is coercive on variations that keep the fixed "
-                     "final state",
-           .judge = at_end("stated"),
-           .condition = "the largest alpha_h with d^2 L >= alpha_h h sum b_i |dU_i|^2 is bounded below as h falls",
-           .evidence = {"coercivity.csv"}},
-          {.id = "coercive_with_a_free_end",
-           .where = where,
-           .states = "the assumption of main_theorem holds along the discrete optima: the second variation is coercive "
-                     "on the space M of the paper, whose variations move the final state",
-           .judge = at_end("free"),
-           .condition = "x = (q, p) at T is free along the variations, and V = 0, as the cost has no final term and r "
-                        "is linear; the optimum belongs to the stated problem",
-           .cause = "M leaves out the fixed final state; variations that move it lower the cost to second order, so "
-                    "that main_theorem does not cover this problem, although its optima converge with the order of "
-                    "the theorem",
-           .evidence = {"coercivity.csv"},
-           .headline = true}};
+  return {
+      {.id = "coercive",
+       .where = where,
+       .states =
+           "along the discrete optima, the second variation is coercive on variations that keep the fixed final state",
+       .judge = at_end("stated"),
+       .condition = "the largest alpha_h with d^2 L >= alpha_h h sum b_i |dU_i|^2 is bounded below as h falls",
+       .evidence = {"coercivity.csv"}},
+      {.id = "coercive_with_a_free_end",
+       .where = where,
+       .states = "the assumption of main_theorem holds along the discrete optima: the second variation is coercive "
+                 "on the space M of the paper, whose variations move the final state",
+       .judge = at_end("free"),
+       .condition = "x = (q, p) at T is free along the variations, and V = 0, as the cost has no final term and r "
+                    "is linear; the optimum belongs to the stated problem",
+       .cause = "M leaves out the fixed final state; variations that move it lower the cost to second order, so "
+                "main_theorem does not cover this problem, although its optima converge with the order of the theorem",
+       .evidence = {"coercivity.csv"},
+       .headline = true}};
 }
 
 /// Optima that are not smooth, free final states.
@@ -169,14 +169,14 @@ Claims smoothness_claims() {
            .problems = examples,
            .where = "section 3.6, second remark below main_theorem",
            .whose = Whose::paper,
-           .states = "the order 2 also holds with constraints on the control",
+           .states = "order 2 also holds with constraints on the control",
            .judge = order_2_within_control_bounds,
            .evidence = evidence},
           {.id = "order_with_a_free_end",
            .problems = examples,
            .where = "section 3.6, main_theorem",
            .whose = Whose::paper,
-           .states = "without constraint on the final state, state, costate and u(x, psi) have the order of the method",
+           .states = "with a free final state, state, costate and u(x, psi) have the order of the method",
            .judge = free_end_has_the_order,
            .evidence = evidence},
           {.id = "kinks_leave_order_2",
@@ -184,8 +184,8 @@ Claims smoothness_claims() {
            .where = "section 3.6, eq:conv_estimate",
            .states = "where the optimal control has kinks, a method of order 4 has only about order 2",
            .judge = kinks_leave_order_2,
-           .condition = "tau(d^3 u*/dt^3; h) of eq:conv_estimate does not exist there; it exists for u* and its first "
-                        "derivative, which gives h^2",
+           .condition = "tau(d^3 u*/dt^3; h) of eq:conv_estimate does not exist at kinks; it exists for u* and its "
+                        "first derivative, which gives h^2",
            .evidence = evidence},
           {.id = "order_within_a_state_bound",
            .problems = examples,

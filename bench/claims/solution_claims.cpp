@@ -35,7 +35,7 @@ struct MomentumBalance {
         hamiltonian(rows.usable().where("method", "hamiltonian")),
         tangent(rows.usable().where("method", "tangent")) {
     require(dmoc.size() > 1 && hamiltonian.size() > 1 && tangent.size() > 1,
-            "consistency.csv has {}, {} and {} solved rows by dmoc, hamiltonian and tangent; two are needed of each",
+            "consistency.csv has {}, {} and {} solved rows by dmoc, hamiltonian and tangent; two of each are needed",
             dmoc.size(), hamiltonian.size(), tangent.size());
   }
   /// No interval of a structured method misses more than rounding, relative to the force or absolute.
@@ -59,13 +59,13 @@ struct MomentumBalance {
   }
   [[nodiscard]] Words on_finest_grid() const {
     const std::string finest = "N = " + tangent.back().text("intervals");
-    return worded("of an interval at {}: {}", finest,
+    return worded("largest defect of an interval at {}: {}", finest,
                   by_method("defect of an interval", finest, largest_defect(dmoc.back()),
                             largest_defect(hamiltonian.back()), largest_defect(tangent.back())));
   }
   [[nodiscard]] Words accumulated() const {
     const std::string finest = "N = " + tangent.back().text("intervals");
-    return worded("accumulated at {}: {}", finest,
+    return worded("accumulated defect at {}: {}", finest,
                   by_method("accumulated defect", finest, structured(dmoc, tangent.back()),
                             structured(hamiltonian, tangent.back()), accumulated_defect(tangent.back())));
   }
@@ -101,18 +101,18 @@ Finding momentum_consistency(const ResultTables& tables, const std::string& prob
       return Measurement{"largest defect of an interval", of_method.max(largest_defect), method,
                          "tolerance " + tolerance};
     };
-    others.push_back(worded("at {}: dmoc {:.1e}, hamiltonian {:.1e}", tolerance, defect(looser.dmoc, "dmoc"),
+    others.push_back(worded("at tolerance {}: dmoc {:.1e}, hamiltonian {:.1e}", tolerance, defect(looser.dmoc, "dmoc"),
                             defect(looser.hamiltonian, "hamiltonian")));
   }
   Finding finding = found(balance.is_kept() && balance.is_missed_by_tangent(),
-                          "solved to {}: largest defect of an interval over all N: {}",
+                          "solved to tolerance {}: largest defect of an interval over all N: {}",
                           balance.dmoc.front().text("tolerance"), balance.largest_of_all_grids())
                         .also(balance.on_finest_grid())
                         .also(balance.accumulated())
                         .also(left_out(balance.all, balance.all.usable()));
   if (others.empty()) return finding;
   return std::move(finding).because(worded(
-      "the balance is an equation of the program and holds as exactly as the program is solved: largest defects {}",
+      "the balance is an equation of the program and holds as accurately as the program is solved: largest defects {}",
       joined(others, ", ")));
 }
 
@@ -170,13 +170,14 @@ Finding bolza_is_mayer(const ResultTables& tables, const std::string& problem) {
     used.append(row);
     largest = std::max(largest, std::abs(quotient(row, same.front(), "objective") - 1.0));
   }
-  require(used.size() > 1, "objective.csv and objective_mayer.csv have {} programs of {} solved in both forms",
+  require(used.size() > 1,
+          "objective.csv and objective_mayer.csv have {} programs of {} solved in both forms; two are needed",
           used.size(), problem);
   return found(largest < rounding_of_costs,
-               "costs of {} programs by {} in both forms have relative differences of at most {:.0e}", used.size(),
+               "the costs of {} programs by {} in both forms have relative differences of at most {:.0e}", used.size(),
                fmt::join(used.distinct("method"), ", "),
                Measurement{"largest relative difference of the costs", largest})
-      .also(left_out(all, used, "not solved in both forms, in favour of"));
+      .also(left_out(all, used, "not solved in both forms, which favours"));
 }
 
 /// The same where inequalities are active or the horizon is free. An answer that no Newton step could refine differs by
@@ -202,7 +203,7 @@ Finding equal_with_inequalities(const ResultTables& tables, const std::string& /
   require(words.size() > 1, "equivalence_inequalities.csv has usable rows of {} problems; two are needed",
           words.size());
   return found(verdict_on_all(verdicts), "largest relative difference: {}", joined(words, "; "))
-      .also(left_out(all, rows, "too coarse, or not refined by Newton steps, in favour of"));
+      .also(left_out(all, rows, "too coarse or not refined by Newton steps, which favours"));
 }
 
 /// Noether's theorem of the optimal control problem.
@@ -218,7 +219,7 @@ Finding costates_keep_their_momentum(const ResultTables& tables, const std::stri
                of_method.size(), fmt::join(of_method.distinct("problem"), ", ")));
   }
   require(words.size() >= paper_families().size(),
-          "equivalence_symmetric.csv has usable rows of {} methods; three are needed", words.size());
+          "equivalence_symmetric.csv has usable rows of {} methods; all three are needed", words.size());
   return found(rows.max("costate_momentum_spread") < equal_costates_tolerance,
                "largest relative spread of the momentum of the costates: {}", joined(words, "; "))
       .also(left_out(all, rows));
@@ -232,7 +233,7 @@ Finding tangent_differs(const ResultTables& tables, const std::string& problem) 
   const double fine = rows.back().needed("configuration_difference");
   const Selection slopes = tables.rows("equivalence_slopes", problem).where("tableau", "gauss");
   const Selection orders = slopes.where("verdict", "slope");
-  require(!orders.empty(), "equivalence_slopes.csv has no fitted slope of {} in {} rows", problem, slopes.size());
+  require(!orders.empty(), "equivalence_slopes.csv has no fitted slope of {} among {} rows", problem, slopes.size());
   const auto is_twice_the_stages = [](const Row& row) { return verdict_on_order(row, 2.0 * row.needed("stages")); };
   const auto words = [](const Row& row) {
     return worded(
@@ -248,7 +249,7 @@ Finding tangent_differs(const ResultTables& tables, const std::string& problem) 
                "relative difference in q {:.1e} at N = {}, {:.1e} at N = {}", difference(rows.front(), coarse),
                rows.front().text("intervals"), difference(rows.back(), fine), rows.back().text("intervals"))
       .also(worded("slopes {}", joined(orders, ", ", words)))
-      .also(left_out(slopes, orders, "without a fit (few grids above round-off):"))
+      .also(left_out(slopes, orders, "no order was fitted (few grids above round-off):"))
       .also(left_out(all, rows));
 }
 
@@ -303,7 +304,7 @@ Claims solution_claims() {
        .where = section,
        .figure = Wording("fig:kepler_J", "fig:twolink_obj b)"),
        .whose = Whose::paper,
-       .states = "change in momentum equals the forces to numerical accuracy for DMOC and Hamiltonian collocation, "
+       .states = "the change in momentum equals the forces to numerical accuracy for DMOC and Hamiltonian collocation, "
                  "not for tangent-space collocation",
        .judge = momentum_consistency,
        .evidence = {"consistency.csv", "figures/{}_momentum.svg"}},
@@ -319,16 +320,16 @@ Claims solution_claims() {
        .whose = Whose::paper,
        .states = "the transformation to Mayer form yields exactly the same problem",
        .judge = bolza_is_mayer,
-       .condition = "judged by the optimal costs of separate solves",
+       .condition = "the statement is judged by the optimal costs of separate solves",
        .evidence = {"objective.csv", "objective_mayer.csv"}},
       {.id = "equal_solutions_with_inequalities",
        .problems = examples,
        .where = "section 3.4, th:equi",
        .whose = Whose::paper,
-       .states = "DMOC and Hamiltonian collocation have equal solutions also where inequalities are active and the "
+       .states = "DMOC and Hamiltonian collocation also have equal solutions where inequalities are active and the "
                  "horizon is free",
        .judge = equal_with_inequalities,
-       .condition = "odd N: for even N the symmetric switches of robot_arm fall on nodes, where no control lies "
+       .condition = "N is odd: for even N, the symmetric switches of robot_arm fall on nodes, where no control lies "
                     "between its bounds, so multipliers are not unique",
        .evidence = {"equivalence_inequalities.csv"}},
       {.id = "costates_keep_their_momentum",
@@ -356,13 +357,12 @@ Claims solution_claims() {
        .evidence = {"equivalence.csv"}},
       {.id = "tangent_is_the_acceleration_form",
        .where = "section 3.5",
-       .states = "the optimality conditions of tangent-space collocation are the discrete equations of another form "
-                 "of it, C + xi q'' + xi' q' with q'' a function of (q, q', u)",
+       .states = "the optimality conditions of tangent-space collocation are the discrete equations of another form of "
+                 "the control Lagrangian, C + xi q'' + xi' q' with q'' a function of (q, q', u)",
        .judge = tangent_is_the_acceleration_form,
-       .condition =
-           "the multiplier xi is L_vv times the costate of the momentum; the forms are equal where L_vv and "
-           "L_vq are constant; this one is the control Lagrangian of Leyendecker et al. (arXiv 2307.13402) and "
-           "Konopik et al. (arXiv 2502.04742, 2503.04466)",
+       .condition = "the multiplier xi is L_vv times the costate of the momentum; both forms of the control Lagrangian "
+                    "are equal where L_vv and L_vq are constant; this form is the control Lagrangian of Leyendecker et "
+                    "al. (arXiv 2307.13402) and Konopik et al. (arXiv 2502.04742, 2503.04466)",
        .evidence = {"equivalence.csv"}}};
 }
 

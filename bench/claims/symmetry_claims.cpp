@@ -50,11 +50,12 @@ Finding balanced_about_every_axis(const ResultTables& tables, const std::string&
   require(!polar.empty() && !tangent.empty(),
           "invariants_rotations.csv needs rows in polar coordinates and of tangent");
   return found(std::ranges::all_of(linear, is_balanced),
-               "three axes, {} trajectories of 400 steps by DMOC and Hamiltonian: largest |change of J - work| {:.1e}",
+               "three axes, {} trajectories of 400 steps by DMOC and Hamiltonian: the largest |change of J - work| is "
+               "{:.1e}",
                linear.group_by({"problem", "method"}).size(), Measurement{"largest defect", linear.max(defect)})
-      .also(worded("by tangent-space collocation up to {:.1e}",
+      .also(worded("with tangent-space collocation up to {:.1e}",
                    Measurement{"largest defect", tangent.max(defect), "tangent"}))
-      .also(worded("DMOC in polar coordinates on the sphere up to {:.1e}",
+      .also(worded("with DMOC in polar coordinates on the sphere up to {:.1e}",
                    Measurement{"largest defect", polar.max(defect), "dmoc", "polar coordinates"}));
 }
 
@@ -66,9 +67,8 @@ Claims optimal_momentum_claims() {
            .problems = examples,
            .where = "section 3.3, th:discforcNoe",
            .whose = Whose::paper,
-           .states =
-               "where the force is orthogonal to the group action, the momentum is preserved in the optimal control "
-               "problem, too",
+           .states = "where the force is orthogonal to the group action, the momentum is also preserved in the optimal "
+                     "control problem",
            .judge = optimal_motions_keep_momentum,
            .evidence = {"invariants_orthogonal_forces.csv"}}};
 }

@@ -52,7 +52,7 @@ std::string TimedRatios::sure() const {
     case ClaimVerdict::differs:
       return fmt::format("{} of {} resamples of this run's rounds", resamples - above, resamples);
     default:
-      return fmt::format("it holds in {} of {} resamples of this run's rounds", above, resamples);
+      return fmt::format("the statement holds in {} of {} resamples of this run's rounds", above, resamples);
   }
 }
 
@@ -71,7 +71,7 @@ Finding found_by_times(const TimedRatios& ratios, const std::string& before) {
   Finding finding = found(ratios.verdict(), "{}{}", before, ratios.in_words()).as_sure_as(ratios.sure());
   if (ratios.rounds() >= fewest_rounds) return finding;
   return std::move(finding).because(
-      worded("there are {} rounds; a verdict on times needs {}", ratios.rounds(), fewest_rounds));
+      worded("the table has {} rounds; a verdict on times needs at least {}", ratios.rounds(), fewest_rounds));
 }
 
 }  // namespace dmocbench

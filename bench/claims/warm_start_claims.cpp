@@ -26,7 +26,7 @@ struct StepRatios {
 
 double count(const Row& row, const char* column) {
   const double value = row.needed(column);
-  require(value >= 0.0 && value == std::floor(value), "{}: {} is {}, not a count", row.place(), column, value);
+  require(value >= 0.0 && value == std::floor(value), "{}: {} is {}, which is not a count", row.place(), column, value);
   return value;
 }
 
@@ -50,7 +50,7 @@ StepRatios ratios_of(const Selection& dmoc, const Selection& others, const std::
   require(static_cast<double>(ratios.microseconds.size()) >= enough_steps * steps,
           "sequence.csv: only {} of {} steps of {} are solved by both methods", ratios.microseconds.size(), steps,
           ratios.name());
-  require(own_iterations > 0.0, "sequence.csv: the steps of {} take no iterations", ratios.name());
+  require(own_iterations > 0.0, "sequence.csv: the steps of dmoc take no iterations ({})", ratios.name());
   ratios.iterations = other_iterations / own_iterations;
   return ratios;
 }
@@ -76,16 +76,16 @@ std::vector<StepRatios> all_ratios(const ResultTables& tables, const std::string
 Words left_out_of(const std::vector<StepRatios>& all) {
   std::size_t count = 0;
   for (const StepRatios& ratios : all) count += ratios.left_out;
-  return count == 0 ? Words() : worded("{} left out, not solved by both", counted(count, "step"));
+  return count == 0 ? Words() : worded("{} left out: not solved by both methods", counted(count, "step"));
 }
 
 Finding ratios_of_iterations(const ResultTables& tables, const std::string& problem) {
   const std::vector<StepRatios> all = all_ratios(tables, problem);
   const auto in_words = [](const StepRatios& ratios) {
     return worded("{} {:.2f}", ratios.name(),
-                  Measurement{"ratio of iterations to DMOC's", ratios.iterations, ratios.method, ratios.sequence});
+                  Measurement{"iterations relative to DMOC", ratios.iterations, ratios.method, ratios.sequence});
   };
-  return found(ClaimVerdict::measured, "ratio of iterations to DMOC's: {}", joined(all, ", ", in_words))
+  return found(ClaimVerdict::measured, "iterations relative to DMOC: {}", joined(all, ", ", in_words))
       .also(left_out_of(all));
 }
 
@@ -93,7 +93,7 @@ Finding less_time(const ResultTables& tables, const std::string& problem) {
   const std::vector<StepRatios> all = all_ratios(tables, problem);
   TimedRatios timed(1.0);
   for (const StepRatios& ratios : all) timed.add(ratios.name(), ratios.microseconds);
-  return found_by_times(timed, "ratio of the time of a step to DMOC's: ").also(left_out_of(all));
+  return found_by_times(timed, "time of a step relative to DMOC: ").also(left_out_of(all));
 }
 
 }  // namespace
@@ -102,18 +102,18 @@ Finding less_time(const ResultTables& tables, const std::string& problem) {
 Claims warm_start_claims() {
   return {{.id = "iterations_of_warm_starts",
            .where = "section 4.1, SQP Method",
-           .states = "ratio of iterations, collocation to DMOC, when started warm from the unknowns and multipliers of "
+           .states = "ratio of iterations (collocation to DMOC) for warm starts from the unknowns and multipliers of "
                      "the previous problem",
            .judge = ratios_of_iterations,
-           .condition = "by interior_point",
+           .condition = "solved with interior_point",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"},
            .has_verdict = false},
           {.id = "warm_starts_in_less_time",
            .where = "section 3.4, rem:savings",
-           .states = "started warm from the unknowns and multipliers of the previous problem, a step with DMOC takes "
-                     "less time than a step with collocation",
+           .states = "with warm starts from the unknowns and multipliers of the previous problem, a step takes less "
+                     "time with DMOC than with collocation",
            .judge = less_time,
-           .condition = "by interior_point; the time of each step is the shortest of its repeats",
+           .condition = "solved with interior_point; the time of each step is the shortest of its repeats",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"}}};
 }
 

@@ -80,9 +80,9 @@ int measure_all(CommandLine& line) {
   asked.add_to(line);
   line.number("--rounds", rounds, 0, 10000, "number of timed repetitions of the refinement");
   line.option("--solver", solver, "name of a solver; see `dmocbench list`");
-  line.flag("--quick", is_quick, "only the problems with short fast phases, unless --problem names others");
+  line.flag("--quick", is_quick, "use only the problems with short fast phases, unless --problem names others");
   line.ignored_unless(
-      "--quick", [&asked] { return asked.problems == all_problems; }, "--problem names the problems");
+      "--quick", [&asked] { return asked.problems == all_problems; }, "--problem already selects the problems");
   TableRun run("adaptive", line, TableRun::Resumes::yes);
   static_cast<void>(make_solver(solver));  // rejects unknown names before anything is solved
   const bool is_named = asked.problems != all_problems;
@@ -112,8 +112,8 @@ int run(int argc, char** argv) {
   return run_program(
       "adaptive",
       "Adapts grids to an accuracy with an error estimate. adaptive_effectivity.csv compares the estimate with the "
-      "true error, measured against the indirect solution; adaptive.csv has the number of intervals that adapted and "
-      "uniform grids need for 1e-8, and the time of the whole refinement; adaptive_steps.csv has the step sizes.",
+      "true error relative to the indirect solution. adaptive.csv has the number of intervals that adapted and uniform "
+      "grids need for an error of 1e-8, and the time of the whole refinement. adaptive_steps.csv has the step sizes.",
       argc, argv, measure_all);
 }
 

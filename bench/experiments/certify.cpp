@@ -118,30 +118,30 @@ Columns<Certificate> certificate_columns(const std::vector<std::string>& routes)
   return columns +
          Columns<Certificate>{
              {"replay_objective", "cost",
-              "cost of the solution with the smallest jumps when its intervals are integrated one by one",
+              "cost of the solution with the smallest jumps, computed by integrating interval by interval",
               from(&Certificate::replay_objective)},
-             {"relative_jump", "", "largest jump of its intervals, relative to the range",
+             {"relative_jump", "", "largest jump between integrated intervals of this solution, relative to the range",
               from(&Certificate::relative_jump)},
-             {"replay_error", "", "distance from the final state when the whole horizon is replayed",
+             {"replay_error", "", "distance from the final state after a replay of the whole horizon",
               from(&Certificate::replay_error)},
-             {"indirect_objective", "cost", "cost by the indirect method", from(&Certificate::indirect_objective)},
-             {"indirect_digits", "", "certified digits of this cost", from(&Certificate::indirect_digits)},
+             {"indirect_objective", "cost", "cost of the indirect solution", from(&Certificate::indirect_objective)},
+             {"indirect_digits", "", "certified digits of the indirect cost", from(&Certificate::indirect_digits)},
              {"agreeing_digits", "", "digits on which all routes agree", agreeing_digits},
              {"grid_digits", "", "digits on which each route's two finest grids agree",
               from(&Certificate::grid_digits)},
-             {"reference", "cost", "cost that the problem states", from(reference, &ReferenceOptimum::objective)},
-             {"reference_digits", "", "valid digits of this cost", from(reference, &ReferenceOptimum::digits)},
-             {"certificate", "", "method used to compute this cost", from(reference, &ReferenceOptimum::certificate)},
-             {"reference_agreement", "", "digits on which all routes agree with it", reference_agreement},
-             {"confirmed", "", "verdict of the routes on this cost",
+             {"reference", "cost", "the problem's reference cost", from(reference, &ReferenceOptimum::objective)},
+             {"reference_digits", "", "valid digits of the reference cost", from(reference, &ReferenceOptimum::digits)},
+             {"certificate", "", "method used for the reference cost", from(reference, &ReferenceOptimum::certificate)},
+             {"reference_agreement", "", "digits on which all routes agree with the reference", reference_agreement},
+             {"confirmed", "", "verdict of the routes on the reference cost",
               from(&Certificate::agreement, &RouteAgreement::confirmed)},
              {"published", "", "published values with their sources", published},
-             {"remark", "", "reason for differing published values", from(reference, &ReferenceOptimum::remark)},
+             {"remark", "", "reason why published values differ", from(reference, &ReferenceOptimum::remark)},
              {"message", "", "reason for a missing indirect solution", from(&Certificate::message)}};
 }
 
-/// The cost of the motion of a solved case, its intervals replayed one by one; empty, with the reason in the row's
-/// message, if that fails.
+/// The cost of a solved case, replayed interval by interval; empty, with the reason in the row's message, if that
+/// fails.
 std::optional<double> replayed_objective(SolvedCase& solved, const Trajectory& motion) {
   try {
     return cost_by_intervals(*solved.the_case.problem, motion);
@@ -160,7 +160,7 @@ struct Measured {
 };
 
 std::string reference_in_words(const std::string& confirmed) {
-  if (confirmed.empty()) return "unknown for these parameters";
+  if (confirmed.empty()) return "unknown for these parameter values";
   return confirmed == "yes" ? "confirmed" : confirmed == "no" ? "not confirmed" : "confirmed " + confirmed;
 }
 
@@ -170,10 +170,10 @@ class Certify final : public ExperimentOf<Measured> {
   Certify()
       : ExperimentOf(
             {.name = "certify",
-             .description = "Computes the optimal cost with independent methods: two tableaus on two grids each, "
-                            "integration of every interval of the finest solution, and the indirect method where it "
-                            "applies. NAME_references.csv has a row per problem: the results, the number of digits on "
-                            "which they agree, and the verdict on the reference that the problem states.",
+             .description = "Computes the optimal cost with independent methods (routes): two tableaus on two grids "
+                            "each, integration of every interval of the finest solution, and the indirect method where "
+                            "it applies. NAME_references.csv has a row per problem with the costs, the number of "
+                            "digits on which they agree, and the verdict on the problem's reference cost.",
              .options = {.problems = {"all"}, .methods = {"dmoc"}, .solvers = {"ipopt"}, .intervals = "64,128"},
              .further_files = {"_references.csv"},
              .problems_are_independent = true,
@@ -181,18 +181,18 @@ class Certify final : public ExperimentOf<Measured> {
   [[nodiscard]] Columns<Measured> columns() const override {
     return {
         replay_error_column(&Measured::replay),
-        {"replay_objective", "cost", "cost of the trajectory when its intervals are integrated one by one",
+        {"replay_objective", "cost", "cost of the trajectory, computed by integrating interval by interval",
          &Measured::replay_objective},
-        {"polish_steps", "", "Newton steps after the solve", &Measured::polish_steps},
-        {"indirect_objective", "cost", "cost by the indirect method",
+        {"polish_steps", "", "number of Newton steps after the solve", &Measured::polish_steps},
+        {"indirect_objective", "cost", "cost of the indirect solution",
          from(&Measured::indirect, &IndirectSolution::cost)},
-        {"indirect_digits", "", "certified digits of this cost",
+        {"indirect_digits", "", "certified digits of the indirect cost",
          from(&Measured::indirect, &IndirectSolution::certified_digits)},
         {"indirect_message", "", "reason for a missing indirect solution", &Measured::indirect_message},
     };
   }
   void add_options(CommandLine& line) override {
-    line.list("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages");
+    line.list("--routes", route_names_, "tableaus with their stages, such as gauss3; replaces --tableau and --stages");
     for (const char* const option : {"--tableau", "--stages"})
       line.ignored_unless(
           option, [] { return false; }, "--routes replaces it");
@@ -203,7 +203,7 @@ class Certify final : public ExperimentOf<Measured> {
     std::ranges::transform(route_names_, std::back_inserter(routes), parse_route);
     for (const std::string& route : route_names_) {
       if (std::ranges::count(route_names_, route) == 1) continue;
-      throw Error(fmt::format("--routes: {} is given twice; routes must differ", route));
+      throw Error(fmt::format("--routes: {} is given twice; each route must be different", route));
     }
     std::vector<Case> cases;
     for (const std::vector<Case>& curve : curves_of(chosen)) {

@@ -22,12 +22,12 @@ struct Curvature {
 const Columns<Curvature> columns =
     scheme_columns<Curvature>() +
     Columns<Curvature>{
-        {"end", "", "variations of the final state: none, as stated, or free, as in the space M of the paper",
+        {"end", "", "variations of the final state: none (fixed, as stated) or free (the paper's space M)",
          &Curvature::end, in_key},
         {"status", "", "status of the solve", &Curvature::status},
         {"intervals", "", "number of intervals N", &Curvature::intervals, in_key},
-        {"smallest_curvature", "cost per control^2 and time",
-         "largest alpha with d^2 L >= alpha h sum b_i |dU_i|^2, below 0 where the form is indefinite; 0 within 1e-9",
+        {"smallest_curvature", "cost divided by control^2 and time",
+         "largest alpha with d^2 L >= alpha h sum b_i |dU_i|^2; negative if the form is indefinite; 0 within 1e-9",
          &Curvature::smallest}};
 
 class Coercivity {
@@ -88,8 +88,8 @@ int run(int argc, char** argv) {
   return run_program("coercivity",
                      "Computes the smallest curvature of the Lagrangian along trajectories of the linearised "
                      "equations, relative to the square of the control, for each number of intervals (coercivity.csv). "
-                     "It is bounded below by a positive number where the optimum is coercive. If the whole final state "
-                     "is fixed, variations that move it, the space of the paper, are measured too.",
+                     "This curvature is bounded below by a positive number where the optimum is coercive. If the whole "
+                     "final state is fixed, variations that move it (the paper's space M) are measured too.",
                      argc, argv, measure_all);
 }
 

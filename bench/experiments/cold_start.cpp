@@ -60,15 +60,15 @@ struct IndirectStarts {
 };
 
 const Columns<IndirectStarts> indirect_columns{
-    {"problem", "", "its name", &IndirectStarts::problem, in_key},
+    {"problem", "", "name of the problem", &IndirectStarts::problem, in_key},
     {"starts", "", "number of the direct methods' cold starts, used with costates 0", &IndirectStarts::starts},
-    {"converged", "", "number of these from which two runs of the indirect method agree to 1e-6",
+    {"converged", "", "number of starts from which two runs of the indirect method agree to 1e-6",
      [](const IndirectStarts& of) { return static_cast<long long>(of.converged.hits); }},
-    {"converged_lower", "", "lower 95 % confidence limit of their share",
+    {"converged_lower", "", "lower 95 % confidence limit of the share of converged starts",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).lower; }},
-    {"converged_upper", "", "upper 95 % confidence limit of their share",
+    {"converged_upper", "", "upper 95 % confidence limit of the share of converged starts",
      [](const IndirectStarts& of) { return wilson_interval(of.converged).upper; }},
-    {"best", "", "number of converged ones whose cost does not exceed the certified cost",
+    {"best", "", "number of converged starts whose cost does not exceed the certified cost",
      [](const IndirectStarts& of) { return static_cast<long long>(of.best.hits); }}};
 
 /// Starts per case: a number for all solvers, SOLVER=NUMBER for one of them; 0 where neither is given.
@@ -86,7 +86,7 @@ class StartCounts {
       const bool is_for_all = equals == std::string::npos;
       const auto count = parsed<long long>(is_for_all ? word : word.substr(equals + 1));
       if (!count || *count < 0 || *count > most) {
-        throw Error(fmt::format("{}: {} is neither a number from 0 to {} nor SOLVER=NUMBER", option, word, most));
+        throw Error(fmt::format("{0}: expected a number from 0 to {2} or SOLVER=NUMBER, got {1}", option, word, most));
       }
       const std::string solver = is_for_all ? all : word.substr(0, equals);
       if (!is_for_all) {
@@ -114,13 +114,13 @@ class ColdStart final : public Experiment {
   ColdStart()
       : Experiment(
             {.name = "cold_start",
-             .description =
-                 "Solves every case from the problem's guess and from perturbed guesses, the same for all methods. "
-                 "NAME_shares.csv: the numbers of starts that are solved, confirmed by integrating each interval, and "
-                 "on the best branch, with confidence intervals, and quartiles of the iterations, evaluations and "
-                 "seconds needed. NAME_profiles.csv: the share solved within a budget of evaluations or seconds (only "
-                 "of evaluations for solves in a batch). Failed starts stay in the table and count. NAME_indirect.csv: "
-                 "the number of these trajectories, with costates 0, from which the indirect method converges.",
+             .description = "Solves every case from the problem's guess and from perturbed guesses, which are the same "
+                            "for all methods. NAME_shares.csv has the numbers of starts that are solved, confirmed by "
+                            "integrating each interval, and on the best branch, with confidence intervals, and "
+                            "quartiles of the iterations, evaluations and seconds. NAME_profiles.csv has the share of "
+                            "starts solved within a budget of evaluations or seconds (for solves in a batch, only of "
+                            "evaluations). Failed starts stay in the table and count. NAME_indirect.csv has the number "
+                            "of trajectories from which the indirect method converges with costates 0.",
              .options = {.problems = {"all"},
                          .solvers = {"auto"},
                          .intervals = "64",
@@ -134,22 +134,22 @@ class ColdStart final : public Experiment {
              .takes_batches = true},
             {{"start", "", "number of the cold start; 0 is the guess itself",
               from(&SolvedCase::the_case, &Case::variant, &Variant::label), in_key},
-             {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
+             {"evaluations", "", "number of evaluations of the cost, the constraints and their derivatives",
               from(&SolvedCase::solution, &Solution::total_evaluations)},
              {"reference_objective", "cost", "certified cost that the problem states", [](const SolvedCase& solved) {
                 const auto& reference = solved.the_case.problem->card().reference;
                 return reference ? std::optional(reference->objective) : std::nullopt;
               }}}) {}
   void add_options(CommandLine& line) override {
-    line.list(
-        "--starts", starts_,
-        "starts per case: a number for all solvers, SOLVER=NUMBER for one; indirect=NUMBER for the indirect method on "
-        "the paper's problems; default: 1000 on the paper's problems, 100 on others");
-    line.list("--suite-starts", suite_starts_, "the same for problems other than the paper's; default: as --starts");
+    line.list("--starts", starts_,
+              "number of starts per case: NUMBER for all solvers, SOLVER=NUMBER for one solver, indirect=NUMBER for "
+              "the indirect method on the paper's problems; default: 1000 on the paper's problems, 100 on others");
+    line.list("--suite-starts", suite_starts_,
+              "number of starts per case for problems other than the paper's; default: the value of --starts");
     line.ignored_unless(
-        "--suite-starts", [this] { return has_problem(false); }, "all problems are the paper's; see --starts");
+        "--suite-starts", [this] { return has_problem(false); }, "all chosen problems are the paper's; use --starts");
     line.ignored_unless(
-        "--starts", [this] { return suite_starts_.empty() || has_problem(true); }, "--suite-starts replaces it");
+        "--starts", [this] { return suite_starts_.empty() || has_problem(true); }, "--suite-starts replaces --starts");
     line.number("--seed", seed_, 0, 0xffffffffU, "seed of the random curves; the same seed gives the same starts");
     line.number(
         "--amplitude", amplitude_, 0.0, 10.0,
@@ -172,7 +172,7 @@ class ColdStart final : public Experiment {
       varied_[the_case.problem->name()] = varied_in_words(*the_case.problem);
       problems_[the_case.problem->name()] = the_case.problem;
     }
-    if (cases.empty()) throw Error("no case has a start; see --starts and --suite-starts");
+    if (cases.empty()) throw Error("no case has a start; raise --starts or --suite-starts");
     return cases;
   }
 
@@ -210,7 +210,7 @@ class ColdStart final : public Experiment {
       if (solver == word) continue;
       const bool is_followed = solver == StartCounts::indirect ? option == std::string("--starts") && has_problem(true)
                                                                : std::ranges::count(card().options.solvers, solver) > 0;
-      if (!is_followed) remark(fmt::format("{} {} is ignored: no case is solved by {}", option, word, solver));
+      if (!is_followed) remark(fmt::format("{} {} is ignored because no case is solved by {}", option, word, solver));
     }
   }
   [[nodiscard]] long long starts_of(const Case& the_case) const {

@@ -31,7 +31,7 @@ class Consistency final : public ExperimentOf<Measured> {
     return {
         {"momentum_defect_max", "momentum", "largest defect of an interval", from(momentum, &Result::largest)},
         {"momentum_defect_mean", "momentum", "mean magnitude of the defects", from(momentum, &Result::mean)},
-        {"momentum_defect_total", "momentum", "magnitude of their sum", from(momentum, &Result::total)},
+        {"momentum_defect_total", "momentum", "magnitude of the sum of the defects", from(momentum, &Result::total)},
         {"largest_force", "force", "largest force along the symmetry", from(momentum, &Result::largest_force)},
     };
   }
@@ -50,7 +50,7 @@ class Consistency final : public ExperimentOf<Measured> {
     const std::string names = fmt::format("{}", fmt::join(left_out, ", "));
     const char* const state = left_out.size() > 1 ? "state" : "states";
     if (cases.empty()) throw Error(fmt::format("{} {} no symmetry and thus no conserved momentum", names, state));
-    if (!left_out.empty()) fmt::print("{} {} no symmetry and thus no conserved momentum: left out\n", names, state);
+    if (!left_out.empty()) fmt::print("{} {} no symmetry and thus no conserved momentum; left out\n", names, state);
     return cases;
   }
   void measure(SolvedCase& solved, Measured& measured) override {

@@ -71,8 +71,8 @@ Columns<Record> first_columns() {
   return {{"problem", "", "name of the problem", &Record::problem, in_key},
           {"tableau", "", "family of Butcher tableaus", &Record::tableau, in_key},
           {"stages", "", "number of stages", &Record::stages, in_key},
-          {"order", "", "the tableau's order", &Record::order, in_key},
-          {"quantity", "", "quantity that is compared with the exact one", &Record::quantity, in_key}};
+          {"order", "", "order of the tableau", &Record::order, in_key},
+          {"quantity", "", "quantity that is compared with its exact value", &Record::quantity, in_key}};
 }
 
 /// The error measured on one step; empty if an equation has no solution for it.
@@ -100,8 +100,7 @@ struct Results {
 };
 
 /// A line through the finest six points that are clear of rounding. Errors below are due to the tableau's coefficients,
-/// which are double. Six points span a factor of six in h; more would include coarse steps, where the next power of h
-/// still counts.
+/// which are double. Six points span a factor of six in h; coarser steps would still show the next power of h.
 std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
   constexpr double rounding = 1e-15;
   constexpr std::size_t fitted = 6;
@@ -158,10 +157,10 @@ const Columns<ExactTransform> transform_columns{
     {"h", "", "step", &ExactTransform::h, in_key},
     {"left_defect", "", "max of |-D_1 L_d^E - f_d^{E-} - L_v(0)|", &ExactTransform::left},
     {"right_defect", "", "max of |D_2 L_d^E + f_d^{E+} - L_v(h)|", &ExactTransform::right},
-    {"largest_momentum", "", "largest entry of L_v, for comparison", &ExactTransform::momentum},
-    {"force_error", "", "largest entry of omega = f_d - f_d^E on Q x Q, of the midpoint rule",
+    {"largest_momentum", "", "largest entry of L_v, the scale of both defects", &ExactTransform::momentum},
+    {"force_error", "", "largest entry of omega = f_d - f_d^E on Q x Q for the midpoint rule",
      &ExactTransform::force_error},
-    {"force_error_curl", "", "h times the largest entry of d omega, which is 0 where omega is a differential",
+    {"force_error_curl", "", "h times the largest entry of d omega, which is 0 if omega is a differential",
      &ExactTransform::force_error_curl}};
 
 /// f'(0) by differences of order 4.
@@ -277,10 +276,10 @@ int run(int argc, char** argv) {
   return run_program(
       "consistency_order",
       "Measures orders of consistency. For steps h = T/N and every tableau, consistency_order.csv has the errors of "
-      "DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map relative to the exact ones, and "
-      "consistency_order_slopes.csv their orders. consistency_order_transforms.csv compares the exact discrete "
-      "Legendre transforms with the transforms of L for the largest and the smallest step, and has "
-      "the error of the midpoint rule's forces with its exterior derivative.",
+      "DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map, and consistency_order_slopes.csv has "
+      "their orders. For the largest and the smallest step, consistency_order_transforms.csv compares the exact "
+      "discrete Legendre transforms with the transforms of L, and has the error of the midpoint rule's forces and the "
+      "exterior derivative of this error.",
       argc, argv, measure_all);
 }
 

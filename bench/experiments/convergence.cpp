@@ -28,7 +28,7 @@ long long parse_reference(const std::string& text) {
   if (text == "indirect") return exact_reference;
   const auto intervals = parsed<long long>(text);
   if (intervals && *intervals > 0) return *intervals;
-  throw Error(fmt::format("--reference must be a number of intervals or indirect, got {}", text));
+  throw Error(fmt::format("--reference takes a number of intervals or indirect, not {}", text));
 }
 
 long long intervals_of(const Case& the_case) { return static_cast<long long>(the_case.intervals()); }
@@ -77,16 +77,15 @@ Table orders_by_curve(const Table& orders) {
 class Convergence final : public ExperimentOf<Measured> {
  public:
   Convergence()
-      : ExperimentOf(
-            {.name = "convergence",
-             .description =
-                 "Measures errors of state, control, momentum, costate and cost against a fine grid of the same method "
-                 "or the indirect solution, with fitted orders (NAME_slopes.csv) and the cost of equal accuracy "
-                 "(NAME_equal_accuracy.csv). With the indirect solution (NAME_reference.csv) stage values have errors "
-                 "too, and NAME_jumps.csv compares the largest jump of an interval with the true error.",
-             .options = {.intervals = "16:1024"},
-             .further_files = {"_slopes.csv", "_equal_accuracy.csv", "_reference.csv", "_jumps.csv"},
-             .polishes = true}) {}
+      : ExperimentOf({.name = "convergence",
+                      .description = "Measures errors of state, control, momentum, costate and cost relative to a fine "
+                                     "grid of the same method or to the indirect solution. NAME_slopes.csv has fitted "
+                                     "orders, NAME_equal_accuracy.csv the sizes needed for equal accuracy. With the "
+                                     "indirect solution (NAME_reference.csv), errors of stage values are measured too, "
+                                     "and NAME_jumps.csv compares the largest jump of an interval with the true error.",
+                      .options = {.intervals = "16:1024"},
+                      .further_files = {"_slopes.csv", "_equal_accuracy.csv", "_reference.csv", "_jumps.csv"},
+                      .polishes = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     constexpr auto error = &Measured::error;
     constexpr auto stages = &TrajectoryError::stages;
@@ -98,7 +97,7 @@ class Convergence final : public ExperimentOf<Measured> {
         {"objective_error", "cost", "error of the cost", from(error, &TrajectoryError::objective)},
         {"first_order_error", "", "largest error of first-order states over the nodes",
          from(error, &TrajectoryError::first_order)},
-        {"first_order_costate_error", "", "largest error of their costate over the nodes",
+        {"first_order_costate_error", "", "largest error of the costate of first-order states over the nodes",
          from(error, &TrajectoryError::first_order_costate)},
         replay_error_column(&Measured::replay),
         {"control_from_costate_error", "",
@@ -115,16 +114,15 @@ class Convergence final : public ExperimentOf<Measured> {
     return measured + columns_through<Measured>(&Measured::round_seconds, round_columns());
   }
   void add_options(CommandLine& line) override {
-    line.option(
-        "--reference", reference_text_,
-        "reference of the errors: N of a grid of the same method (default: the finest solved one of "
-        "each curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
-        "kept in the output folder");
+    line.option("--reference", reference_text_,
+                "reference of the errors: N of a grid of the same method (default: the finest solved grid of each "
+                "curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
+                "kept in the output folder");
     line.flag("--polish,!--no-polish", card_.polishes,
-              "refine solutions by Newton steps, so that errors are due to the method, not to the solver");
+              "refine solutions with Newton steps, so that errors are due to the method and not to the solver");
     line.option("--fit", fit_,
-                "range a:b of N over which orders are fitted; default: the finest four or more grids above round-off "
-                "whose neighbouring orders differ by at most 0.2");
+                "range a:b of N in which orders are fitted; default: the finest four or more grids above round-off "
+                "between which the local order varies by at most 0.2");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
@@ -135,12 +133,12 @@ class Convergence final : public ExperimentOf<Measured> {
         throw Error(fmt::format("--fit takes a range of N, such as 16:128, not {}", fit_));
       const long long first = parse_intervals("--fit", fit_.substr(0, colon)).front();
       const long long last = parse_intervals("--fit", fit_.substr(colon + 1)).back();
-      if (last < first) throw Error(fmt::format("--fit: the range {} ends below its start", fit_));
+      if (last < first) throw Error(fmt::format("--fit: the end of the range {} is below its start", fit_));
       std::set<long long> grids;
       for (const Case& the_case : chosen) grids.insert(intervals_of(the_case));
       const auto fitted = std::ranges::count_if(grids, [&](long long n) { return first <= n && n <= last; });
       if (fitted < fewest_in_range) {
-        throw Error(fmt::format("--fit: {} of --intervals lie{} in the range {}, but a fit needs {}",
+        throw Error(fmt::format("--fit: {} of --intervals lie{} in the range {}; a fit needs at least {}",
                                 counted(fitted, "grid"), fitted == 1 ? "s" : "", fit_, fewest_in_range));
       }
       fit_range_ = {first, last};
@@ -150,7 +148,7 @@ class Convergence final : public ExperimentOf<Measured> {
       indirect_ = std::make_shared<IndirectReference>(card_.options.out);
     }
     if (reference_ > 0 && std::ranges::count(chosen, reference_, intervals_of) == 0) {
-      throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
+      throw Error(fmt::format("--reference {0} is not one of the grids; add {0} to --intervals", reference_));
     }
     std::vector<Case> cases;
     for (std::vector<Case>& curve : curves_of(chosen)) {

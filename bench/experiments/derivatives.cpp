@@ -56,23 +56,23 @@ class Derivatives final : public ExperimentOf<Measured> {
   Derivatives()
       : ExperimentOf(
             {.name = "derivatives",
-             .description = "Compares derivative back ends: errors of Jacobian and Hessian against long double, their "
-                            "time relative to one residual, and cost and accuracy of a solve. Column hessian: exact is "
-                            "the Hessian of the back end, limited_memory Ipopt's quasi-Newton Hessian, which is not "
-                            "combined with central differences. Dense differences run up to N = 64. Solves by "
-                            "differences or without an exact Hessian end after 150 iterations.",
+             .description = "Compares derivative back ends: errors of Jacobian and Hessian relative to long double, "
+                            "their times relative to one residual, and cost and accuracy of a solve. In column "
+                            "hessian, exact is the back end's Hessian, limited_memory Ipopt's quasi-Newton Hessian, "
+                            "which is not combined with central differences. Dense differences run up to N = 64. "
+                            "Solves with differences or without an exact Hessian end after 150 iterations.",
              .options = {.solvers = {"ipopt"}, .derivatives = derivative_back_end_names(), .intervals = "16:1024"},
              .takes_turns = true,
              .compares_tolerances = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return {
-        {"hessian", "", "exact, or limited_memory",
+        {"hessian", "", "Hessian: exact or limited_memory",
          [](const Measured& measured) { return measured.is_exact ? "exact" : limited_memory; }, in_key},
         {"jacobian_error", "", "largest error of an entry, relative to the largest entry", &Measured::jacobian_error},
         {"hessian_error", "",
-         "largest error of a Hessian entry, relative to the largest; empty if the solver does not use it",
+         "largest error of a Hessian entry, relative to the largest entry; empty if the solver uses none",
          &Measured::hessian_error},
-        {"residual_seconds", "s", "one evaluation of all constraints",
+        {"residual_seconds", "s", "time of one evaluation of all constraints (a residual)",
          from(&Measured::seconds, &EvaluationTimes::residual)},
         {"gradient_over_residual", "", "time of a gradient divided by the time of a residual",
          over_residual(&EvaluationTimes::gradient)},
@@ -81,14 +81,14 @@ class Derivatives final : public ExperimentOf<Measured> {
         {"hessian_over_residual", "", "time of a Hessian divided by the time of a residual",
          over_residual(&EvaluationTimes::hessian)},
         {"answer_difference", "",
-         "largest difference of q from the solution with the tape, relative to its largest value",
+         "largest difference of q from the solution with the tape, relative to the largest value of q",
          &Measured::answer_difference},
     };
   }
 
   void add_options(CommandLine& line) override {
     line.list("--hessian", hessians_,
-              "exact: by the back end; limited_memory: Ipopt's quasi-Newton Hessian, not with finite_differences");
+              "exact (by the back end) or limited_memory (Ipopt's quasi-Newton Hessian, not with finite_differences)");
   }
 
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

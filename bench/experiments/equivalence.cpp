@@ -86,8 +86,8 @@ std::string finding_on(const Selection& rows) {
   if (rows.empty()) return "";
   const std::size_t equal = rows.where(has_solution_of_dmoc).size();
   return fmt::format(
-      "equivalence: {} and dmoc have {} solutions: in {} of {} each satisfies the other method's equations to "
-      "round-off; largest relative difference of q {:.0e}",
+      "equivalence: {} and dmoc have {} solutions: in {} of {}, each satisfies the other method's equations to "
+      "round-off; the largest relative difference of q is {:.0e}",
       rows.front().text("method"),
       equal == rows.size() ? "equal"
       : equal == 0         ? "different"
@@ -98,16 +98,16 @@ std::string finding_on(const Selection& rows) {
 class Equivalence final : public ExperimentOf<Measured> {
  public:
   Equivalence()
-      : ExperimentOf(
-            {.name = "equivalence",
-             .description =
-                 "Solves with every method separately and compares the solutions with DMOC's on the same grid: largest "
-                 "differences, relative to the largest value of each quantity; residuals of each solution in the "
-                 "constraints of the other method; and residuals of the costates in the adjoint Runge-Kutta scheme. "
-                 "NAME_slopes.csv has the orders of the differences of tangent-space collocation.",
-             .options = {.intervals = "16:1024"},
-             .further_files = {"_slopes.csv"},
-             .polishes = true}) {}
+      : ExperimentOf({.name = "equivalence",
+                      .description =
+                          "Solves with every method separately and compares the solutions with DMOC's on the same "
+                          "grid. The table has the largest differences relative to the largest value of each "
+                          "quantity, the residuals of each solution in the constraints of the other method, and the "
+                          "residuals of the costates in the adjoint Runge-Kutta scheme. NAME_slopes.csv has the "
+                          "orders of the differences of tangent-space collocation.",
+                      .options = {.intervals = "16:1024"},
+                      .further_files = {"_slopes.csv"},
+                      .polishes = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     constexpr auto in_dmoc = &Measured::in_dmoc;
     constexpr auto of_dmoc = &Measured::of_dmoc;
@@ -119,15 +119,16 @@ class Equivalence final : public ExperimentOf<Measured> {
         {"objective_difference", "", "relative difference of the cost from DMOC", &Measured::objective},
         {"violation_in_rows_of_dmoc", "", "residual of this solution in DMOC's constraints",
          from(in_dmoc, &ForeignViolation::violation)},
-        {"rounding_in_rows_of_dmoc", "", "bound on the round-off of this residual",
+        {"rounding_in_rows_of_dmoc", "", "bound on the round-off of the previous column",
          from(in_dmoc, &ForeignViolation::rounding)},
         {"violation_of_dmoc_here", "", "residual of DMOC's solution in this method's constraints",
          from(of_dmoc, &ForeignViolation::violation)},
-        {"rounding_here", "", "bound on the round-off of this residual", from(of_dmoc, &ForeignViolation::rounding)},
+        {"rounding_here", "", "bound on the round-off of the previous column",
+         from(of_dmoc, &ForeignViolation::rounding)},
         {"stage_costate_difference", "", "largest relative difference of the stage costates from DMOC",
          &Measured::stage_costate},
         {"adjoint_residual", "", "residual of the costates in the adjoint scheme", &Measured::adjoint_residual},
-        {"adjoint_residual_by_plain_coefficients", "", "the same residual with A and its conjugate not exchanged",
+        {"adjoint_residual_by_plain_coefficients", "", "adjoint residual without exchanging A and its conjugate",
          &Measured::plain_residual},
         {"costate_momentum_spread", "", "relative change of the momentum of the costates along the trajectory",
          &Measured::costate_momentum_spread},
@@ -137,19 +138,19 @@ class Equivalence final : public ExperimentOf<Measured> {
          "residual in the discrete Euler-Lagrange equations of the control Lagrangian C + xi F + xi' L_v, F = L_q + f",
          &Measured::forced_form_residual},
         {"acceleration_form_residual", "",
-         "the same residual for C + xi q'' + xi' q', with q'' a function of (q, q', u)",
+         "residual in the discrete Euler-Lagrange equations of C + xi q'' + xi' q', with q'' a function of (q, q', u)",
          &Measured::acceleration_form_residual},
         {"galerkin_form_difference", "",
          "relative difference of the program's Lagrangian, at the start and with the solution's multipliers, from the "
-         "sum of h b_i (C + xi F + xi' L_v), xi of the degree of q",
+         "sum of h b_i (C + xi F + xi' L_v), with xi of the degree of q",
          &Measured::galerkin_form_difference},
-        {"straight_form_difference", "", "the same with xi linear in time on every interval",
+        {"straight_form_difference", "", "the same relative difference with xi linear in time on every interval",
          &Measured::straight_form_difference},
     };
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     if (std::ranges::count(chosen, "dmoc", &Case::method) == 0)
-      throw Error("equivalence compares with dmoc: add it to --method");
+      throw Error("equivalence compares with dmoc; add dmoc to --method");
     std::vector<Case> cases = chosen;
     for (Case& the_case : cases) the_case.shares = by_dmoc(the_case).label();
     return cases;
@@ -188,8 +189,8 @@ class Equivalence final : public ExperimentOf<Measured> {
       }
     } else if (trajectory.has_costates() && !is_galerkin) {
       solved.note(
-          "The adjoint scheme is not evaluated: with path constraints, integrals or first-order states the stages have "
-          "further multipliers.");
+          "The adjoint scheme is not evaluated: with path constraints, integrals or first-order states, the stages "
+          "have further multipliers.");
     }
     if (here.method == "dmoc") {
       answers_.emplace_back(here, trajectory);
@@ -201,7 +202,7 @@ class Equivalence final : public ExperimentOf<Measured> {
       return answer.first.same_curve(partner) && answer.first.grid.relative_times() == here.grid.relative_times();
     });
     if (found == answers_.end()) {
-      solved.note("Not compared: DMOC was not solved on this grid, or ended on another branch.");
+      solved.note("Not compared: DMOC was not solved on this grid, or its solution is on another branch.");
       return;
     }
     compare(here, trajectory, found->second, measured);

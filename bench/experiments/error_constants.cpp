@@ -47,15 +47,14 @@ struct Limit {
 const Columns<Limit> limit_columns =
     head_columns<Limit>(curve_columns, in_key) +
     Columns<Limit>{
-        {"quantity", "", "the error, a column of the table of errors", &Limit::quantity, in_key},
-        {"finest", "", "N of the finest grid", &Limit::finest},
+        {"quantity", "", "kind of error: the name of a column of the table of errors", &Limit::quantity, in_key},
+        {"finest", "", "N of the finest grid used", &Limit::finest},
         {"constant", "", "limit of the error times N^p, extrapolated from the two finest grids", &Limit::constant},
         {"uncertainty", "",
-         "change of the limit when the finest grid is left out; for replays also their tolerance times N^p",
+         "change of the limit when the finest grid is left out; for replays, plus their tolerance times N^p",
          &Limit::uncertainty}};
 
-/// lim e(N) N^p from a grid and the next one, for e(N) = c N^-p (1 + a/N^2): errors of these methods are series in
-/// N^-2.
+/// lim e(N) N^p from a grid and the next one, for e(N) = c N^-p (1 + a/N^2): these errors are series in N^-2.
 double extrapolated(const Row& coarser, const Row& finer, const std::string& column, int order) {
   const auto scaled = [&](const Row& row) { return row.needed(column) * std::pow(row.needed("intervals"), order); };
   const double refinement = finer.needed("intervals") / coarser.needed("intervals");
@@ -93,10 +92,9 @@ class ErrorConstants final : public ExperimentOf<Measured> {
  public:
   ErrorConstants()
       : ExperimentOf({.name = "error_constants",
-                      .description =
-                          "Measures the errors of the replay and of the cost, and predicts them from the local errors "
-                          "that the exact optimum has in the discrete flow, without a discrete optimum. "
-                          "NAME_limits.csv has the limits of all errors times N^p.",
+                      .description = "Measures the errors of the replay and of the cost, and predicts them from the "
+                                     "local errors of the exact optimum in the discrete flow, without computing a "
+                                     "discrete optimum. NAME_limits.csv has the limits of all errors times N^p.",
                       .options = {.methods = {"dmoc", "tangent", "second_order"},
                                   .solvers = {"interior_point"},
                                   .intervals = "128:1024"},
@@ -105,11 +103,11 @@ class ErrorConstants final : public ExperimentOf<Measured> {
 
   [[nodiscard]] Columns<Measured> columns() const override {
     return {{"state_error", "", "largest error of q over the nodes", &Measured::state},
-            {"replay_error", "", "distance from the final state in (q, v) at which a replay ends", &Measured::replay},
-            {"predicted_replay_error", "", "the same to leading order, from the exact optimum",
+            {"replay_error", "", "distance from the final state in (q, v) at the end of a replay", &Measured::replay},
+            {"predicted_replay_error", "", "replay error to leading order, from the exact optimum",
              &Measured::predicted_replay},
-            {"objective_error", "cost", "cost less the optimal cost", &Measured::objective},
-            {"predicted_objective_error", "cost", "the same to leading order, from the exact optimum",
+            {"objective_error", "cost", "cost minus the optimal cost", &Measured::objective},
+            {"predicted_objective_error", "cost", "cost error to leading order, from the exact optimum",
              &Measured::predicted_objective}};
   }
 

@@ -58,7 +58,7 @@ const Columns<EnergyOfPeriods> behaviour_columns =
 
 const Columns<EnergyOrder> order_columns =
     scheme_columns<EnergyOrder>() +
-    Columns<EnergyOrder>{{"quantity", "", "quantity that shrinks with the step", &EnergyOrder::quantity, in_key}} +
+    Columns<EnergyOrder>{{"quantity", "", "quantity whose order is fitted", &EnergyOrder::quantity, in_key}} +
     fitted_order_columns(&EnergyOrder::fit);
 
 struct EnergyResults {
@@ -138,9 +138,9 @@ void add_energy_against_work(TableRun& run, const std::vector<std::shared_ptr<co
 }
 
 void show_findings(TableRun& run) {
-  run.summary().show("defect of the symplectic form", largest_defects(run.table("invariants_symplecticity")), {},
+  run.summary().show("the defect of the symplectic form", largest_defects(run.table("invariants_symplecticity")), {},
                      "invariants_symplecticity.csv", most_shown);
-  run.summary().show("orders of the gap between energy and work", run.table("invariants_energy_work_slopes"),
+  run.summary().show("the orders of the gap between energy and work", run.table("invariants_energy_work_slopes"),
                      {"problem", "method", "quantity", "truncation", "slope", "standard_error"},
                      "invariants_energy_work_slopes.csv", most_shown);
 }
@@ -168,7 +168,7 @@ void add_examples(TableRun& run, const StructureOptions& options) {
       measure();
     });
   };
-  stage("momentum against the work of forces", [&] { run.add("invariants_momentum", noether_table(options.steps)); });
+  stage("momentum and the work of forces", [&] { run.add("invariants_momentum", noether_table(options.steps)); });
   stage("the continuous flow", [&] {
     run.add("invariants_flow_momentum", flow_momentum_table());
     run.add("invariants_flow_symplecticity", flow_symplecticity_table(example_states()));
@@ -187,7 +187,7 @@ void add_examples(TableRun& run, const StructureOptions& options) {
     run.add("invariants_impacts", tables.impacts);
     run.add("invariants_impacts_slopes", tables.orders);
   });
-  stage("energies against the work of forces", [&] {
+  stage("energies and the work of forces", [&] {
     std::vector<std::shared_ptr<const Problem>> problems;
     for (const std::string& name : paper_problem_names()) problems.push_back(make_problem(name));
     add_energy_against_work(run, problems);
@@ -208,7 +208,7 @@ void add_problems(TableRun& run, const std::vector<std::shared_ptr<const Problem
                       .solver = "ipopt",
                       .grid = Grid::uniform(256)};
       add_symplecticity(run, {states_along(problem, starts.solve(fine))});
-      run.show(problem->name() + ": energies against the work of forces");
+      run.show(problem->name() + ": energies and the work of forces");
       add_energy_against_work(run, {problem});
     });
   }
@@ -234,14 +234,14 @@ int run(int argc, char** argv) {
       "Measures invariants of the discrete flows on examples. Momentum compared with the work of arbitrary forces: "
       "invariants_momentum.csv, and invariants_rotations.csv for rotations about three axes. Momentum along optimal "
       "trajectories whose forces are orthogonal to the symmetry: invariants_orthogonal_forces.csv. Symplectic form: "
-      "invariants_symplecticity.csv. Both along the continuous flow: invariants_flow_momentum.csv and "
-      "invariants_flow_symplecticity.csv. Energy of an eccentric orbit over many periods: invariants_energy.csv and "
-      "invariants_energy_behaviour.csv. Elastic impacts by three conditions on the energy: invariants_impacts.csv. "
-      "Modified energy of the midpoint rule along free trajectories: "
+      "invariants_symplecticity.csv. Momentum and symplectic form along the continuous flow: "
+      "invariants_flow_momentum.csv and invariants_flow_symplecticity.csv. Energy of an eccentric orbit over many "
+      "periods: invariants_energy.csv and invariants_energy_behaviour.csv. Elastic impacts with three conditions on "
+      "the impulse: invariants_impacts.csv. Modified energy of the midpoint rule along unforced trajectories: "
       "invariants_modified_energy.csv. Energy and modified energy compared with the work of the forces along the "
       "optimal trajectories of the paper's problems: invariants_energy_work.csv and invariants_modified_work.csv. "
-      "--problem replaces the examples: for each problem it measures the symplectic form at states of an optimal "
-      "trajectory, and compares energy and modified energy with work along optimal trajectories.",
+      "--problem replaces the examples: for each problem, the program measures the symplectic form at states of an "
+      "optimal trajectory and compares energy and modified energy with the work of the forces.",
       argc, argv, write_tables);
 }
 

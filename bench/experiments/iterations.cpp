@@ -28,11 +28,11 @@ class Iterations final : public ExperimentOf<Measured> {
   Iterations()
       : ExperimentOf({.name = "iterations",
                       .description =
-                          "Counts major and minor iterations of the solver sqp and compares them with the predicted "
-                          "number. Further columns measure the cost of the same solve in other ways: iterations of "
-                          "Ipopt, evaluations of SLSQP (up to 400 free variables), seconds, entries of the KKT "
-                          "matrix and of its factor. NAME_ratios.csv has the costs of collocation relative to "
-                          "DMOC's. By default solves start at the problem's guess.",
+                          "Counts the major and minor iterations of the solver sqp and compares the minor iterations "
+                          "with the predicted number. Further columns measure the cost of the same solve in other "
+                          "ways: iterations of Ipopt, evaluations of SLSQP (up to 400 free variables), seconds, and "
+                          "entries of the KKT matrix and its factor. NAME_ratios.csv has these costs for collocation "
+                          "relative to DMOC. By default, solves start at the problem's guess.",
                       .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
                       .further_files = {"_ratios.csv"},
                       .branches = BranchReport::of_any_start,
@@ -45,19 +45,19 @@ class Iterations final : public ExperimentOf<Measured> {
         {"crash", "", "first basis of sqp: none or basis", &Measured::crash, in_key},
         {"phase1_minors", "", "minor iterations of phase 1", from(solution, &Solution::phase_one_minor_iterations)},
         {"phase2_minors", "", "minor iterations of phase 2", from(solution, &Solution::phase_two_minor_iterations)},
-        {"predicted_minors", "", "minor iterations predicted from the numbers of variables and iterations",
+        {"predicted_minors", "", "minor iterations predicted from the numbers of variables and major iterations",
          &Measured::predicted_minors},
-        {"kkt_nonzeros", "", "entries of the KKT matrix, lower triangle", from(fill, &KktFill::nonzeros)},
+        {"kkt_nonzeros", "", "entries of the lower triangle of the KKT matrix", from(fill, &KktFill::nonzeros)},
         {"factor_nonzeros", "", "nonzeros of the factor of the KKT matrix", from(fill, &KktFill::factor_nonzeros)},
-        {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
+        {"evaluations", "", "number of evaluations of the cost, the constraints and their derivatives",
          from(solution, &Solution::total_evaluations)},
         replay_error_column(&Measured::replay),
     };
   }
   void add_options(CommandLine& line) override {
     line.list("--crash", crashes_,
-              "first basis of sqp: none (all slacks; phase 1 pivots on every constraint) or basis (chosen without "
-              "iterations)");
+              "first basis of sqp: none (all slacks; phase 1 pivots on every constraint) or basis (a basis chosen "
+              "without iterations)");
     line.ignored_unless(
         "--crash", [this] { return std::ranges::count(options().solvers, "sqp") > 0; }, "only sqp has a first basis");
   }
@@ -70,10 +70,10 @@ class Iterations final : public ExperimentOf<Measured> {
       return the_case.solver == "nlopt" && free_variable_count(*the_case.transcribe()) > most_free_variables_for_slsqp;
     });
     if (left_out > 0 && !cases.empty())
-      remark(fmt::format("nlopt is left out above {} free variables, in {} of the cases", most_free_variables_for_slsqp,
-                         left_out));
+      remark(fmt::format("nlopt is left out in cases with more than {} free variables ({} cases)",
+                         most_free_variables_for_slsqp, left_out));
     if (!cases.empty()) return cases;
-    throw Error(fmt::format("--intervals: no grid is small enough for nlopt; it is left out above {} free variables",
+    throw Error(fmt::format("--intervals: no grid is small enough for nlopt, which is left out above {} free variables",
                             most_free_variables_for_slsqp));
   }
 

@@ -69,7 +69,7 @@ class ShiftedKkt {
   /// h b_i for the controls of stage i, in the units of the scaled cost; 0 elsewhere.
   [[nodiscard]] static Eigen::VectorXd weights_of(const Transcription& program, const Eigen::VectorXd& x) {
     const Tableau& controls = program.functions().controls;
-    if (controls.shares_controls) throw Error("coercivity needs controls that no two stages share");
+    if (controls.shares_controls) throw Error("coercivity needs controls that are not shared between stages");
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(x.size());
     const Eigen::VectorXd steps = program.steps(x);
     const ProgramBlocks& blocks = program.blocks();
@@ -120,7 +120,7 @@ Eigen::VectorXd eigenvalues(Eigen::MatrixXd symmetric) {
   const auto size = static_cast<lapack_int>(symmetric.rows());
   Eigen::VectorXd values(symmetric.rows());
   if (LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'N', 'L', size, symmetric.data(), size, values.data()) != 0) {
-    throw Error("the eigenvalues of a symmetric matrix cannot be computed: an entry is not a number");
+    throw Error("the eigenvalues of a symmetric matrix cannot be computed because an entry is not a number");
   }
   return values;
 }
@@ -138,7 +138,7 @@ void require_no_active_inequality(const NonlinearProgram& program, const Lineari
     has_active |=
         !equalities[i] && is_active(at.constraints[j], program.constraint_lower()[j], program.constraint_upper()[j]);
   }
-  if (has_active) throw Error("the condition number is defined only where no bound is active, but a bound is active");
+  if (has_active) throw Error("the condition number is defined only if no bound is active, but a bound is active");
 }
 
 /// Divides rows and columns of a symmetric matrix by the roots of their largest entries until all of these are 1.

@@ -51,35 +51,35 @@ class LocalMinima final : public ExperimentOf<Measured> {
   LocalMinima()
       : ExperimentOf({.name = "local_minima",
                       .description = "Solves every case from many perturbed guesses. NAME_minima.csv has the minima "
-                                     "found and the number of starts ending in each, NAME_shares.csv the share ending "
-                                     "in the best one, with a confidence interval. With --plane the starts form a "
-                                     "plane, and NAME_basins.csv has the minimum that each start reaches.",
+                                     "found and the number of starts that end in each. NAME_shares.csv has the share "
+                                     "ending in the best minimum, with a confidence interval. With --plane, the starts "
+                                     "form a plane, and NAME_basins.csv has the minimum that each start reaches.",
                       .options = {.solvers = {"auto"}, .intervals = "64", .start = "guess", .jobs = 2, .batch = true},
                       .further_files = {"_minima.csv", "_shares.csv", "_basins.csv"},
                       .branches = BranchReport::none,
                       .problems_are_independent = true,
                       .takes_batches = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
-    return Columns<Measured>{
-               {"start", "", "number of the start; 0 is the initial guess", &Measured::start, in_key},
-               {"bulge_1", "", "perturbation of the start in q_1, relative to the range of that coordinate (--plane)",
-                &Measured::bulge_1},
-               {"bulge_2", "", "perturbation of the start in q_2, or with twice the frequency if there is no q_2",
-                &Measured::bulge_2}} +
+    return Columns<Measured>{{"start", "", "number of the start; 0 is the initial guess", &Measured::start, in_key},
+                             {"bulge_1", "", "perturbation of the start in q_1, relative to the range of q_1 (--plane)",
+                              &Measured::bulge_1},
+                             {"bulge_2", "",
+                              "perturbation of the start in q_2, or in q_1 with twice the frequency if there is no q_2",
+                              &Measured::bulge_2}} +
            columns_through<Measured>(&Measured::checks, check_columns());
   }
   void add_options(CommandLine& line) override {
-    line.number("--starts", starts_, 1, 100000, "starts per case: the guess and perturbed guesses");
+    line.number("--starts", starts_, 1, 100000, "number of starts per case: the guess and perturbed guesses");
     line.number("--seed", seed_, 0, 0xffffffffU, "seed of the random curves; the same seed gives the same starts");
     line.number("--amplitude", amplitude_, 0.0, 10.0,
-                "amplitude of the random curves, and of the perturbations of a plane, relative to the range of each "
+                "amplitude of the random curves and of the perturbations of a plane, relative to the range of each "
                 "coordinate and the size of each control");
     line.number("--plane", plane_, 2, 316,
-                "M x M starts instead of random curves: the guess plus multiples of sin(pi t/T) in q_1 and q_2, from "
-                "-amplitude to amplitude in M steps");
+                "use M x M starts instead of random curves: the guess plus multiples of sin(pi t/T) in q_1 and q_2, "
+                "with M values from -amplitude to amplitude");
     for (const char* const option : {"--starts", "--seed"})
       line.ignored_unless(
-          option, [this] { return plane_ == 0; }, "--plane chooses the starts");
+          option, [this] { return plane_ == 0; }, "--plane already sets the starts");
   }
   /// All methods and grids start from the same curves.
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {

@@ -35,8 +35,7 @@ struct Misprint {
   double required;
 };
 
-/// The derivative of the potential's last term with respect to θ₂ where the paper states that the arm is in
-/// equilibrium.
+/// The derivative of the potential's last term with respect to θ₂ where, as the paper states, the arm is at rest.
 Misprint potential_without_sine() {
   const auto problem = make_problem("two_link_manipulator");
   const double weight =
@@ -178,7 +177,7 @@ std::array<Misprint, 2> misprints_of_the_lemma(const Problem& problem) {
                    .name = "force_in_lemma",
                    .where = "section 2.3, proof of the Lemma",
                    .printed = "-int [L_q - d/dt L_q' - f] dq/dq_0 dt",
-                   .meant = "+f in the bracket, which then vanishes",
+                   .meant = "+f instead of -f in the bracket, which then vanishes",
                    .quantity = "p_phi at the left end of an exact interval",
                    .as_printed = momentum + 2.0 * force,
                    .as_meant = transform,
@@ -187,7 +186,7 @@ std::array<Misprint, 2> misprints_of_the_lemma(const Problem& problem) {
                    .name = "equations_in_lemma",
                    .where = "section 2.3, the Lemma",
                    .printed = "q_0,1 denotes the solution of the corresponding Euler-Lagrange equations",
-                   .meant = "of the forced Euler-Lagrange equations",
+                   .meant = "q_0,1 denotes the solution of the forced Euler-Lagrange equations",
                    .quantity = "L_v(0) of q_0,1 along phi, and -D_1 L_d^E - f_d^E-",
                    .as_printed = legendre.momentum(first.q, unforced_v, 0.0)[1],
                    .as_meant = momentum,
@@ -207,7 +206,7 @@ Misprint final_momentum(const Problem& problem, const Trajectory& motion) {
           .where = "section 3.2, the Proposition (editorial)",
           .printed = "(q^T, p^T) = FL(q^N, q'^N)",
           .meant = "(q^T, p^T) = FL(q^T, q'^T)",
-          .quantity = "angular momentum at t = T on the optimal transfer, q'^N read as (q_N - q_N-1)/h",
+          .quantity = "angular momentum at t = T on the optimal transfer, with q'^N read as (q_N - q_N-1)/h",
           .as_printed = legendre.momentum(q, v, 0.0)[1],
           .as_meant = legendre.momentum(end.q, end.v, 0.0)[1],
           .required = motion.p(last, 1)};
@@ -225,8 +224,8 @@ Misprint figure_of_iterations() {
   return {.problem = "two_link_manipulator",
           .name = "figure_of_iterations",
           .where = "section 4.2.2, last paragraph, and caption of fig:twolink_iterations (editorial)",
-          .printed = "the two-link's minor iterations are in fig:kepler_iterations",
-          .meant = "fig:twolink_iterations, whose caption reads low thrust orbital transfer",
+          .printed = "the minor iterations of the two-link manipulator are in fig:kepler_iterations",
+          .meant = "they are in fig:twolink_iterations, whose caption reads low thrust orbital transfer",
           .quantity = "ratio of variables on the problem of that figure",
           .as_printed = ratio("orbital_transfer"),
           .as_meant = ratio("two_link_manipulator"),
@@ -261,8 +260,8 @@ Misprint altitudes(const Problem& problem) {
           .name = "altitudes",
           .where = "section 4.2.1, Results",
           .printed = "r^0 = 30 km and r^T = 330 km are radii",
-          .meant = "altitudes: the radii are greater by the radius of the Earth",
-          .quantity = "number of orbits outside of the Earth",
+          .meant = "both are altitudes: the radii are greater by the radius of the Earth",
+          .quantity = "number of orbits outside the Earth",
           .as_printed = outside(0.0),
           .as_meant = outside(earth),
           .required = 2.0};
@@ -279,7 +278,7 @@ Misprint final_angle(const Problem& problem) {
           .where = "section 4.2.1, Boundary Conditions",
           .printed = "(r(T), phi(T)) = (r^T, 0)",
           .meant = "(r^T, 2 pi d) after d revolutions, which T contains",
-          .quantity = "revolutions from phi(0) to phi(T), and T over the period of the ellipse between both circles",
+          .quantity = "revolutions from phi(0) to phi(T), and T in periods of the ellipse between both circles",
           .as_printed = printed_angle / turn,
           .as_meant = end.q[1] / turn,
           .required = problem.horizon() / (turn * std::pow(half_axis, 1.5))};
@@ -360,10 +359,10 @@ const Columns<Misprint> columns{
     {"where", "", "place in the paper", &Misprint::where},
     {"printed", "", "the printed statement", &Misprint::printed},
     {"meant", "", "the intended statement", &Misprint::meant},
-    {"quantity", "", "quantity that distinguishes the two", &Misprint::quantity},
-    {"value_as_printed", "", "its value for the printed statement", &Misprint::as_printed},
-    {"value_as_meant", "", "its value for the intended statement", &Misprint::as_meant},
-    {"required_value", "", "the value that is required", &Misprint::required},
+    {"quantity", "", "quantity that distinguishes the two statements", &Misprint::quantity},
+    {"value_as_printed", "", "value of the quantity for the printed statement", &Misprint::as_printed},
+    {"value_as_meant", "", "value of the quantity for the intended statement", &Misprint::as_meant},
+    {"required_value", "", "required value of the quantity", &Misprint::required},
 };
 
 int evaluate_misprints(CommandLine& line) {
@@ -392,7 +391,7 @@ int evaluate_misprints(CommandLine& line) {
 
 int run(int argc, char** argv) {
   return run_program("misprints",
-                     "Misprints of the paper: each formula evaluated as printed and as corrected (misprints.csv).",
+                     "Evaluates each misprinted formula of the paper as printed and as corrected (misprints.csv).",
                      argc, argv, evaluate_misprints);
 }
 

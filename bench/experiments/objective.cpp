@@ -41,13 +41,13 @@ class Objective final : public ExperimentOf<Measured> {
                       .description = "Computes the optimal cost of each method for each number of intervals.",
                       .options = {.intervals = "16:1024"}}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
-    return {{"condition", "", "condition number of the equilibrated KKT matrix at the optimum; with --condition",
+    return {{"condition", "", "condition number of the equilibrated KKT matrix at the optimum (only with --condition)",
              &Measured::condition}};
   }
   void add_options(CommandLine& line) override {
     line.flag(
         "--condition", measures_condition_,
-        "also compute the condition number of the KKT matrix, with dense linear algebra, where no bound is active");
+        "also compute the condition number of the KKT matrix where no bound is active (with dense linear algebra)");
   }
   void measure(SolvedCase& solved, Measured& measured) override {
     if (measures_condition_ && is_solved(solved.solution.status)) {

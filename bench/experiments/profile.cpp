@@ -25,11 +25,11 @@ class Profile final : public ExperimentOf<Measured> {
       : ExperimentOf(
             {.name = "profile",
              .description =
-                 "Solves every problem with every method from the problem's own guess: performance profiles after "
-                 "Dolan and Moré (NAME_profiles.csv) and shifted geometric means (NAME_summary.csv). Success is a KKT "
-                 "residual below the tolerance and a cost within 2 % of the reference (if a problem states none, of "
-                 "the best cost found by any method); everything else counts as a failure. NAME_library.csv and "
-                 "NAME_library.md compare the costs on the finest grid with the reference.",
+                 "Solves every problem with every method from the problem's own guess. NAME_profiles.csv has "
+                 "performance profiles after Dolan and Moré, NAME_summary.csv has shifted geometric means. A solve "
+                 "succeeds if the KKT residual is below the tolerance and the cost is within 2 % of the reference (or, "
+                 "if the problem states none, of the best cost of any method); all other solves count as failures. "
+                 "NAME_library.csv and NAME_library.md compare the costs on the finest grid with the reference.",
              .options = {.problems = {"all"},
                          .intervals = "32,64,128",
                          .start = "guess",
@@ -41,14 +41,16 @@ class Profile final : public ExperimentOf<Measured> {
   [[nodiscard]] Columns<Measured> columns() const override {
     constexpr auto reference = &Measured::reference;
     return Columns<Measured>{
-               {"success", "", "yes or no", [](const Measured& measured) { return yes_or_no(measured.is_success); }},
-               {"reference_objective", "cost", "cost that the problem states",
+               {"success", "", "success: yes or no",
+                [](const Measured& measured) { return yes_or_no(measured.is_success); }},
+               {"reference_objective", "cost", "the problem's reference cost",
                 from(reference, &ReferenceOptimum::objective)},
-               {"reference_digits", "", "valid digits of this cost", from(reference, &ReferenceOptimum::digits)},
-               {"reference_kind", "", "stated by the problem, or the best cost of all methods on the finest grid",
+               {"reference_digits", "", "valid digits of this reference", from(reference, &ReferenceOptimum::digits)},
+               {"reference_kind", "",
+                "reference: stated by the problem, or the best cost of all methods on the finest grid",
                 [](const Measured& measured) { return measured.reference ? stated_reference : ""; }},
-               {"objective_error", "cost", "distance from reference_objective", &Measured::error},
-               {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
+               {"objective_error", "cost", "difference of the cost from reference_objective", &Measured::error},
+               {"evaluations", "", "number of evaluations of the cost, the constraints and their derivatives",
                 &Measured::evaluations},
            } +
            columns_through<Measured>(&Measured::checks, check_columns());

@@ -41,15 +41,15 @@ struct Measured {
 class StructureAdvantage final : public ExperimentOf<Measured> {
  public:
   StructureAdvantage()
-      : ExperimentOf(
-            {.name = "savings_by_solver",
-             .description =
-                 "Measures the cost of collocation relative to DMOC with Ipopt and with interior_point, which solves "
-                 "its linear systems interval by interval or as a general sparse matrix: iterations, linear systems, "
-                 "seconds. NAME_ratios.csv has the ratios to DMOC at equal N and at equal error of the objective.",
-             .options = {.solvers = {"ipopt", "interior_point"}, .intervals = "64:1024", .repeats = 11},
-             .further_files = {"_ratios.csv"},
-             .takes_turns = true}) {}
+      : ExperimentOf({.name = "savings_by_solver",
+                      .description =
+                          "Measures the computational cost of collocation relative to DMOC in iterations, linear "
+                          "systems and seconds, with Ipopt and with interior_point, which solves its linear systems "
+                          "interval by interval or as a general sparse matrix. NAME_ratios.csv has the ratios to "
+                          "DMOC at equal N and at equal error of the objective.",
+                      .options = {.solvers = {"ipopt", "interior_point"}, .intervals = "64:1024", .repeats = 11},
+                      .further_files = {"_ratios.csv"},
+                      .takes_turns = true}) {}
 
   [[nodiscard]] Columns<Measured> columns() const override {
     return {
@@ -57,9 +57,10 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
         {"linear_systems", "", "number of linear systems solved", &Measured::linear_systems},
         {"seconds_per_iteration", "s", "wall-clock time of the solve divided by its iterations",
          &Measured::per_iteration},
-        {"linear_algebra_per_iteration", "s", "the same without evaluations", &Measured::linear_algebra_per_iteration},
-        {"seconds_per_linear_system", "s", "factorisation and substitution", &Measured::per_linear_system},
-        {"objective_error", "", "relative error of the objective, compared with the indirect solution",
+        {"linear_algebra_per_iteration", "s", "time of an iteration without evaluations",
+         &Measured::linear_algebra_per_iteration},
+        {"seconds_per_linear_system", "s", "time of a factorisation and a substitution", &Measured::per_linear_system},
+        {"objective_error", "", "relative error of the objective with respect to the indirect solution",
          &Measured::objective_error},
         {"round_linear_seconds", "s", "time spent in linear systems in each round, separated by spaces",
          &Measured::linear_rounds},
@@ -70,7 +71,7 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
     line.list("--factorisation", factorisations_, "factorisation of interior_point's linear systems");
     line.ignored_unless(
         "--factorisation", [this] { return std::ranges::count(options().solvers, "interior_point") > 0; },
-        "only interior_point offers a choice");
+        "only interior_point offers a choice of factorisations");
   }
 
   /// Solvers but ours have no factorisation to choose.

@@ -58,7 +58,7 @@ std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std:
     const SolvedCase& answer = answers.back();
     if (answer.trajectory && is_solved(answer.solution.status)) continue;
     throw Error(
-        fmt::format("{} is not solved, so no sequence can start: {}", the_case.label(), answer.solution.message));
+        fmt::format("no sequence can start because {} is not solved: {}", the_case.label(), answer.solution.message));
   }
   return answers;
 }
@@ -78,14 +78,14 @@ void run_in_turn(std::vector<SequenceRun>& runs, const SequenceOptions& options,
 std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
                                       StartProvider& starts, const SolverOptions& solver_options) {
   if (problem->bounds().horizon.is_free()) {
-    throw Error(fmt::format("{} has a free horizon; a receding horizon needs a fixed one; choose another problem",
+    throw Error(fmt::format("{} has a free horizon; a receding horizon needs a fixed horizon; choose another problem",
                             problem->name()));
   }
   const std::optional<SweptQuantity> quantity = homotopy_of(options, *problem);
   const bool has_phases = problem->phased() != nullptr;
   if (has_phases && !quantity) {
     throw Error(
-        fmt::format("{} has phases, which a receding horizon would move on together; give a quantity --over "
+        fmt::format("{} has phases, which a receding horizon does not support; vary a quantity with --over "
                     "NAME=LOWER:UPPER, or choose another problem",
                     problem->name()));
   }
@@ -114,10 +114,10 @@ void add_options(CommandLine& line, SequenceOptions& options) {
   options.problems.add_to(line);
   line.list("--method", options.methods, fmt::format("methods: {}", fmt::join(paper_families(), ", ")));
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
-  line.number("--steps", options.steps, 1, 100000, "number of problems in a sequence");
+  line.number("--steps", options.steps, 1, 100000, "number of problems in each sequence");
   line.number("--repeats", options.repeats, 1, 1000, "number of solves per step; the shortest time is used");
   line.number("--seed", options.seed, 0, 0xffffffffU, "seed of the disturbances");
-  line.option("--over", options.over, "NAME=LOWER:UPPER: the parameter or end state that a homotopy changes");
+  line.option("--over", options.over, "parameter or end state that a homotopy changes, as NAME=LOWER:UPPER");
 }
 
 int run_sequences(CommandLine& line) {
@@ -145,12 +145,12 @@ int run_sequences(CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  return run_program(
-      "sequence",
-      "Solves sequences of problems, each started from the trajectory, multipliers and barrier parameter of the "
-      "previous one: a receding horizon with disturbances, and a homotopy in a parameter. sequence.csv has iterations "
-      "and microseconds of every step, warm and cold; sequence_summary.csv their median, 99th percentile and maximum.",
-      argc, argv, run_sequences);
+  return run_program("sequence",
+                     "Solves sequences of problems, each started from the trajectory, multipliers and barrier "
+                     "parameter of the previous problem: a receding horizon with disturbances, and a homotopy in a "
+                     "parameter. sequence.csv has the iterations and microseconds of every step, warm and cold; "
+                     "sequence_summary.csv has their median, 99th percentile and maximum.",
+                     argc, argv, run_sequences);
 }
 
 }  // namespace dmocbench::sequence_program

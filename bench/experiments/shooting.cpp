@@ -33,8 +33,8 @@ const Columns<Measured> columns =
     Columns<Measured>{
         {"status", "", "status of the solve", &Measured::status},
         {"intervals", "", "number of intervals N", &Measured::intervals, in_key},
-        {"unknowns", "", "variables whose bounds differ", &Measured::unknowns},
-        {"equations", "", "constraints whose bounds are equal", &Measured::equations},
+        {"unknowns", "", "number of variables whose bounds differ", &Measured::unknowns},
+        {"equations", "", "number of constraints whose bounds are equal", &Measured::equations},
         {"objective", "cost", "optimal cost of the program", &Measured::objective},
         {"condition", "", "condition number of the equilibrated KKT matrix at the optimum", &Measured::condition}};
 
@@ -108,8 +108,8 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program("shooting",
                      "Compares the programs of DMOC, multiple shooting and single shooting (rk4, one step per "
-                     "interval) at one optimum: shooting.csv has their sizes and the condition numbers of their KKT "
-                     "matrices. Their reliability from cold starts and their accuracy are measured by cold_start and "
+                     "interval) at one optimum. shooting.csv has their sizes and the condition numbers of their KKT "
+                     "matrices. To measure their reliability from cold starts and their accuracy, run cold_start and "
                      "convergence with --method multiple_shooting,single_shooting.",
                      argc, argv, measure_all);
 }

@@ -40,11 +40,11 @@ struct MeasuredOrder {
 
 template <class Record>
 Columns<Record> situation_columns() {
-  return Columns<Record>{
-             {"situation", "", "problem, with its bounds and its final state",
-              from(&Record::situation, &Situation::name), in_key},
-             {"active", "", "bounds that are active along the optimum", from(&Record::situation, &Situation::active)},
-             {"end", "", "fixed or free final state", from(&Record::situation, &Situation::end)}} +
+  return Columns<Record>{{"situation", "", "name of the problem with its bounds and final state",
+                          from(&Record::situation, &Situation::name), in_key},
+                         {"active", "", "quantities whose bounds are active along the optimum",
+                          from(&Record::situation, &Situation::active)},
+                         {"end", "", "final state: fixed or free", from(&Record::situation, &Situation::end)}} +
          scheme_columns<Record>();
 }
 
@@ -52,7 +52,7 @@ const Columns<Measured> error_columns =
     situation_columns<Measured>() +
     Columns<Measured>{
         {"status", "", "status of the solve", &Measured::status},
-        {"reference", "", "closed form, or a finer grid",
+        {"reference", "", "reference of the errors: closed form or finer grid",
          [](const Measured& m) { return m.is_exact ? "closed form" : "finer grid"; }},
         {"intervals", "", "number of intervals N", &Measured::intervals, in_key},
         {"h", "", "step", &Measured::h},
@@ -69,9 +69,9 @@ const Columns<Measured> error_columns =
 const Columns<MeasuredOrder> order_columns =
     situation_columns<MeasuredOrder>() +
     Columns<MeasuredOrder>{
-        {"order", "", "the tableau's order", &MeasuredOrder::order},
+        {"order", "", "order of the tableau", &MeasuredOrder::order},
         {"quantity", "",
-         "quantity whose error is fitted; where bounds are active, the largest error on a grid and all finer ones",
+         "quantity whose error is fitted; where bounds are active, its largest error on a grid and all finer grids",
          &MeasuredOrder::quantity, in_key}} +
     fitted_order_columns(&MeasuredOrder::fit);
 
@@ -123,7 +123,7 @@ class Smoothness {
     const SolvedCase fine =
         solve(case_of(situation, "dmoc", 2, finer_intervals), Start{smooth_motion(*coarse.trajectory)});
     if (!fine.trajectory || !is_solved(fine.solution.status))
-      throw Error(situation.name + " is not solved: " + fine.solution.message);
+      throw Error(situation.name + " is not solved on the reference grid: " + fine.solution.message);
     return *fine.trajectory;
   }
   void follow(const Situation& situation, const KnownOptimum& optimum, const Start& start, const std::string& method,
@@ -161,8 +161,7 @@ class Smoothness {
     return fit && std::cmp_greater_equal(fit->points, fewest_grids) ? fit : std::nullopt;
   }
 
-  // A kink of the closed forms divides its interval in the proportion 1 : 2 on all of them, and all nodes are nodes of
-  // the finer grid.
+  // A kink of the closed forms divides its interval 1 : 2 on all of them, and all nodes are nodes of the finer grid.
   static constexpr std::array measured_intervals{20LL, 32LL, 40LL, 64LL, 80LL, 128LL, 160LL, 256LL};
   static constexpr long long coarsest_fitted = 32;
   static constexpr long long finer_intervals = 1280;
@@ -200,9 +199,9 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program("smoothness",
                      "Measures orders of state, costate, control and cost where bounds are active and the optimal "
-                     "control has kinks, compared with smooth optima, with fixed and with free final state "
-                     "(smoothness.csv; fitted orders in smoothness_slopes.csv). Errors are measured against the closed "
-                     "form, or against DMOC with two stages on 1280 intervals. --problem replaces the examples.",
+                     "control has kinks, compared with smooth optima, with a fixed and with a free final state "
+                     "(smoothness.csv; fitted orders in smoothness_slopes.csv). The reference is the closed form, or "
+                     "DMOC with two stages on 1280 intervals. --problem replaces the examples.",
                      argc, argv, measure_all);
 }
 

@@ -78,23 +78,23 @@ class Solve final : public ExperimentOf<Measured> {
       : ExperimentOf(
             {.name = "solve",
              .description =
-                 "Solves a problem and writes the trajectory: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv "
-                 "(t, u) and NAME_picture.csv. NAME is the value of --name, by default solve_ followed by "
-                 "the problem and its settings. With several cases, the label of the case is appended. For a "
-                 "failed solve the last iterate is written; --start NAME_nodes.csv continues from it.",
+                 "Solves a problem and writes the trajectory: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) "
+                 "and NAME_picture.csv. NAME is the value of --name, by default solve_ followed by the problem and its "
+                 "settings. With several cases, the label of the case is appended to NAME. After a failed solve, the "
+                 "last iterate is written; --start NAME_nodes.csv continues from this iterate.",
              .options = {.solvers = {"auto"}, .intervals = "128", .start = "guess"},
              .rows = RowUse::motions,
              .example = "--problem two_link_manipulator --method dmoc --intervals 64"}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return columns_through<Measured>(&Measured::checks, check_columns()) +
            Columns<Measured>{{"estimated_error", "",
-                              "with --accuracy: relative error of q, p and cost, by an estimate that uses no reference",
+                              "relative error of q, p and cost, estimated without a reference (only with --accuracy)",
                               &Measured::estimated_error}};
   }
   void add_options(CommandLine& line) override {
     trace_.add_to(line);
     line.flag("--costates,!--no-costates", takes_costates_,
-              "use the costates of --start FILE as multipliers, for --solver interior_point and auto");
+              "use the costates of --start FILE as initial multipliers (only with --solver interior_point or auto)");
     line.ignored_unless(
         "--costates",
         [this] {
@@ -102,7 +102,7 @@ class Solve final : public ExperimentOf<Measured> {
           const bool is_file = options().start != "common" && options().start != "guess";
           return is_file && std::ranges::any_of(options().solvers, uses);
         },
-        "only interior_point and auto use costates, from --start FILE");
+        "only interior_point and auto use the costates of --start FILE");
     accuracy_.add_to(line);
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
@@ -178,7 +178,7 @@ class Solve final : public ExperimentOf<Measured> {
     const Trajectory& motion = *solved.trajectory;
     const std::string label = solved.the_case.label();
     const auto say_price = [&](const std::string& value, const char* limits, double price) {
-      summary.say(fmt::format("{}: {}, the multiplier of its {} {:.6g}", label, value, limits, price));
+      summary.say(fmt::format("{}: {}; the multiplier of its {} is {:.6g}", label, value, limits, price));
     };
     // Solvers leave less than this share of the cost where no bound acts.
     const auto acts = [&](double price, double value) {

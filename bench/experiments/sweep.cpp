@@ -22,30 +22,30 @@ struct Instance {
 class Sweep final : public ExperimentOf<Instance> {
  public:
   Sweep()
-      : ExperimentOf(
-            {.name = "sweep",
-             .description =
-                 "Solves a problem for many values of its parameters and end states, one row per instance. --over "
-                 "gives the values: a grid of all combinations, or random samples (--samples). With --start common all "
-                 "instances start from one trajectory of the unchanged problem, so that neighbouring instances tend to "
-                 "share a local minimum. With --start guess each instance starts from its own guess, as in Python's "
-                 "solve_batch. The two choices may lead to different minima. Failed instances keep their rows.",
-             .options = {.problems = {"two_link_manipulator"},
-                         .methods = {"dmoc"},
-                         .solvers = {"auto"},
-                         .intervals = "64",
-                         .batch = true},
-             .branches = BranchReport::none,
-             .takes_batches = true,
-             .example = "--over mass_1=0.5:2:20 --over final_q1=0.3:0.8:11"}) {}
+      : ExperimentOf({.name = "sweep",
+                      .description =
+                          "Solves a problem for many values of its parameters and end states and writes one row per "
+                          "instance. --over gives the values: a grid of all combinations, or the ranges of random "
+                          "samples (--samples). With --start common, all instances start from one trajectory of the "
+                          "unchanged problem, so that neighbouring instances tend to share a local minimum. With "
+                          "--start guess, each instance starts from its own guess, as in Python's solve_batch. The "
+                          "two choices may lead to different minima. Failed instances keep their rows.",
+                      .options = {.problems = {"two_link_manipulator"},
+                                  .methods = {"dmoc"},
+                                  .solvers = {"auto"},
+                                  .intervals = "64",
+                                  .batch = true},
+                      .branches = BranchReport::none,
+                      .takes_batches = true,
+                      .example = "--over mass_1=0.5:2:20 --over final_q1=0.3:0.8:11"}) {}
 
   void add_options(CommandLine& line) override {
     line.option("--over", over_,
-                "NAME=LOWER:UPPER:COUNT: COUNT evenly spaced values of a parameter (`list --problem` shows them) or of "
-                "an entry of an end state (initial_q1, initial_v1, final_q1, final_v2, ...); may be repeated for every "
-                "combination");
+                "NAME=LOWER:UPPER:COUNT: COUNT evenly spaced values of a parameter (shown by `list --problem`) or of "
+                "an entry of an end state (initial_q1, initial_v1, final_q1, final_v2, ...); repeat the option to "
+                "solve all combinations");
     line.number("--samples", samples_, 0, most_instances,
-                "number of random instances, uniformly distributed over each NAME=LOWER:UPPER; 0: a grid");
+                "number of random instances, uniformly distributed over each NAME=LOWER:UPPER; 0 selects a grid");
     line.number("--seed", seed_, 0, 0xffffffffU, "seed of the samples; the same seed gives the same instances");
     line.ignored_unless(
         "--seed", [this] { return samples_ > 0; }, "only --samples draws random instances");
@@ -94,7 +94,7 @@ class Sweep final : public ExperimentOf<Instance> {
       output.summary.say(fmt::format("sweep: {} of {} rows: {}", count, table.rows().size(), status));
     const Selection solved = Selection(table).usable().sorted_by("objective");
     if (solved.empty()) return;
-    output.summary.say(fmt::format("sweep: cost from {:.7g} (instance {}) to {:.7g} (instance {})",
+    output.summary.say(fmt::format("sweep: the cost ranges from {:.7g} (instance {}) to {:.7g} (instance {})",
                                    solved.front().needed("objective"), solved.front().text("instance"),
                                    solved.back().needed("objective"), solved.back().text("instance")));
     output.summary.say(

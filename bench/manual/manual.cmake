@@ -29,5 +29,5 @@ if(DMOCBENCH_DOXYGEN)
     COMMAND ${CMAKE_COMMAND} -E echo "manual: ${PROJECT_BINARY_DIR}/manual/html/index.html"
     VERBATIM)
 else()
-  add_custom_target(manual COMMAND ${CMAKE_COMMAND} -E echo "doxygen is not installed: bench/install --ci" COMMAND ${CMAKE_COMMAND} -E false)
+  add_custom_target(manual COMMAND ${CMAKE_COMMAND} -E echo "doxygen is missing; install it with bench/install --ci" COMMAND ${CMAKE_COMMAND} -E false)
 endif()

@@ -34,7 +34,7 @@ function(dmocbench_ask_who variable environment git_name otherwise)
 endfunction()
 dmocbench_ask_who(name DEBFULLNAME user.name "the dmocbench authors")
 dmocbench_ask_who(address DEBEMAIL user.email nobody@localhost)
-set(DMOCBENCH_MAINTAINER "${name} <${address}>" CACHE STRING "Whom the Debian packages name as their maintainer")
+set(DMOCBENCH_MAINTAINER "${name} <${address}>" CACHE STRING "Maintainer of the Debian packages")
 set(CPACK_PACKAGE_CONTACT "${DMOCBENCH_MAINTAINER}")
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -49,22 +49,22 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS libdmocbench-dev)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-    "benchmark of DMOC against collocation for optimal control
-Solves optimal control problems of mechanical systems by DMOC (Discrete
-Mechanics and Optimal Control), by Hamiltonian and tangent-space collocation
-and by shooting, and compares accuracy, structure and cost of the answers in
-tables and figures. Problems of one's own come from a shared library, which
-libdmocbench-dev makes of one header each.")
+    "benchmark of DMOC and collocation for optimal control
+Solves optimal control problems of mechanical systems with DMOC (Discrete
+Mechanics and Optimal Control), Hamiltonian and tangent-space collocation,
+and shooting, and compares accuracy, structure and cost of the solutions in
+tables and figures. Your own problems are loaded from shared libraries, which
+libdmocbench-dev builds from one header each.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-dmocbench)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "dmocbench, python3-matplotlib, python3-pandas")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
-    "optimal control by DMOC and collocation, in Python
+    "optimal control with DMOC and collocation in Python
 State an optimal control problem of a mechanical system as a Python class,
-solve it by DMOC and by collocation at the speed of C++, with numpy arrays
-as answers, and compare the methods by the experiments of dmocbench.")
+solve it with DMOC and collocation at the speed of C++, get solutions as
+numpy arrays, and compare the methods with the experiments of dmocbench.")
 
 # The static libraries have no dependencies included: linking them needs the libraries they were compiled with.
 set(adolc)
@@ -80,11 +80,11 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
     "cmake (>= 3.25), dmocbench (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), g++, libcli11-dev, nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
-    "libraries of dmocbench: optimal control by DMOC and collocation
+    "libraries of dmocbench: optimal control with DMOC and collocation
 Headers, static libraries and CMake files: a language for Lagrangians,
 forces and costs with exact derivatives, DMOC, collocation and shooting,
-solvers, diagnostics, and dmocbench_add_problems, which makes a library of
-problems of one's own for the program dmocbench.")
+solvers, diagnostics, and dmocbench_add_problems, which builds a library of
+your own problems for the program dmocbench.")
 
 set(CPACK_DMOCBENCH_SOURCE ${PROJECT_SOURCE_DIR}) # names that begin with CPACK_ reach the script
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/complete_debian.cmake)

@@ -77,8 +77,8 @@ struct BatchAsked {
 void require_rows(const Rows& table, std::size_t count, Eigen::Index columns, const char* name) {
   if (table.rows() == 0) return;
   if (static_cast<std::size_t>(table.rows()) != count || table.cols() != columns) {
-    throw Error(fmt::format("solve_batch: {} has the shape ({}, {}), expected ({}, {})", name, table.rows(),
-                            table.cols(), count, columns));
+    throw Error(fmt::format("solve_batch: {} has shape ({}, {}), expected ({}, {})", name, table.rows(), table.cols(),
+                            count, columns));
   }
   if (!table.allFinite()) throw Error(fmt::format("solve_batch: {} has an entry that is not a finite number", name));
 }

@@ -68,16 +68,16 @@ std::string text_of(const Expression& formula) {
 
 void bind_class(py::module_& module) {
   constexpr const char* no_branch =
-      "a formula has no value while it is traced, so \"if\", \"and\", \"while\" and comparisons cannot decide; write "
+      "a formula has no value while it is traced, so \"if\", \"and\", \"while\" and comparisons cannot be used; write "
       "dmocbench.smooth_if_else(x, a, b, eps), which is a where x > 0, or smooth_max, smooth_min";
   constexpr const char* no_number =
-      "a formula has no value while it is traced, so float(), int() and functions of math such as math.cos cannot take "
-      "it; write dmocbench.cos or numpy.cos";
-  constexpr const char* no_abs = "abs has a kink, which solvers cannot follow; write dmocbench.smooth_abs(x, eps)";
-  constexpr const char* no_steps = "rounding has jumps, which solvers cannot follow";
+      "a formula has no value while it is traced, so float(), int() and functions of math such as math.cos cannot be "
+      "used; write dmocbench.cos or numpy.cos";
+  constexpr const char* no_abs = "abs has a kink, which solvers cannot handle; write dmocbench.smooth_abs(x, eps)";
+  constexpr const char* no_steps = "rounding has jumps, which solvers cannot handle";
   py::class_<Expression> expression(
       module, "Expression",
-      "A traced number: arithmetic on it builds a formula, which dmocbench differentiates exactly.");
+      "A traced number. Arithmetic on traced numbers builds a formula, which dmocbench differentiates exactly.");
   expression.def(py::init<double>(), py::arg("value"))
       .def("__add__", binary([](const auto& a, const auto& b) { return a + b; }))
       .def("__radd__", binary([](const auto& a, const auto& b) { return b + a; }))
@@ -97,7 +97,7 @@ void bind_class(py::module_& module) {
              throw py::type_error(no_number);
            })
       .def(
-          "conjugate", [](const Expression& x) { return x; }, "The number itself, because it is real.")
+          "conjugate", [](const Expression& x) { return x; }, "The number itself, because the number is real.")
       .def("__repr__", text_of);
   for (const char* name : {"__int__", "__index__"}) expression.def(name, refusing(no_number));
   for (const char* name : {"__floor__", "__ceil__", "__trunc__"}) expression.def(name, refusing(no_steps));
@@ -196,15 +196,14 @@ void bind_smooth(py::module_& module) {
         return smooth_max(required(x, "smooth_max"), required(y, "smooth_max"), eps);
       },
       py::arg("x"), py::arg("y"), py::arg("eps"),
-      "A smooth maximum, which exceeds the larger argument by at most eps/2 (where both are equal); eps has their "
-      "unit.");
+      "A smooth maximum, which exceeds the larger argument by at most eps/2 (if both are equal); eps has their unit.");
   module.def(
       "smooth_min",
       [](const py::object& x, const py::object& y, double eps) {
         return smooth_min(required(x, "smooth_min"), required(y, "smooth_min"), eps);
       },
       py::arg("x"), py::arg("y"), py::arg("eps"),
-      "A smooth minimum, which is below the smaller argument by at most eps/2 (where both are equal); eps has their "
+      "A smooth minimum, which is below the smaller argument by at most eps/2 (if both are equal); eps has their "
       "unit.");
   module.def(
       "smooth_if_else",
@@ -213,7 +212,7 @@ void bind_smooth(py::module_& module) {
         return smooth_if_else(required(x, name), required(a, name), required(b, name), eps);
       },
       py::arg("x"), py::arg("a"), py::arg("b"), py::arg("eps"),
-      "a where x is several eps above 0, b where it is several eps below; eps has the unit of x.");
+      "a where x is several eps above 0, b where x is several eps below 0; eps has the unit of x.");
   py::class_<Spline>(module, "Spline",
                      "The natural cubic spline through points, as a function of numbers and formulas.")
       .def(py::init<std::vector<double>, std::vector<double>>(), py::arg("x"), py::arg("y"))
@@ -254,7 +253,7 @@ void bind_expressions(py::module_& module) {
       [](const Expression& y, const Expression& x) { return atan2(y, x); },
       [](double y, double x) { return std::atan2(y, x); });
   bind_function_of_two(
-      module, "hypot", "hypot", "sqrt(x**2 + y**2), not differentiable at 0.", "x", "y",
+      module, "hypot", "hypot", "sqrt(x**2 + y**2), which is not differentiable at 0.", "x", "y",
       [](const Expression& x, const Expression& y) { return hypot(x, y); },
       [](double x, double y) { return std::hypot(x, y); });
   bind_smooth(module);

@@ -14,7 +14,7 @@ namespace py = pybind11;
 
 void register_errors(py::module_& module) {
   py::register_exception<dmocbench::Error>(module, "Error").attr("__doc__") =
-      "Misuse: one sentence with the mistake and its remedy.";
+      "Raised on misuse, with one sentence that states the mistake and the remedy.";
 }
 
 }  // namespace

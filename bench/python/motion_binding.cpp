@@ -142,7 +142,7 @@ auto at(const Trajectory& trajectory, const Eigen::VectorXd& times) {
 void bind_motion(py::module_& module) {
   py::class_<Trajectory> motion(module, "Motion", "The arrays of a discrete trajectory.");
   motion.def_static("of_nodes", &of_nodes, py::arg("t"), py::arg("q"), py::arg("v"), py::arg("u"), py::arg("y"));
-  motion.def("at", &at, py::arg("times"), "(q, v, u, y) of the smooth trajectory, a row for each time.");
+  motion.def("at", &at, py::arg("times"), "(q, v, u, y) of the smooth trajectory, with a row for each time.");
   motion.def(py::pickle(&state_of, &of_state));
   for_each_array([&](const char* name, auto member) {
     motion.def_property_readonly(name, [member](const py::object& self) {

@@ -91,9 +91,10 @@ void bind_problems(py::module_& module) {
                                for (const Parameter& one : handle.problem->parameters()) values[one.name] = one.value;
                                return values;
                              })
-      .def("operation_count", &operation_count, "Operations of the formulas and their derivatives.");
+      .def("operation_count", &operation_count, "Numbers of operations of the formulas and their derivatives.");
   module.def("problem_names", &problem_names, "Names of all problems that are built in or loaded.");
-  module.def("spell_members", &spell_members, py::arg("names"), "Sets the names of members of Problem in messages.");
+  module.def("spell_members", &spell_members, py::arg("names"),
+             "Sets the names that messages use for members of Problem.");
   module.def(
       "load_problem_libraries",
       [](const std::vector<std::string>& files) {
@@ -103,7 +104,7 @@ void bind_problems(py::module_& module) {
         refused.erase(refused.begin(), refused.begin() + static_cast<std::ptrdiff_t>(refused_before));
         return refused;
       },
-      py::arg("files"), "The reasons why problems of the libraries cannot be used.");
+      py::arg("files"), "The reasons why some problems of the libraries cannot be used.");
   module.def(
       "check_parameter",
       [](const std::string& name, double value, double lower, double upper, bool whole) {

@@ -30,7 +30,7 @@ int& traced_formulas() {
 
 /// The end of a sentence about an object that is not a formula.
 std::string what_was_returned(py::handle object) {
-  return object.is_none() ? "returns None; is a \"return\" missing?"
+  return object.is_none() ? "returns None; add the missing \"return\""
                           : fmt::format("returns {}, expected formulas or numbers", type_of(object));
 }
 
@@ -48,7 +48,7 @@ py::list list_of(const ExpressionVector& entries) {
 std::string type_of(py::handle object) { return Py_TYPE(object.ptr())->tp_name; }
 
 const Problem& ProblemReader::problem(const std::string& asked) const {
-  if (problem_ == nullptr) throw Error(asked + ": the solve to which this copy of the problem belongs has ended");
+  if (problem_ == nullptr) throw Error(asked + ": this copy of the problem belongs to a solve that has ended");
   return *problem_;
 }
 

@@ -69,7 +69,7 @@ int run(const std::string& name, const std::vector<std::string>& arguments, bool
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw py::error_already_set();
   }
-  if (raises && code == 2) throw Error(complaint.empty() ? name + ": standard error has the reason" : complaint);
+  if (raises && code == 2) throw Error(complaint.empty() ? name + "; see standard error for the reason" : complaint);
   return code;
 }
 

@@ -220,7 +220,7 @@ double estimated_error(Answer& answer) {
     solved.estimated_error = without_gil([&](Call& call) {
       const Status status = solved.solution.status;
       const bool is_optimum = is_solved(status) || is_no_motion(status);  // of the discrete program
-      if (!is_optimum || !solved.trajectory) throw Error("the solution is not solved");
+      if (!is_optimum || !solved.trajectory) throw Error("the program of this solution is not solved");
       if (!solved.trajectory->has_costates()) throw Error("the solution has no costates");
       const StopScope scope([&call] { return call.is_interrupted(); }, 0.0);
       ErrorEstimator estimator(*solved.program);

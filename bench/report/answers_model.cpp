@@ -186,7 +186,7 @@ std::string same_order(const Selection& orders) {
   const Span fits{.low = orders.min("slope"), .high = orders.max("slope")};
   const bool is_same = std::round(fits.low) == std::round(fits.high);
   return is_same ? fmt::format("with the same order, {:.0f} (fits: {})", fits.low, fits.text(2))
-                 : fmt::format("with another order (fits of all three: {})", fits.text(2));
+                 : fmt::format("with a different order (fits of all three methods: {})", fits.text(2));
 }
 
 Json accuracy(const ResultsFolder& results) {
@@ -206,22 +206,22 @@ Json accuracy(const ResultsFolder& results) {
   const auto [on_orbit, finest] = ratio_on_finest_grid(errors, orbit, "tangent", "state_error");
   const auto [on_arm, finest_on_arm] = ratio_on_finest_grid(errors, two_link, "tangent", "state_error");
   if (finest == 0 || finest_on_arm == 0) return no_answer;
-  return {
-      {"question", "Are they equally accurate?"},
-      {"answer",
-       by_verdict(results, "equal_solutions", "DMOC and Hamiltonian collocation have equal solutions, to round-off.",
-                  "DMOC and Hamiltonian collocation have different solutions.",
-                  "DMOC and Hamiltonian collocation: it is undecided whether their solutions are equal.")},
-      {"but", fmt::format("Tangent-space collocation converges {}; its state error is {}.", same_order(orders),
-                          on_both(compared(on_orbit, "larger", "smaller"), finest, " and on the arm ",
-                                  compared(on_arm, "larger", "smaller"), finest_on_arm))},
-      {"number", scientific(worst)},
-      {"unit", fmt::format("largest relative difference of these two in q, p, u and cost, on {} grids", pairs.size())},
-      {"verdicts", verdicts_of(claims_of(results, {"equal_solutions", "state_slope"}))},
-      {"cells", pictures_of([&](const std::string& problem, const AxisUnits& units) {
-         return curves_picture(in_unit("state error", units.state) + " by intervals N",
-                               curves_of(errors, problem, "state_error"));
-       })}};
+  return {{"question", "Are they equally accurate?"},
+          {"answer",
+           by_verdict(results, "equal_solutions", "DMOC and Hamiltonian collocation have equal solutions to round-off.",
+                      "DMOC and Hamiltonian collocation have different solutions.",
+                      "It is undecided whether DMOC and Hamiltonian collocation have equal solutions.")},
+          {"but", fmt::format("Tangent-space collocation converges {}; its state error is {}.", same_order(orders),
+                              on_both(compared(on_orbit, "larger", "smaller"), finest, " and on the arm ",
+                                      compared(on_arm, "larger", "smaller"), finest_on_arm))},
+          {"number", scientific(worst)},
+          {"unit",
+           fmt::format("largest relative difference of both methods in q, p, u and cost on {} grids", pairs.size())},
+          {"verdicts", verdicts_of(claims_of(results, {"equal_solutions", "state_slope"}))},
+          {"cells", pictures_of([&](const std::string& problem, const AxisUnits& units) {
+             return curves_picture(in_unit("state error", units.state) + " over intervals N",
+                                   curves_of(errors, problem, "state_error"));
+           })}};
 }
 
 /// How much DMOC's controls miss the final state, compared with the controls of tangent-space collocation.
@@ -234,8 +234,8 @@ std::string replay_in_words(const Selection& replays) {
     const std::string words = compared(1.0 / ratio, "more", "less");
     return words == "equal" ? std::string(equal) : "by " + words + than;
   };
-  return fmt::format("{}eplayed, DMOC's controls miss the final state {}.",
-                     are_opposite ? "Balance does not bound the error: r" : "R",
+  return fmt::format("{} replayed, DMOC's controls miss the final state {}.",
+                     are_opposite ? "The balance does not bound the error: when" : "When",
                      on_both(by_how_much(orbit_ratio, " than", "as much as") + " tangent-space collocation", on_orbit,
                              ". On the arm they miss it ", by_how_much(arm_ratio, "", "as much"), on_arm));
 }
@@ -246,19 +246,19 @@ Json structure(const ResultsFolder& results) {
   if (!are_complete(defects, methods) || !are_complete(replays, methods)) return no_answer;
   const double most =
       defects.where([](const Row& row) { return row.text("method") != "tangent"; }).max("momentum_defect_max");
-  return {{"question", "Do they keep the structure?"},
+  return {{"question", "Do they preserve the structure?"},
           {"answer", by_verdict(results, "momentum_consistency",
-                                "DMOC and Hamiltonian collocation balance momentum and force to round-off, "
+                                "DMOC and Hamiltonian collocation balance momentum and force to round-off; "
                                 "tangent-space collocation does not.",
                                 "DMOC and Hamiltonian collocation do not both balance momentum and force to round-off.",
                                 "It is undecided whether only DMOC and Hamiltonian collocation balance momentum and "
                                 "force to round-off.")},
           {"but", replay_in_words(replays)},
           {"number", scientific(most)},
-          {"unit", "largest difference of momentum and force of these two, on any interval of any grid"},
+          {"unit", "largest difference of momentum and force with both methods on any interval of any grid"},
           {"verdicts", verdicts_of(claims_of(results, {"momentum_consistency"}))},
           {"cells", pictures_of([&](const std::string& problem, const AxisUnits& units) {
-             return curves_picture(in_unit("momentum minus force", units.momentum) + " by intervals N",
+             return curves_picture(in_unit("momentum minus force", units.momentum) + " over intervals N",
                                    curves_of(defects, problem, "momentum_defect_max"));
            })}};
 }
@@ -280,11 +280,11 @@ Json size(const ResultsFolder& results) {
           {"answer", others.low > 1.0    ? "DMOC, on both problems, because positions are its only states."
                      : others.high < 1.0 ? "Collocation, on both problems."
                                          : "It depends on the problem and on the accuracy."},
-          {"but", fmt::format("At equal replay error tangent-space collocation needs {} times DMOC's variables on the "
+          {"but", fmt::format("At equal replay error, tangent-space collocation needs {} times DMOC's variables on the "
                               "orbit{}{} times on the arm.",
                               on_orbit.text(2), on_arm.high < on_orbit.low ? ", but only " : " and ", on_arm.text(2))},
           {"number", span_of(state.where("method", "hamiltonian"), "variables_ratio").text(1) + " ×"},
-          {"unit", "the variables with Hamiltonian collocation, for equal state error"},
+          {"unit", "DMOC's variables, with Hamiltonian collocation at equal state error"},
           {"verdicts", verdicts_of(claims_of(results, {"variable_ratio", "savings_at_equal_state_error"}))},
           {"cells", pictures_of([&](const std::string& problem, const AxisUnits&) {
              std::vector<std::pair<std::string, double>> bars;
@@ -352,8 +352,8 @@ std::string iterations_in_words(const ResultsFolder& results) {
   if (slack_orbit.empty() || slack_arm.empty() || free_orbit.empty() || free_arm.empty()) return "";
   const std::string verdict = common_verdict(claims_of(results, {"minor_iteration_ratio"}));
   return fmt::format(
-      "Collocation takes {} times DMOC's minor iterations from the slack basis on the orbit, {} on the arm{}; from a "
-      "basis chosen without iterations {} and {}.",
+      "From the slack basis, collocation takes {} times DMOC's minor iterations on the orbit and {} times on the "
+      "arm{}; from a basis chosen without iterations, {} and {} times.",
       slack_orbit, slack_arm, verdict == "reproduced" ? ", as in the paper" : "", free_orbit, free_arm);
 }
 
@@ -368,14 +368,13 @@ std::string faster(const std::vector<IntervalLine>& lines, const std::string& ve
       values.add(interval.value);
     }
   }
-  const char* const depends = values.high > 1.1 * values.low ? " How much depends on the linear algebra." : "";
+  const char* const depends = values.high > 1.1 * values.low ? " The ratio depends on the linear algebra." : "";
   if (verdict == "reproduced" && ends.low > 1.0) return fmt::format("DMOC, per iteration.{}", depends);
   if (verdict == "differs" && ends.high < 1.0) return fmt::format("Collocation, per iteration.{}", depends);
   if (values.low <= 1.0 && values.high >= 1.0) return "Undecided: the ratios of times lie on both sides of 1.";
   const bool excludes_equal_times = ends.low > 1.0 || ends.high < 1.0;
   return fmt::format("{} by the medians, but {}.", values.low > 1.0 ? "DMOC" : "Collocation",
-                     excludes_equal_times ? "the statement about it is undecided"
-                                          : "the rounds do not exclude equal times everywhere");
+                     excludes_equal_times ? "the claim is undecided" : "the rounds do not always exclude equal times");
 }
 
 Json cost(const ResultsFolder& results) {
@@ -397,7 +396,7 @@ Json cost(const ResultsFolder& results) {
           {"answer", faster(all, common_verdict(claims_of(results, {"collocation_takes_longer"})))},
           {"but", iterations_in_words(results)},
           {"number", of_hamiltonian.text(1) + " ×"},
-          {"unit", fmt::format("the time per iteration with Hamiltonian collocation, N = {}", finest)},
+          {"unit", fmt::format("DMOC's time per iteration, with Hamiltonian collocation and N = {}", finest)},
           {"verdicts", verdicts_of(claims_of(results, {"collocation_takes_longer", "minor_iteration_ratio"}))},
           {"cells", pictures_of([&](const std::string& problem, const AxisUnits&) {
              return intervals_picture(fmt::format("time of an iteration, N = {}", finest), by_problem[problem]);
@@ -413,8 +412,8 @@ std::string starts_in_words(const Selection& rows) {
     best.add(100.0 * row.needed("best") / row.needed("starts"));
   }
   const std::string first = fmt::format("{} % of the starts lead to a confirmed solution", solved.text(0));
-  return best.text(0) == solved.text(0) ? first + ", the best minimum"
-                                        : fmt::format("{}, {} % to the best minimum", first, best.text(0));
+  return best.text(0) == solved.text(0) ? first + ", which is the best minimum"
+                                        : fmt::format("{}, and {} % to the best minimum", first, best.text(0));
 }
 
 Json robustness(const ResultsFolder& results) {
@@ -440,14 +439,14 @@ Json robustness(const ResultsFolder& results) {
   }
   const std::string where = are_same ? "on both problems" : "on one of the problems";
   return {{"question", "Which starts more reliably?"},
-          {"answer", gaps.low < 0.0 && gaps.high > 0.0     ? "None is clearly ahead: the differences have both signs."
-                     : gaps.low == 0.0 && gaps.high == 0.0 ? "All start equally reliably."
+          {"answer", gaps.low < 0.0 && gaps.high > 0.0 ? "No method is clearly ahead: the differences have both signs."
+                     : gaps.low == 0.0 && gaps.high == 0.0 ? "All methods are equally reliable."
                      : gaps.low >= 0.0                     ? "Collocation, " + where + "."
                                                            : "DMOC, " + where + "."},
           {"but", fmt::format("On the orbit {}. On the arm {}.", starts_in_words(rows.where("problem", orbit)),
                               starts_in_words(rows.where("problem", two_link)))},
           {"number", fmt::format("{:.1f} points", std::max(-gaps.low, gaps.high))},
-          {"unit", "largest difference between DMOC and collocation, in confirmed solutions and in best minima"},
+          {"unit", "largest difference between DMOC and collocation in confirmed solutions and best minima"},
           {"verdicts", verdicts_of(claims_of(results, {"cold_starts_confirmed", "cold_starts_best"}))},
           {"cells", pictures_of([&](const std::string& problem, const AxisUnits&) {
              std::vector<MethodShares> shares;

@@ -227,7 +227,7 @@ PageModel run_model(const ResultsFolder& results) {
   if (!times.empty()) {
     const std::string duration = duration_in_words(results);
     add("First run began", {*times.begin()},
-        duration.empty() ? "" : fmt::format("; the last ended {} later", duration));
+        duration.empty() ? "" : fmt::format("; the last run ended {} later", duration));
   }
   for (const auto& [term, key] :
        {std::pair("Commit", "commit"), std::pair("Processor", "processor"), std::pair("Cores", "cores"),

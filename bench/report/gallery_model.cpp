@@ -76,7 +76,7 @@ Json facts_of(const ProblemCard& card, const std::optional<double>& lowest) {
     for (const PublishedOptimum& published : reference.published)
       add("Published", fmt::format("{:.12g}, {}", published.objective, published.source));
   } else {
-    add("Optimum", lowest ? fmt::format("not known; best found by any method here: {:.8g}", *lowest) : "not known");
+    add("Optimum", lowest ? fmt::format("not known; the best cost found here is {:.8g}", *lowest) : "not known");
   }
   if (!card.source.empty()) add("Source", card.source);
   return facts;

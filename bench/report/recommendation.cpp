@@ -69,11 +69,11 @@ std::string recommended(const Selection& costs, const Selection& solves) {
     words = fmt::format("No method is ahead for {}: at a state error of {:.1e}, {}.", problem,
                         state.front().needed("error"), counts_in_words(state));
   } else {
-    words = fmt::format("Use {} for {}: at a state error of {:.1e} {}.", state.front().text("method"), problem,
+    words = fmt::format("Use {} for {}: at a state error of {:.1e}, {}.", state.front().text("method"), problem,
                         state.front().needed("error"), counts_in_words(state));
   }
   if (!state.empty() && is_decided(replay) && replay.front().text("method") != state.front().text("method"))
-    words += fmt::format(" If the controls drive the real system, compare replay errors: at {:.1e} {}.",
+    words += fmt::format(" If the controls drive the real system, compare replay errors: at {:.1e}, {}.",
                          replay.front().needed("error"), counts_in_words(replay));
   return words + lacking_in_words(solves);
 }

@@ -232,7 +232,7 @@ void register_batches() {
 int run_batches(int argc, char** argv) {
   const BenchmarkProgram program{
       .name = "batch",
-      .description = "Times per solve of many instances of a program: in lanes, and one by one.",
+      .description = "Measures times per solve for many instances of a program, in lanes and one by one.",
       .default_filter = ".",
       .register_benchmarks = register_batches};
   return program.run(argc, argv);

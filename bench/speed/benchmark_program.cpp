@@ -69,7 +69,7 @@ void describe(const std::vector<std::string>& command_line) {
 int BenchmarkProgram::run(int argc, char** argv) const try {
   const std::vector<std::string> flags(argv + 1, argv + argc);
   for (const std::string& flag : flags) {
-    if (flag == "--help") fmt::print("{}: {} It takes the flags of Google Benchmark:\n\n", name, description);
+    if (flag == "--help") fmt::print("{}: {} The program takes the flags of Google Benchmark:\n\n", name, description);
   }
   check_environment();
   order_by_one_thread();

@@ -12,8 +12,8 @@ class Misuse(Exception):
 
 
 class Median:
-    """The median of a sample and its 99 % interval, None for fewer than 8 values: the two values between which the median of the
-    distribution lies with this probability, whatever the distribution is."""
+    """The median of a sample and its 99 % interval: the two values between which the median of any distribution lies with this
+    probability. The interval is None for fewer than 8 values."""
 
     def __init__(self, middle, lower=None, upper=None):
         self.middle, self.lower, self.upper = middle, lower, upper
@@ -43,7 +43,7 @@ class Median:
 
 
 class Run:
-    """All repetitions of a benchmark: the words KEY=VALUE of its label, times in nanoseconds, counters."""
+    """All repetitions of a benchmark, with the KEY=VALUE words of its label, times in nanoseconds and counters."""
 
     def __init__(self, name, label):
         self.name = name
@@ -52,7 +52,7 @@ class Run:
         self.repetitions = []
 
     def values(self, key):
-        """The finite ones."""
+        """The finite values of all repetitions."""
         return [one[key] for one in self.repetitions if isinstance(one.get(key), (int, float))]
 
     def median(self, key):
@@ -69,14 +69,14 @@ class Run:
 
 
 def read(path):
-    """The context and the benchmarks in the order of their names, without aggregates and benchmarks that failed."""
+    """The context, and the benchmarks in alphabetical order, without aggregates and failed benchmarks."""
     try:
         with open(path, encoding="utf-8") as file:  # JSON has no NaN and no Infinity
             content = json.loads(re.sub(r'": -?(NaN|Infinity)', '": null', file.read()))
     except OSError as error:
         raise Misuse(f"cannot read {path}: {error.strerror}") from error
     except ValueError as error:
-        raise Misuse(f"{path} is not JSON; --benchmark_out=FILE writes it") from error
+        raise Misuse(f"{path} is not JSON; write it with --benchmark_out=FILE") from error
     runs = {}
     try:
         for one in content["benchmarks"]:
@@ -86,4 +86,4 @@ def read(path):
                 runs.setdefault(one["run_name"], Run(one["run_name"], one.get("label", ""))).repetitions.append(one)
         return content.get("context", {}), [runs[name] for name in sorted(runs)]
     except (AttributeError, KeyError, TypeError) as error:
-        raise Misuse(f"{path} is JSON, but not a report of Google Benchmark; --benchmark_out=FILE writes it") from error
+        raise Misuse(f"{path} is JSON, but not a report of Google Benchmark; write it with --benchmark_out=FILE") from error

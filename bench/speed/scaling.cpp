@@ -45,7 +45,7 @@ struct StartedProgram {
     end.v *= 0.99;
     program.set_final_state(end);
     const Solution neighbour = make_solver("interior_point")->solve(program, made.start);
-    if (!is_solved(neighbour.status)) throw Error("the neighbour of the warm start is not solved");
+    if (!is_solved(neighbour.status)) throw Error("the neighbour that gives the warm start is not solved");
     multipliers = neighbour.multipliers;
     const Motion motion = smooth_motion(read_trajectory(program, neighbour.primal, multipliers));
     program.set_final_state(made.problem->final_state());
@@ -229,7 +229,7 @@ void register_scaling() {
 int run_scaling(int argc, char** argv) {
   const BenchmarkProgram program{
       .name = "scaling",
-      .description = "Times of interior_point over intervals, links and threads, and of prepared solves.",
+      .description = "Measures times of interior_point over intervals, links and threads, and of prepared solves.",
       .default_filter = "^grids/.*/(1024|65536)/|^repeated/.*/dmoc/|^chains/",
       .register_benchmarks = register_scaling};
   return program.run(argc, argv);

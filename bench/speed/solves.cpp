@@ -174,7 +174,7 @@ void register_solves() {
 int run_solves(int argc, char** argv) {
   // Without flags it takes seconds: long grids and the library are left out.
   const BenchmarkProgram program{.name = "solves",
-                                 .description = "Times of whole solves by interior_point and by Ipopt.",
+                                 .description = "Measures times of whole solves with interior_point and with Ipopt.",
                                  .default_filter = "^[^/]*/[^/]*/(64|1024)/",
                                  .register_benchmarks = register_solves};
   return program.run(argc, argv);

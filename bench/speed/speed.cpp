@@ -10,7 +10,7 @@ int run_speed(int argc, char** argv) {
   FormulasOfPaper paper;
   const BenchmarkProgram program{
       .name = "speed",
-      .description = "Times of exact derivatives per interval.",
+      .description = "Measures times of exact derivatives per interval.",
       // Without flags it takes a minute: several stages and the chains of links are left out.
       .default_filter = "-gauss_[2-9]|link_chain",
       .register_benchmarks = [&paper] {

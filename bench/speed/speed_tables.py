@@ -1,4 +1,4 @@
-"""The tables that bench/speed/page --csv writes: a row is a dictionary by columns."""
+"""The tables that bench/speed/page --csv writes. A row is a dictionary by column names."""
 import contextlib
 import csv
 import datetime
@@ -27,16 +27,16 @@ instruction_set string instruction set of the processor
 intervals integer number of intervals N
 repetitions integer number of repetitions
 nanoseconds number [ns] median time per interval
-smallest_nanoseconds number [ns] least time per interval
+smallest_nanoseconds number [ns] shortest time per interval
 operations number operations per interval
 bytes number bytes per interval, read and written
 operations_per_byte number operations divided by bytes
-operations_per_second number [1/s] operations divided by their time
-roof_nanoseconds number [ns] least time on this machine
-roof_limit string arithmetic, or a level of memory
+operations_per_second number [1/s] operations divided by the median time
+roof_nanoseconds number [ns] lower bound of the time on this machine
+roof_limit string limit that sets this bound: arithmetic, or a level of memory
 roof_share number roof_nanoseconds divided by nanoseconds""", "_machine": """
 instruction_set string instruction set of the processor
-limit string arithmetic, or a level of memory
+limit string kind of limit: arithmetic, or a level of memory
 rate number [1/s] operations or bytes per second
 array_bytes integer size of the arrays, in bytes"""},
     "solves": {"": """
@@ -47,22 +47,22 @@ solver string name of the solver
 threads integer number of threads of a solve
 repetitions integer number of repetitions
 seconds number [s] median time of a solve
-smallest_seconds number [s] least time of a solve
+smallest_seconds number [s] shortest time of a solve
 iterations number major iterations
 linear_systems number number of linear systems solved
-solved integer 1 if every repetition ended solved
+solved integer 1 if every repetition is solved
 objective number [cost] objective of the solution
 ns_per_interval_iteration number [ns] time of a solve per interval and iteration
-evaluation_share number share of derivatives in the time
-bytes_per_interval number largest memory of a solve per interval
+evaluation_share number share of the time spent on derivatives
+bytes_per_interval number peak memory of a solve per interval
 setup_seconds number [s] time to build the program""", "_ratios": """
 problem string name of the problem
 method string family of elements
 intervals integer number of intervals N
-quantity string difference of the two solves: solver or threads
-ratio number ratio of their seconds, Ipopt's or one thread's in the numerator
-ratio_of_smallest number ratio of their smallest seconds
-verdict string same where the costs are equal""", "_exponents": """
+quantity string difference between the two solves: solver or threads
+ratio number ratio of the median times, with Ipopt or one thread in the numerator
+ratio_of_smallest number ratio of the shortest times
+verdict string same, other branch (the costs differ), or not both solved""", "_exponents": """
 problem string name of the problem
 method string family of elements
 solver string name of the solver
@@ -80,37 +80,38 @@ threads integer number of threads
 instances integer number of instances
 repetitions integer number of repetitions
 seconds number [s] median time per instance
-seconds_lower number [s] lower 99 % confidence limit of this median
-seconds_upper number [s] upper limit of this interval
-solves_per_second number [1/s] solves per second, from the median time
-rate_lower number [1/s] lower 99 % confidence limit of this rate
-rate_upper number [1/s] upper limit of this interval
+seconds_lower number [s] lower 99 % confidence limit of the median time
+seconds_upper number [s] upper 99 % confidence limit of the median time
+solves_per_second number [1/s] solves per second, computed from the median time
+rate_lower number [1/s] lower 99 % confidence limit of solves_per_second
+rate_upper number [1/s] upper 99 % confidence limit of solves_per_second
 ratio number seconds divided by the seconds of the batch on all threads, from the same start
-processor_seconds number [s] time of all processors per instance
-median_iterations number median iterations of a solve
+processor_seconds number [s] total time of all processors per instance
+median_iterations number median number of iterations of a solve
 solved number share of the instances that are solved
-one_by_one number share of the instances that leave their lanes
-lanes_in_use number share of the lanes' rounds with an instance
-""" + "\n".join(f"share_{phase} number share of the phase in the time of all threads" for phase in PHASES)},
+one_by_one number share of the instances that leave their lanes and are solved one by one
+lanes_in_use number share of the lanes that hold an instance, over all rounds
+""" + "\n".join(f"share_{phase} number share of this phase in the time of all threads" for phase in PHASES)},
 }
 
 
 def row_of(run):
-    """Medians of the times and counters, and the words of the label."""
+    """The medians of the times and counters, and the words of the label."""
     numbers = {key for one in run.repetitions for key, value in one.items() if isinstance(value, (int, float))}
     return {**{key: run.number(key) for key in numbers}, **run.label, "repetitions": len(run.repetitions)}
 
 
 def machine(runs):
-    """A row per limit of the machine, operations or bytes per second."""
+    """Rows for the limits of the machine, in operations or bytes per second."""
     rows = [row_of(run) for run in runs]
     rows = [{**row, "rate": row.get("operations_per_second", row.get("bytes_per_second"))} for row in rows]
     return [row for row in rows if row["rate"]]
 
 
 def roof_of(row, limits):
-    """The least time on this machine in nanoseconds, and what sets it: arithmetic, or the level of memory that holds the arrays of
-    all intervals. None if bytes are not counted, or if either was not measured with this instruction set."""
+    """The lower bound of the time on this machine in nanoseconds, and the limit that sets it: arithmetic, or the level of
+    memory that holds the arrays of all intervals. None if bytes are not counted, or if a limit was not measured with this
+    instruction set."""
     if not row.get("bytes"):
         return None
     size = row["bytes"] * row["intervals"]
@@ -167,7 +168,7 @@ def ratios(runs):
 
 
 def slope_of(points):
-    """The slope of log y over log x by least squares, and its standard error; needs three points."""
+    """The least-squares slope of log y over log x, and its standard error. Needs at least three points."""
     points = [(math.log(x), math.log(y)) for x, y in points]
     slope, intercept = statistics.linear_regression(*zip(*points))
     mean = statistics.mean(x for x, _ in points)
@@ -176,7 +177,7 @@ def slope_of(points):
 
 
 def exponents(runs):
-    """Time per iteration ~ N^exponent where three grids from N = 1024 on were solved; below, fixed costs bend the line."""
+    """Fits time per iteration ~ N^exponent to three or more solved grids from N = 1024 on; below, fixed costs dominate."""
     curves, rows = {}, []
     for row in solves(runs):
         if row["solved"] and row["intervals"] >= 1024:
@@ -209,7 +210,7 @@ ROWS = {"speed": {"": evaluations, "_machine": machine}, "solves": {"": solves, 
 
 
 def declared(text):
-    """{column: (type, meaning)}"""
+    """Returns {column: (type, meaning)}."""
     return {name: (of, meaning) for name, of, meaning in (line.split(maxsplit=2) for line in text.strip().split("\n"))}
 
 
@@ -224,7 +225,7 @@ def csv_of(columns, rows):
 
 
 def description(columns, rows, text):
-    """The entry of a table in the metadata."""
+    """Returns the entry of a table in the metadata."""
     properties = {name: {"description": meaning, "type": [of, "null"]} for name, (of, meaning) in columns.items()}
     return {"columns": list(columns), "rows": len(rows), "crc32": f"{zlib.crc32(text.encode()):08x}",
             "schema": {"$schema": "https://json-schema.org/draft/2020-12/schema", "type": "object", "properties": properties,
@@ -232,7 +233,7 @@ def description(columns, rows, text):
 
 
 def write_whole(path, text):
-    """The file is there as a whole or, if it cannot be written, not at all."""
+    """Writes the whole file, or no file if writing fails."""
     part = f"{path}.{os.getpid()}"
     try:
         with open(part, "w", encoding="utf-8", newline="") as file:

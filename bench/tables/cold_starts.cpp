@@ -81,7 +81,7 @@ Columns<EndsOfCell> share_columns(const std::string& name, const std::string& me
           {name + "_share", "", "share of all starts", from(count, &ShareCount::share)},
           {name + "_lower", "", "lower limit of Wilson's 95 % confidence interval of the share",
            from(count, wilson_interval, &ShareInterval::lower)},
-          {name + "_upper", "", "upper limit of this interval", from(count, wilson_interval, &ShareInterval::upper)}};
+          {name + "_upper", "", "upper 95 % limit of the share", from(count, wilson_interval, &ShareInterval::upper)}};
 }
 
 /// A column of every row of the tables.
@@ -98,9 +98,9 @@ Columns<EndsOfCell> columns_of_ends() {
                     {"starts", "", "number of starts", from(&Ends::solved, &ShareCount::trials)}} +
       share_columns("solved", "number of starts that ended at a confirmed optimum of the discrete program",
                     &Ends::solved) +
-      share_columns("confirmed", "number of solved starts whose intervals, integrated alone, reach the next node",
+      share_columns("confirmed", "number of solved starts whose intervals, integrated one by one, reach the next node",
                     &Ends::confirmed) +
-      share_columns("best", "number of confirmed starts whose cost does not exceed the reference, to the tolerance",
+      share_columns("best", "number of confirmed starts whose cost does not exceed the reference within the tolerance",
                     &Ends::best) +
       Columns<Ends>{
           {"elsewhere", "", "number of confirmed starts whose cost exceeds the reference",
@@ -108,13 +108,13 @@ Columns<EndsOfCell> columns_of_ends() {
           {"too_coarse", "", "number of solved starts whose grid is too coarse",
            [](const Ends& ends) { return ends.solved.hits - ends.confirmed.hits; }},
           {"lost", "", "number of unsolved starts", &Ends::lost},
-          {"failures", "", "the statuses of the unsolved starts, each with its number", &Ends::failures},
+          {"failures", "", "statuses of the unsolved starts, each with its count", &Ends::failures},
           {"below_reference", "", "number of best starts whose cost is below the reference", &Ends::below_reference},
-          {"certified_objective", "cost", "the certified optimum of the problem, if known",
+          {"certified_objective", "cost", "certified optimum of the problem, if known",
            [](const Ends& ends) { return ends.head.number("reference_objective"); }},
-          {"reference_objective", "cost", "cost with which solutions are compared",
+          {"reference_objective", "cost", "reference: the cost with which solutions are compared",
            from(&Ends::reference, &BestCost::cost)},
-          {"reference_kind", "", "certified, or the lowest confirmed cost on the grid",
+          {"reference_kind", "", "reference: certified, or the lowest confirmed cost on the grid",
            from(&Ends::reference, &BestCost::kind)}};
   for (std::size_t i = 0; i < efforts.size(); ++i) {
     for (const auto& [suffix, share] : quartiles) {
@@ -202,7 +202,7 @@ Columns<BudgetPoint> profile_columns() {
   return head_columns<BudgetPoint>(cell_columns, in_key) +
          Columns<BudgetPoint>{
              start_kind_column<BudgetPoint>(),
-             {"measure", "", "measure of the budget", &BudgetPoint::measure, in_key},
+             {"measure", "", "unit of the budget: evaluations or seconds", &BudgetPoint::measure, in_key},
              {"budget", "", "largest number of evaluations, or of seconds, that a solve may take", &BudgetPoint::budget,
               in_key},
              {"share", "", "share of all starts that are solved and confirmed within the budget", &BudgetPoint::share}};

@@ -152,9 +152,9 @@ Columns<FittedCurve> order_columns() {
   using Curve = FittedCurve;
   return head_columns<Curve>(curve_columns, in_key) +
          Columns<Curve>{
-             {"quantity", "", "the error whose order is fitted: the column with that name and the suffix _error",
+             {"quantity", "", "error whose order is fitted: the column with this name and the suffix _error",
               &Curve::quantity, in_key},
-             {"slope", "", "fitted order; empty where the verdict is not \"slope\"",
+             {"slope", "", "fitted order; empty if the verdict is not \"slope\"",
               from(&Curve::order, &FittedOrder::order)},
              {"standard_error", "", "standard error of the order", from(&Curve::order, standard_error_of)},
              {"finest", "", "largest number of intervals used", from(&Curve::fitted, &Fit::grids, finest_of)},
@@ -171,7 +171,7 @@ Columns<FittedCurve> order_columns() {
               "the same order)",
               from(&Curve::fit, &Fit::verdict)},
              {"active", "",
-              "quantities limited by active bounds and path constraints (controls, states), which lower the orders",
+              "quantities (controls, states) limited by active bounds and path constraints, which lower the orders",
               &Curve::active}};
 }
 
@@ -209,9 +209,9 @@ std::optional<std::string> note_on_reference(const Selection& curve, long long r
       "{} {} {} {}: the reference should be N = {}, which {}; {}", meant.text("problem"), meant.text("method"),
       meant.text("tableau"), meant.text("stages"), meant.text("intervals"),
       has_solved_status(meant) ? "is on a different branch from the common start" : "has the status \"" + status + "\"",
-      used ? fmt::format("errors are measured against N = {}, the finest grid that is solved", used->text("intervals"))
-      : reference != 0 ? "there are no errors: choose a --reference that is solved"
-                       : "no grid is solved, so there are no errors");
+      used ? fmt::format("errors are measured against N = {}, the finest solved grid", used->text("intervals"))
+      : reference != 0 ? "no errors are computed; choose a --reference that is solved"
+                       : "no errors are computed because no grid is solved");
 }
 
 /// Why a curve has no order at all, if it has errors that one could be fitted to.
@@ -261,17 +261,17 @@ Columns<JumpsOfCurve> jump_columns() {
          Columns<JumpsOfCurve>{
              {"jump_slope", "", "fitted order of the largest jump of an interval",
               from(orders, &TwoOrders::jump, &FittedOrder::order)},
-             {"jump_standard_error", "", "standard error of that order",
+             {"jump_standard_error", "", "standard error of this order",
               from(orders, &TwoOrders::jump, standard_error_of)},
              {"error_slope", "", "fitted order of the state error on the same grids",
               from(orders, &TwoOrders::error, &FittedOrder::order)},
-             {"error_standard_error", "", "standard error of that order",
+             {"error_standard_error", "", "standard error of this order",
               from(orders, &TwoOrders::error, standard_error_of)},
              {"orders_apart", "", "jump_slope minus error_slope",
               from(orders, [](const TwoOrders& both) { return both.jump.order - both.error.order; })},
-             {"error_of_jumps_coarsest", "", "state error divided by N times the jump, on the coarsest grid",
+             {"error_of_jumps_coarsest", "", "state error / (N times the jump) on the coarsest grid",
               from(orders, &TwoOrders::grids, &Selection::front, error_of_jumps)},
-             {"error_of_jumps_finest", "", "state error divided by N times the jump, on the finest grid",
+             {"error_of_jumps_finest", "", "state error / (N times the jump) on the finest grid",
               from(orders, &TwoOrders::grids, &Selection::back, error_of_jumps)},
              {"coarsest", "", "smallest number of intervals used", from(orders, &TwoOrders::grids, coarsest_of)},
              {"finest", "", "largest number of intervals used", from(orders, &TwoOrders::grids, finest_of)},

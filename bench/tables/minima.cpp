@@ -115,7 +115,7 @@ Columns<Minimum> minimum_columns(const std::vector<std::string>& methods) {
   return head_columns<Minimum>(group_columns, in_key) +
          Columns<Minimum>{
              {"minimum", "", "number of the minimum, from the lowest cost upwards", &Minimum::number, in_key},
-             {"objective", "cost", "the lowest cost of all solutions at this minimum", &Minimum::objective},
+             {"objective", "cost", "lowest cost of all solutions at this minimum", &Minimum::objective},
              {"is_best", "",
               "yes for the lowest minimum on the finest grid that is not too coarse, and for the same minimum on other "
               "grids",
@@ -144,7 +144,7 @@ Columns<StartInPlane> basin_columns() {
          head_columns<StartInPlane>({"status"}) +
          Columns<StartInPlane>{
              {"minimum", "", "number of the minimum, from the lowest cost upwards", &StartInPlane::number},
-             {"objective", "cost", "the lowest cost of all solutions at this minimum",
+             {"objective", "cost", "lowest cost of all solutions at this minimum",
               from(&StartInPlane::minimum, &Selection::front,
                    [](const Row& lowest) { return lowest.number("objective"); })},
              {"is_motion", "", "yes if the intervals of a solution, integrated one by one, reach the next node",
@@ -173,10 +173,10 @@ Columns<StartsOfMethod> best_share_columns() {
              {"unconfirmed", "", "number of starts that ended in a minimum of a grid that is too coarse",
               &Starts::unconfirmed},
              {"best", "", "number of starts that ended in the best minimum", from(&Starts::best, &ShareCount::hits)},
-             {"share", "", "best divided by starts", from(&Starts::best, &ShareCount::share)},
+             {"share", "", "share of starts in the best minimum", from(&Starts::best, &ShareCount::share)},
              {"share_lower", "", "lower limit of Wilson's 95 % confidence interval of the share",
               from(&Starts::interval, &ShareInterval::lower)},
-             {"share_upper", "", "upper limit of this interval", from(&Starts::interval, &ShareInterval::upper)}};
+             {"share_upper", "", "upper 95 % limit of the share", from(&Starts::interval, &ShareInterval::upper)}};
 }
 
 }  // namespace

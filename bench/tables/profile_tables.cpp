@@ -80,18 +80,18 @@ struct Standing {
 Columns<Standing> standing_columns() {
   Columns<Standing> columns =
       head_columns<Standing>(competitor_columns, in_key) +
-      Columns<Standing>{{"instances", "", "problems, each on every number of intervals", &Standing::instances},
-                        {"successes", "", "instances that were solved to the reference", &Standing::successes},
-                        {"common", "", "instances on which all competitors succeed", &Standing::common}};
+      Columns<Standing>{{"instances", "", "number of instances: problems on each grid", &Standing::instances},
+                        {"successes", "", "number of instances solved to the reference", &Standing::successes},
+                        {"common", "", "number of instances on which all competitors succeed", &Standing::common}};
   for (const std::string& measure : profile_measures()) {
     const auto effort = [measure](const Standing& standing) { return standing.efforts.at(measure); };
     const bool is_time = measure == "seconds";
     columns.push_back({measure, is_time ? "s" : "", "shifted geometric mean over the common instances",
                        from(effort, &MeanEffort::mean)});
-    columns.push_back(
-        {"wins_" + measure, "",
-         is_time ? "instances on which no competitor is faster" : "instances on which no competitor takes fewer",
-         from(effort, &MeanEffort::wins)});
+    columns.push_back({"wins_" + measure, "",
+                       is_time ? "number of instances on which no competitor is faster"
+                               : "number of instances on which no competitor takes fewer",
+                       from(effort, &MeanEffort::wins)});
   }
   return columns;
 }
@@ -133,7 +133,7 @@ Columns<LibraryAnswer> library_columns() {
                           [](const Answer& answer) { return answer.head.number("reference_digits"); }}} +
          head_columns<Answer>({"reference_kind", "method", "tableau", "stages", "solver", "derivatives", "intervals",
                                "status", "objective"}) +
-         Columns<Answer>{{"relative_difference", "", "difference of the objective from the reference, with its sign",
+         Columns<Answer>{{"relative_difference", "", "signed difference of the objective from the reference",
                           &Answer::relative_difference}} +
          head_columns<Answer>({"success", "replay_error", "message"});
 }

@@ -56,10 +56,10 @@ struct MedianOfRounds {
 template <class Record, class... Members>
 [[nodiscard]] Columns<Record> round_columns(Members... ratios) {
   return {
-      {"ratio_lower", "", "lower 99 % confidence limit of the median ratio, where rounds were timed",
+      {"ratio_lower", "", "lower 99 % confidence limit of the median ratio, if rounds were timed",
        from(ratios..., &MedianOfRounds::lower)},
       {"ratio_upper", "", "upper 99 % confidence limit of the median ratio", from(ratios..., &MedianOfRounds::upper)},
-      {"round_ratios", "", "the ratio in each round, separated by spaces", from(ratios..., &MedianOfRounds::rounds)}};
+      {"round_ratios", "", "ratios of the rounds, separated by spaces", from(ratios..., &MedianOfRounds::rounds)}};
 }
 
 /// The quotients of two lists of times, round by round, as far as both reach.

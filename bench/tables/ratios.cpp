@@ -52,14 +52,14 @@ Columns<AccuracyCost> accuracy_cost_columns() {
   using Paid = AccuracyCost;
   return head_columns<Paid>({"problem", "tableau", "stages", "solver", "derivatives"}, in_key) +
          Columns<Paid>{{"quantity", "", "quantity that is compared", &Paid::quantity, in_key},
-                       {"error", "", "error that all methods reach with this tableau, solver and derivatives",
+                       {"error", "", "error that all methods with this tableau, solver and derivatives reach",
                         &Paid::error, in_key}} +
          head_columns<Paid>({"method"}, in_key) +
          Columns<Paid>{{"intervals", "", "number of intervals N, interpolated between grids", &Paid::intervals},
                        {"variables", "", "number of free variables", &Paid::variables},
                        {"seconds", "s", "time of a solve", &Paid::seconds},
-                       {"variables_ratio", "", "ratio of variables to dmoc's at this error", &Paid::variables_ratio},
-                       {"seconds_ratio", "", "ratio of seconds to dmoc's at this error", &Paid::seconds_ratio}};
+                       {"variables_ratio", "", "variables relative to dmoc at this error", &Paid::variables_ratio},
+                       {"seconds_ratio", "", "seconds relative to dmoc at this error", &Paid::seconds_ratio}};
 }
 
 /// The cost of every method if all of them reach the error.
@@ -255,7 +255,7 @@ Table advantage_ratios(const Selection& advantage) {
   }
   return table_of(
       compared_cost_columns({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals"},
-                            "quantity", "the quantity that is compared"),
+                            "quantity", "quantity that is compared"),
       costs);
 }
 

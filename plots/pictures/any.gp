@@ -72,7 +72,7 @@ lines_of_key = (most_names + names_in_line - 1) / names_in_line
 rows_of_panels = (words(panels) + 1) / 2
 height_of_key = 22 * lines_of_key
 figure_title = title_text(problem_label(entry(described, "problem")).(is_open ? ": the last iterate" : words(members) > 1\
-    ? ": the optimal trajectories by several methods".(has_one_count ? ", N = ".word(counts, 1) : "") : ": the optimal trajectory and its controls").by_whom, failure, legend_of_methods)
+    ? ": the optimal trajectories of several methods".(has_one_count ? ", N = ".word(counts, 1) : "") : ": the optimal trajectory and its controls").by_whom, failure, legend_of_methods)
 eval begin_figure(kind, problem."_motion", 113 + (227 + height_of_key) * rows_of_panels + 22 * lines_in(figure_title))
 eval sprintf("set multiplot layout %d, 2 title figure_title offset 0, 0.3 margins %g, %g, %g, %g spacing %g, %g", rows_of_panels,\
     across(80), 1 - across(20), upwards(75), 1 - upwards(22.5 * lines_in(figure_title) + 14 + height_of_key), across(95),\

@@ -53,9 +53,9 @@ TEST(ColdStartClaims, StateTheDifferencesAndWhatTheirIntervalsSay) {
     const JudgedClaim claim = judged_cold(outcome);
     return claim.verdict == ClaimVerdict::measured && claim.measured().find(words) != std::string::npos;
   };
-  EXPECT_TRUE(says({.dmoc = 950, .hamiltonian = 955, .tangent = 960}, "%: no difference shown; tangent"));
-  EXPECT_TRUE(says({.dmoc = 800, .hamiltonian = 800, .tangent = 950}, "DMOC less often; 95 %"));
-  EXPECT_TRUE(says({.dmoc = 950, .hamiltonian = 800, .tangent = 950}, "DMOC more often; tangent"));
+  EXPECT_TRUE(says({.dmoc = 950, .hamiltonian = 955, .tangent = 960}, "%: no significant difference; tangent"));
+  EXPECT_TRUE(says({.dmoc = 800, .hamiltonian = 800, .tangent = 950}, "DMOC succeeds less often; 95 %"));
+  EXPECT_TRUE(says({.dmoc = 950, .hamiltonian = 800, .tangent = 950}, "DMOC succeeds more often; tangent"));
 }
 
 TEST(ColdStartClaims, AreNotJudgedByOtherStartsOrImpossibleCounts) {

@@ -247,7 +247,7 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
   Rows doubled = rows_.at(name);
   doubled.push_back(doubled.front());
   write(name, columns_.at(name), doubled);
-  expect("has the key of");
+  expect("has the same key as");
   write_file(file, "problem,minimum\none,1\ntwo\n");
   expect("record 3");
   std::filesystem::remove(file);
@@ -331,8 +331,8 @@ TEST_F(DoctoredClaims, CountTheRowsThatTheyLeaveOutNameThemAndSayWhomThatFavours
   const std::string measured =
       with("derivatives", "status", "step failed", is_stray)["orbital_transfer/automatic_differentiation_saves_time"]
           .measured();
-  EXPECT_NE(measured.find("rows left out, not solved by dense_differences or "), std::string::npos) << measured;
-  EXPECT_NE(measured.find("in favour of dense_differences by dmoc ("), std::string::npos) << measured;
+  EXPECT_NE(measured.find("rows left out: not solved with dense_differences or "), std::string::npos) << measured;
+  EXPECT_NE(measured.find("which favours dense_differences with dmoc ("), std::string::npos) << measured;
 }
 
 /// The predicate of a claim: the same on every problem.

@@ -104,8 +104,8 @@ TEST(LibraryClaims, TheLibraryIsJudgedByWhoIsBestMostOftenBySolver) {
 
 TEST(LibraryClaims, MethodsAreComparedWithinOneSolverWhateverItCounts) {
   const std::string measured = judged_library(5, 2).measured();
-  for (const char* part : {"ipopt, 7 instances: dmoc  : best on 5, solves 7", "hamiltonian  : best on 2",
-                           "interior_point, 7 instances: dmoc  : best on 4, solves 7"}) {
+  for (const char* part : {"ipopt, 7 instances: dmoc   is best on 5, solves 7", "hamiltonian   is best on 2",
+                           "interior_point, 7 instances: dmoc   is best on 4, solves 7"}) {
     EXPECT_NE(measured.find(part), std::string::npos) << part << " is not in " << measured;
   }
 }

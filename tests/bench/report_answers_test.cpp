@@ -110,7 +110,7 @@ bool states(const std::string& text, const std::string& part) { return text.find
 
 TEST(ReportAnswers, FollowTheLargestDifferenceAndTheVerdictOnEqualSolutions) {
   Tables tables;
-  EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"), "have equal solutions, to round-off."));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"), "have equal solutions to round-off."));
   EXPECT_TRUE(states(answer_to(tables.folder(), "accurate"), "2·10⁻¹³"));
   tables.difference = "3e-5";
   tables.verdict = "differs";
@@ -131,14 +131,14 @@ TEST(ReportAnswers, CompareErrorsOnTheFinestGridOfBothMethods) {
 
 TEST(ReportAnswers, StateBothDirectionsWhereReplayErrorsGoInOppositeOnes) {
   Tables tables;
-  EXPECT_TRUE(
-      states(answer_to(tables.folder(), "structure"),
-             "Balance does not bound the error: replayed, DMOC's controls miss the final state by 20 % less than "
-             "tangent-space collocation on the orbit. On the arm they miss it by 100 % more (N = 512)."));
+  EXPECT_TRUE(states(
+      answer_to(tables.folder(), "structure"),
+      "The balance does not bound the error: when replayed, DMOC's controls miss the final state by 20 % less than "
+      "tangent-space collocation on the orbit. On the arm they miss it by 100 % more (N = 512)."));
   tables.replays[std::string(two_link) + ",tangent"] = "1.25e-5";
   const std::string same = answer_to(tables.folder(), "structure");
-  EXPECT_TRUE(states(same, "Replayed, DMOC's controls") && states(same, "by 20 % less (N = 512).")) << same;
-  EXPECT_FALSE(states(same, "Balance does not bound"));
+  EXPECT_TRUE(states(same, "When replayed, DMOC's controls") && states(same, "by 20 % less (N = 512).")) << same;
+  EXPECT_FALSE(states(same, "The balance does not bound"));
 }
 
 TEST(ReportAnswers, NameTheMethodWithFewerUnknownsOnlyIfItHasFewerOnBothProblems) {
@@ -153,18 +153,18 @@ TEST(ReportAnswers, NameTheFasterMethodOnlyIfIntervalsAndVerdictExcludeEqualTime
   Tables tables;
   EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "DMOC, per iteration."));
   tables.times[std::string(orbit) + ",tangent"] = "1.5,0.9,1.6";
-  EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "do not exclude equal times"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "do not always exclude equal times"));
   tables.times[std::string(orbit) + ",tangent"] = "0.8,0.7,0.9";
   EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "on both sides of 1"));
   tables = Tables();
   tables.verdict = "undecided";
-  EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "the statement about it is undecided"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "faster"), "the claim is undecided"));
   EXPECT_FALSE(states(answer_to(tables.folder(), "faster"), "as in the paper"));
 }
 
 TEST(ReportAnswers, NameTheMoreReliableMethodOnlyIfAllDifferencesHaveOneSign) {
   Tables tables;
-  EXPECT_TRUE(states(answer_to(tables.folder(), "reliably"), "None is clearly ahead"));
+  EXPECT_TRUE(states(answer_to(tables.folder(), "reliably"), "No method is clearly ahead"));
   EXPECT_TRUE(states(answer_to(tables.folder(), "reliably"), "4.0 points"));
   tables.starts[std::string(two_link) + ",tangent"] = "90,40";
   EXPECT_TRUE(states(answer_to(tables.folder(), "reliably"), "Collocation, on both problems."));

@@ -237,7 +237,7 @@ TEST(Report, HoldsTheFirstRowsOfLongTablesAndSaysSo) {
   for (std::size_t n = 0; n < most_rows + 2; ++n) csv += fmt::format("{}\n", n);
   const ResultsFolder results = folder_with(Table::from_csv(csv));
   EXPECT_EQ(table_json(results.tables.front(), nullptr)["rows"].size(), most_rows);
-  EXPECT_TRUE(has(report_page(results, ""), fmt::format("The first {} rows are here.", most_rows)));
+  EXPECT_TRUE(has(report_page(results, ""), fmt::format("This page has the first {} rows.", most_rows)));
 }
 
 TEST(Report, SaysOfARunThatItIsNotComplete) {
@@ -255,10 +255,10 @@ TEST(Report, TellsHowLongAllRunsTook) {
   EXPECT_TRUE(has(report_page(results, ""), "<dt>First run began<dd>2026-11-23T14:00:00Z\n"));
   results.runs.front().metadata["wall_seconds"] = 6000.0;  // it ends last
   results.runs.back().metadata["wall_seconds"] = 30.0;
-  EXPECT_TRUE(has(report_page(results, ""), "2026-11-23T14:00:00Z; the last ended 100.0 minutes later\n"));
+  EXPECT_TRUE(has(report_page(results, ""), "2026-11-23T14:00:00Z; the last run ended 100.0 minutes later\n"));
   results.runs.pop_back();
   results.runs.front().metadata["wall_seconds"] = 2.5;
-  EXPECT_TRUE(has(report_page(results, ""), "; the last ended 2.5 s later\n"));
+  EXPECT_TRUE(has(report_page(results, ""), "; the last run ended 2.5 s later\n"));
 }
 
 TEST(Report, TellsOrdersAndSolvesWhereNobodyHasJudged) {
@@ -501,7 +501,7 @@ TEST(Report, NamesTheLowestCostWhereNoOptimumIsKnown) {
       *unknown)));
   results.motions.push_back({*unknown, "dmoc", Table::from_csv("t,x,y\n0,0,0\n1,1,1\n")});
   const Json facts = gallery_model(results)["problems"][0]["facts"];
-  EXPECT_EQ(facts[0]["text"], "not known; best found by any method here: 1.5");
+  EXPECT_EQ(facts[0]["text"], "not known; the best cost found here is 1.5");
 }
 
 TEST(Report, StatesEveryProblemOfTheFolderNextToItsMotionAndNoOther) {

@@ -154,7 +154,7 @@ class Expressions(unittest.TestCase):
             with self.assertRaisesRegex(IndexError, "out of bounds"):
                 x.q[1]
             self.assertEqual(repr(x.q["theta"]), repr(x.q[0]))
-            with self.assertRaisesRegex(AttributeError, "x has no theta; write x.q.theta, and x.v.theta for its rate"):
+            with self.assertRaisesRegex(AttributeError, "x has no theta; write x.q.theta \\(x.v.theta for its rate\\)"):
                 x.theta
             with self.assertRaisesRegex(AttributeError, "x has no qdot; it has q, v"):
                 x.qdot

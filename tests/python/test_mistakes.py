@@ -48,7 +48,7 @@ class Mistakes(unittest.TestCase):
     def test_wrong_sizes(self):
         self.refused("pendulum_swing_up: force has 2 entries, expected 1", variant(force=lambda self, x: [x.u[0], 0.0]))
         self.refused("lagrangian returns 2 entries", variant(lagrangian=lambda self, x: [x.v[0] ** 2, 1.0]))
-        self.refused("start: q lacks theta|start: q has an entry phi", variant(start=db.at_rest(phi=0.0)))
+        self.refused("start: q lacks theta|start: q has an unknown entry phi", variant(start=db.at_rest(phi=0.0)))
         self.refused("start: q has 2 entries, expected 1", variant(start=db.at_rest([0.0, 1.0])))
         self.refused("guess.*q has 3 entries, expected 1", variant(guess=lambda self, t: ([0, 1, 2], [0.0], [0.0])))
         self.refused("symmetry has 2 entries", variant(symmetry=lambda self, q: [1.0, 2.0]))
@@ -65,7 +65,7 @@ class Mistakes(unittest.TestCase):
             PendulumSwingUp(lenght=1.0)
 
     def test_no_return(self):
-        self.refused("lagrangian: returns None; is a \"return\" missing", variant(lagrangian=lambda self, x: None))
+        self.refused("lagrangian: returns None; add the missing \"return\"", variant(lagrangian=lambda self, x: None))
         self.refused("force: entry 0 of the returned value is None", variant(force=lambda self, x: [None]))
 
     def test_wrong_types(self):
@@ -74,7 +74,7 @@ class Mistakes(unittest.TestCase):
         self.refused("horizon: expected a number, got 'two'", variant(horizon="two"))
         self.refused("q is 'theta', expected coordinates", variant(q="theta"))
         self.refused("force is 3, expected a method", variant(force=3))
-        self.refused("expected a problem, or its name", 7)
+        self.refused("expected a problem or the name of a problem", 7)
         self.refused("intervals='many' is of the wrong type", intervals="many")
         self.refused("start= takes a Solution, a motion or arrays", start="guess")
         self.refused("intervals=16.5 is of the wrong type", intervals=16.5)
@@ -119,7 +119,7 @@ class Mistakes(unittest.TestCase):
 
         class Wrong(restated.PointsAtGivenTimes):
             waypoints = {0.5: db.state({"z": 1.0})}
-        self.refused("waypoints\\[0.5\\]: q has an entry z", Wrong())
+        self.refused("waypoints\\[0.5\\]: q has an unknown entry z", Wrong())
 
     def test_what_methods_do_not_know(self):
         self.refused("does not support first-order states \\(y\\)", restated.TwoLinkWithMotors(), method="multiple_shooting_rk4_1")
@@ -279,7 +279,7 @@ class Mistakes(unittest.TestCase):
 
     def test_arrays_of_batches_that_do_not_fit(self):
         problem = PendulumSwingUp()
-        with self.assertRaisesRegex(db.Error, "start has the shape \\(3, 3\\), expected \\(3, 2\\)"):
+        with self.assertRaisesRegex(db.Error, "start has shape \\(3, 3\\), expected \\(3, 2\\)"):
             db.solve_batch(problem, start=np.zeros((3, 3)))
         with self.assertRaisesRegex(db.Error, "same number of instances, got 3, 4"):
             db.solve_batch(problem, start=np.zeros((3, 2)), parameters={"length": np.ones(4)})

@@ -162,7 +162,7 @@ class Mistakes(unittest.TestCase):
         self.refused("nothing has no phases", Nothing)
         self.refused("phase rise: the value, range or kind of its parameter gravity differs", variant(rise=rise(gravity=1.6)))
         self.refused("has 1 entry,", variant(fall_to_rise=lambda self, before, after: after.q - before.q))
-        self.refused("fall_to_moon is not between two phases", variant(fall_to_moon=lambda self, before, after: []))
+        self.refused("fall_to_moon does not join two phases", variant(fall_to_moon=lambda self, before, after: []))
         self.refused("follows refers to moon", variant(follows={"rise": "moon"}))
         with self.assertRaisesRegex(AttributeError, "there is no phase moon; choose one of fall, rise"):
             db.solve(variant(conditions=lambda self, first, last: [last.moon.t - 1.0]))
@@ -174,7 +174,7 @@ class Mistakes(unittest.TestCase):
 
     def test_of_members_that_phases_state(self):
         for member in ("guess", "final_cost", "path_constraints", "waypoints"):
-            with self.subTest(member), self.assertRaisesRegex(db.Error, f"states {member}, which is not read; each phase"):
+            with self.subTest(member), self.assertRaisesRegex(db.Error, f"states {member}, which is not used; state it in each phase"):
                 db.solve(variant(**{member: lambda self, *arguments: []})(), intervals=8)
 
     def test_of_a_scaled_cost_are_the_same(self):

@@ -86,7 +86,7 @@ class Starts(unittest.TestCase):
     def test_that_do_not_fit_are_refused(self):
         for start, sentence in ((3, "start= takes a Solution, a motion or arrays"), (([0, 1],), "start= has 1 arrays"),
                                 (([0, 1], [[0, 0], [1, 1]]), "start= has 2 coordinates, 1 controls"),
-                                (([1, 0], [[0], [1]]), "times that ascend")):
+                                (([1, 0], [[0], [1]]), "times, in ascending order")):
             with self.assertRaisesRegex(db.Error, sentence):
                 db.solve(PendulumSwingUp(), start=start)
 
@@ -229,7 +229,7 @@ class Shown(unittest.TestCase):
                                                    "momentum_theta_2", "current_1", "current_2", "voltage_1", "voltage_2"])
         self.assertTrue(np.array_equal(stages["voltage_2"], solution.stages.u[:, 1]))
         self.assertTrue(np.array_equal(nodes["voltage_1"], solution.at(solution.t).u[:, 0]))
-        with self.assertRaisesRegex(db.Error, 'neither "nodes" nor "stages"'):
+        with self.assertRaisesRegex(db.Error, 'at= takes "nodes" or "stages"'):
             solution.to_pandas(at="ends")
 
     @unittest.skipIf(missing("matplotlib"), "matplotlib is not installed")

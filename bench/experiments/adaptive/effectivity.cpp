@@ -106,15 +106,16 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
 Columns<MeasuredEffectivity> effectivity_columns() {
   using M = MeasuredEffectivity;
   return scheme_columns<M>() +
-         Columns<M>{{"grid", "", "uniform, or adapted to an accuracy of 1e-4 (s = 1) or 1e-6", &M::grid, in_key},
-                    {"intervals", "", "number of intervals N", &M::intervals, in_key},
-                    {"quantity", "", "q, p or psi (largest error over the nodes), or the cost", &M::quantity, in_key},
-                    {"status", "", "status of the solve", &M::status},
-                    {"estimated", "", "estimated error", &M::estimated},
-                    {"true_error", "", "error relative to the certified optimum", &M::true_error},
-                    {"effectivity", "", "estimated error divided by true error", &M::effectivity},
-                    {"relative_error", "", "largest relative true error of q, p and cost", &M::relative},
-                    {"verdict", "", "measured, or floor: the true error is below 1e-10 of the quantity", &M::verdict}};
+         Columns<M>{
+             {"grid", "", "grid: uniform, or adapted to an accuracy of 1e-4 (s = 1) or 1e-6", &M::grid, in_key},
+             {"intervals", "", "number of intervals N", &M::intervals, in_key},
+             {"quantity", "", "q, p or psi (largest error over the nodes), or the cost", &M::quantity, in_key},
+             {"status", "", "status of the solve", &M::status},
+             {"estimated", "", "estimated error", &M::estimated},
+             {"true_error", "", "error relative to the certified optimum", &M::true_error},
+             {"effectivity", "", "estimated error divided by true error", &M::effectivity},
+             {"relative_error", "", "largest relative true error of q, p and cost", &M::relative},
+             {"verdict", "", "measured, or floor if the true error is below 1e-10 of the quantity", &M::verdict}};
 }
 
 }  // namespace dmocbench

@@ -141,14 +141,14 @@ Columns<NeededGrid> needed_columns() {
   using N = NeededGrid;
   return scheme_columns<N>() +
          Columns<N>{
-             {"grid", "", "uniform or adapted", &N::grid, in_key},
+             {"grid", "", "kind of grid: uniform or adapted", &N::grid, in_key},
              {"accuracy", "", "requested relative error of q, p and cost", &N::accuracy},
              {"status", "", "status of the last solve, or the reason for the missing grid", &N::status},
              {"intervals", "", "number of intervals N", &N::intervals},
              {"variables", "", "number of variables of the program", &N::variables},
-             {"variables_at_accuracy", "", "variables times (true error / accuracy)^(1/order)",
+             {"variables_at_accuracy", "", "number of variables times (true error / accuracy)^(1/order)",
               &N::variables_at_accuracy},
-             {"true_error", "", "relative error, compared with the certified optimum", &N::true_error},
+             {"true_error", "", "relative error with respect to the certified optimum", &N::true_error},
              {"estimated_error", "", "estimated relative error", &N::estimated_error},
              {"largest_step", "", "h", &N::largest_step},
              {"smallest_step", "", "h", &N::smallest_step},

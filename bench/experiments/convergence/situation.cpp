@@ -102,7 +102,7 @@ Situation situation_of(const std::shared_ptr<const Problem>& problem) {
   const ProblemBounds bounds = problem->bounds();
   if (bounds.horizon.is_free()) {
     throw Error("smoothness compares trajectories at equal times, but " + problem->name() +
-                " has a free horizon: use `convergence`");
+                " has a free horizon; use `convergence`");
   }
   return {.name = problem->name(),
           .active = {},

@@ -14,9 +14,8 @@ struct DerivativeReference {
   std::vector<long double> hessian;
 };
 
-/// The symbolic derivatives of every interval replayed in long double (64 bits of mantissa instead of 53) and added up
-/// here; the program's own back end and assembly play no part. `x` has an entry per variable, `multipliers` one per
-/// constraint.
+/// The symbolic derivatives of every interval replayed in long double (64 bits of mantissa) and added up here; the
+/// program's back end and assembly play no part. `x` has an entry per variable, `multipliers` one per constraint.
 [[nodiscard]] DerivativeReference reference_derivatives(const Transcription& program, const Eigen::VectorXd& x,
                                                         double objective_factor, const Eigen::VectorXd& multipliers);
 
@@ -31,9 +30,8 @@ struct EvaluationTimes {
   double hessian = 0.0;  ///< of the Lagrangian
 };
 
-/// Medians of repeated evaluations at one point. The rounds go through all of them in turn, so that whatever slows the
-/// machine down for a while slows them all; short evaluations are repeated within a round until the clock resolves
-/// them.
+/// Medians of repeated evaluations at one point. The rounds go through all of them in turn, so that a slow spell of the
+/// machine slows them all; short evaluations are repeated within a round until the clock resolves them.
 [[nodiscard]] EvaluationTimes measure_evaluations(NonlinearProgram& program, const Eigen::VectorXd& x,
                                                   const Eigen::VectorXd& multipliers);
 

@@ -122,14 +122,14 @@ FlowSymplecticity form_along(const MappedStates& system) {
 Table flow_momentum_table() {
   std::vector<FlowMomentum> rows;
   for (const InvariantSystem& system : invariant_systems()) rows.push_back(momentum_along(system));
-  return table_of(
-      Columns<FlowMomentum>{{"problem", "", "name of the problem", &FlowMomentum::problem, in_key},
-                            {"force", "", "orthogonal to the group action, or along it", &FlowMomentum::force, in_key},
-                            {"horizon", "", "T", &FlowMomentum::horizon, in_key},
-                            {"tolerance", "", "tolerance of the integration", &FlowMomentum::tolerance},
-                            {"momentum_change", "", "J(T) - J(0)", &FlowMomentum::change},
-                            {"work", "", "integral of f·xi", &FlowMomentum::work}},
-      rows);
+  return table_of(Columns<FlowMomentum>{{"problem", "", "name of the problem", &FlowMomentum::problem, in_key},
+                                        {"force", "", "force: orthogonal to the group action, or along it",
+                                         &FlowMomentum::force, in_key},
+                                        {"horizon", "", "T", &FlowMomentum::horizon, in_key},
+                                        {"tolerance", "", "tolerance of the integration", &FlowMomentum::tolerance},
+                                        {"momentum_change", "", "J(T) - J(0)", &FlowMomentum::change},
+                                        {"work", "", "integral of f·xi", &FlowMomentum::work}},
+                  rows);
 }
 
 Table flow_symplecticity_table(const std::vector<MappedStates>& systems) {
@@ -139,11 +139,11 @@ Table flow_symplecticity_table(const std::vector<MappedStates>& systems) {
       Columns<FlowSymplecticity>{
           {"problem", "", "name of the problem", &FlowSymplecticity::problem, in_key},
           {"horizon", "", "T", &FlowSymplecticity::horizon, in_key},
-          {"defect", "", "largest entry of D^T Omega_L D - Omega_L over some states, D the derivative of the flow",
+          {"defect", "", "largest entry of D^T Omega_L D - Omega_L over some states (D: derivative of the flow)",
            &FlowSymplecticity::defect},
-          {"rounding", "", "machine epsilon times the largest square of an entry of D and the largest entry of Omega_L",
+          {"rounding", "", "machine epsilon times the largest squared entry of D times the largest entry of Omega_L",
            &FlowSymplecticity::rounding},
-          {"printed_change", "", "the same for the form as printed, only dq∧dq", &FlowSymplecticity::printed_change}},
+          {"printed_change", "", "defect of the form as printed, only dq∧dq", &FlowSymplecticity::printed_change}},
       rows);
 }
 

@@ -28,8 +28,7 @@ namespace dmocbench {
 namespace {
 
 constexpr std::array truncations{2, 4, 6};
-/// Below these shares of the largest work a gap is due to solver and rounding: for the solved motion, and for its
-/// replay in long double.
+/// Shares of the largest work below which a gap is due to solver and rounding: solved motion, replay in long double.
 constexpr double share_of_solver = 1e-10;
 constexpr double share_of_replay = 1e-16;
 
@@ -125,11 +124,11 @@ constexpr auto quantity_of = &FittedQuantity::quantity;
 const Columns<FittedQuantity> fitted_columns =
     scheme_columns<FittedQuantity>() +
     Columns<FittedQuantity>{
-        {"quantity", "", "quantity that shrinks with the step", from(quantity_of, &EnergyQuantity::name), in_key},
+        {"quantity", "", "quantity whose order is fitted", from(quantity_of, &EnergyQuantity::name), in_key},
         {"truncation", "", "truncation order of the modified energy; 2 is the energy itself",
          from(quantity_of, &EnergyQuantity::truncation), in_key}} +
     fitted_order_columns(&FittedQuantity::fit) +
-    Columns<FittedQuantity>{{"mass", "", "L_vv: constant, or moving with q", &FittedQuantity::mass}};
+    Columns<FittedQuantity>{{"mass", "", "mass matrix: constant, or moving with q", &FittedQuantity::mass}};
 
 /// Points of several curves of one scheme, by their quantities.
 class Curves {
@@ -159,7 +158,7 @@ const Columns<Drift> drift_columns =
                    {"h", "", "step", &Drift::h},
                    {"truncation", "", "truncation order of the modified energy; 2 is the energy itself",
                     &Drift::truncation, in_key},
-                   {"drift", "", "max - min of the truncated modified energy over the trajectory", &Drift::drift}};
+                   {"drift", "", "range of the truncated modified energy over the trajectory", &Drift::drift}};
 
 struct FreeSystem {
   std::shared_ptr<const Problem> problem;
@@ -193,8 +192,8 @@ const Columns<Gap> gap_columns =
         {"intervals", "", "number of intervals N", &Gap::intervals, in_key},
         {"h", "", "step", &Gap::h},
         {"truncation", "", "truncation order of the modified energy; 2 is the energy itself", &Gap::truncation, in_key},
-        {"gap_to_work", "", "largest difference between its change and the virtual work over the nodes", &Gap::to_work},
-        {"gap_to_modified_work", "", "the same difference for the modified work, truncated at the same order",
+        {"gap_to_work", "", "largest gap between energy change and virtual work over the nodes", &Gap::to_work},
+        {"gap_to_modified_work", "", "largest gap between energy change and modified work, truncated at the same order",
          &Gap::to_modified_work}};
 
 struct PlainGap {
@@ -217,7 +216,8 @@ const Columns<PlainGap> plain_columns =
          [](const PlainGap& e) {
            return e.balance ? std::optional(e.balance->change - e.balance->work) : std::nullopt;
          }},
-        {"largest_gap", "", "largest difference over the nodes", from(balance_of, &EnergyBalance::largest_gap)},
+        {"largest_gap", "", "largest gap over the nodes between energy change and work",
+         from(balance_of, &EnergyBalance::largest_gap)},
         {"largest_work", "", "largest work over the nodes", from(balance_of, &EnergyBalance::largest_work)},
         {"message", "", "reason for a missing energy", &PlainGap::message}};
 

@@ -17,8 +17,7 @@ struct ModifiedEnergyTables {
 };
 [[nodiscard]] ModifiedEnergyTables modified_energy_tables();
 
-/// Energy against the virtual work of the forces along the optimal motions of some problems, by the midpoint rule in
-/// every family of elements.
+/// Energy and virtual work of the forces along optimal motions, by the midpoint rule in every family of elements.
 struct EnergyWorkTables {
   std::ptrdiff_t unsolved = 0;  ///< rows of `plain`, with reasons, whose motion was not solved on the common branch
   Table plain;                  ///< the energy itself, a row per problem, method and grid

@@ -105,8 +105,7 @@ class Bounce {
     step_energy_ = Schedule(ExpressionVector{{energy, 0.5 * work}});
   }
 
-  /// The end of the motion and the change of E at the impact. `steps`: before and after the impact; 0: the exact
-  /// motion.
+  /// The motion's end and the change of E at the impact. `steps`: before and after the impact; 0: the exact motion.
   std::pair<Phase, double> operator()(ImpactCondition condition, int steps) {
     const double whole = particle_.horizon();
     const BoundaryState start = particle_.initial_state();
@@ -196,21 +195,22 @@ struct ImpactOrder {
 
 const Columns<ImpactKey> impact_key_columns =
     scheme_columns<ImpactKey>() +
-    Columns<ImpactKey>{{"force", "", "none, or a drag", &ImpactKey::force, in_key},
+    Columns<ImpactKey>{{"force", "", "force: none, or a drag", &ImpactKey::force, in_key},
                        {"condition", "",
-                        "condition on the impulse: momenta, G(v+ + v-) = 0; steps, equal E_d of both steps next to the "
-                        "impact; steps_and_work, with half of the work of their forces",
+                        "condition on the impulse: momenta (G(v+ + v-) = 0), steps (equal E_d of both steps next to "
+                        "the impact), or steps_and_work (the same with half of the work of their forces)",
                         &ImpactKey::condition, in_key}};
 
 const Columns<Impact> impact_columns =
     columns_through<Impact>(&Impact::key, impact_key_columns) +
-    Columns<Impact>{{"steps", "", "number of steps before the impact, and also after it", &Impact::steps, in_key},
-                    {"state_error", "", "largest difference from the exact q and v at the end", &Impact::state_error},
-                    {"energy_change", "", "|E(q, p+) - E(q, p-)|", &Impact::energy_change}};
+    Columns<Impact>{
+        {"steps", "", "number of steps before the impact, and after it", &Impact::steps, in_key},
+        {"state_error", "", "largest difference of q and v from the exact values at the end", &Impact::state_error},
+        {"energy_change", "", "|E(q, p+) - E(q, p-)|", &Impact::energy_change}};
 
 const Columns<ImpactOrder> impact_order_columns =
     columns_through<ImpactOrder>(&ImpactOrder::key, impact_key_columns) +
-    Columns<ImpactOrder>{{"quantity", "", "state_error or energy_change", &ImpactOrder::quantity, in_key}} +
+    Columns<ImpactOrder>{{"quantity", "", "quantity: state_error or energy_change", &ImpactOrder::quantity, in_key}} +
     fitted_order_columns(&ImpactOrder::fit);
 
 }  // namespace

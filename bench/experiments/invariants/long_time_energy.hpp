@@ -56,19 +56,19 @@ template <class Record>
 Columns<Record> period_energy_columns(PeriodEnergy Record::*energy) {
   return {{"period", "", "number of the period, from 0", from(energy, &PeriodEnergy::period), in_key},
           {"energy_smallest", "", "smallest error of the energy", from(energy, &PeriodEnergy::smallest)},
-          {"energy_mean", "", "mean error over the period", from(energy, &PeriodEnergy::mean)},
+          {"energy_mean", "", "mean error of the energy over the period", from(energy, &PeriodEnergy::mean)},
           {"energy_largest", "", "largest error of the energy", from(energy, &PeriodEnergy::largest)}};
 }
 
 /// The columns of the energy over many periods, which is a member of a record.
 template <class Record>
 Columns<Record> energy_behaviour_columns(EnergyBehaviour Record::*energy) {
-  return {
-      {"oscillation", "", "max - min over the first ten periods", from(energy, &EnergyBehaviour::oscillation)},
-      {"range", "", "max - min over all observed periods", from(energy, &EnergyBehaviour::range)},
-      {"drift_per_period", "", "slope of the mean, by least squares", from(energy, &EnergyBehaviour::drift_per_period)},
-      {"standard_error", "", "standard error of the drift", from(energy, &EnergyBehaviour::standard_error)},
-      {"change", "", "last mean minus first mean", from(energy, &EnergyBehaviour::change)}};
+  return {{"oscillation", "", "error range over the first ten periods", from(energy, &EnergyBehaviour::oscillation)},
+          {"range", "", "error range over all observed periods", from(energy, &EnergyBehaviour::range)},
+          {"drift_per_period", "", "least-squares slope of the mean error",
+           from(energy, &EnergyBehaviour::drift_per_period)},
+          {"standard_error", "", "standard error of the drift", from(energy, &EnergyBehaviour::standard_error)},
+          {"change", "", "last mean error minus first mean error", from(energy, &EnergyBehaviour::change)}};
 }
 
 }  // namespace dmocbench

@@ -65,13 +65,14 @@ struct Rotated {
 
 const Columns<Rotated> rotated_columns =
     scheme_columns<Rotated>() +
-    Columns<Rotated>{{"action", "", "action of the rotations on the coordinates", &Rotated::action},
-                     {"axis", "", "1, 2 or 3", &Rotated::axis, in_key},
-                     {"steps", "", "number of steps", &Rotated::steps},
-                     {"h", "", "step", &Rotated::h},
-                     {"momentum_change", "", "J_N - J_0 about this axis", &Rotated::change},
-                     {"work", "", "work of discrete forces, sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1)", &Rotated::work},
-                     {"defect", "", "max over k of |J_k - J_0 - work|, in long double", &Rotated::defect}};
+    Columns<Rotated>{
+        {"action", "", "action of the rotations on the coordinates", &Rotated::action},
+        {"axis", "", "1, 2 or 3", &Rotated::axis, in_key},
+        {"steps", "", "number of steps", &Rotated::steps},
+        {"h", "", "step", &Rotated::h},
+        {"momentum_change", "", "J_N - J_0, momentum about this axis", &Rotated::change},
+        {"work", "", "work of the discrete forces, sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1)", &Rotated::work},
+        {"defect", "", "max over k of |J_k - J_0 - work|, in long double", &Rotated::defect}};
 
 /// Forces of every direction that are neither smooth nor random.
 LongMatrix arbitrary_forces(Eigen::Index m, int step) {
@@ -148,7 +149,7 @@ const Columns<KeptMomentum> kept_momentum_columns =
         {"objective", "", "cost of the optimal trajectory", &KeptMomentum::objective},
         {"momentum", "", "J_0 = p_0·xi", &KeptMomentum::momentum},
         {"momentum_deviation", "", "max over k of |J_k - J_0| along the optimal trajectory", &KeptMomentum::deviation},
-        {"largest_control", "", "largest control of a stage", &KeptMomentum::control},
+        {"largest_control", "", "largest control of any stage", &KeptMomentum::control},
         {"rounding", "", "machine epsilon times max |q| / h, the round-off of momenta from differences of positions",
          &KeptMomentum::rounding}};
 

@@ -191,16 +191,16 @@ Table noether_table(int steps) {
     });
   }
   const Columns<Forced> columns{
-      {"force", "", "orthogonal to the group action, or along it", &Forced::force, in_key},
+      {"force", "", "direction of the force: orthogonal to the group action, or along it", &Forced::force, in_key},
       {"steps", "", "number of steps", &Forced::steps, in_key},
       {"h", "", "step", &Forced::h, in_key},
       {"momentum_change", "", "J_N - J_0", &Forced::change},
       {"work", "", "sum of h b_i f·xi", &Forced::work},
-      {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); only DMOC",
+      {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); only for DMOC",
        &Forced::work_of_discrete_forces},
       {"defect", "", "max over k of |J_k - J_0 - work|", &Forced::defect},
       {"defect_in_long_double", "",
-       "the same with 64 bits of mantissa, which reduces round-off but not the discretisation error",
+       "the same defect with 64 bits of mantissa, which reduces round-off but not the discretisation error",
        &Forced::defect_in_long_double},
   };
   return table_of(scheme_columns<Forced>() + columns, rows);
@@ -215,7 +215,7 @@ SymplecticityTable symplecticity_table(const std::vector<MappedStates>& systems)
   const Columns<Unforced> columns{{"h", "", "step", &Unforced::h, in_key},
                                   {"defect", "", "largest entry of D^T Omega D - Omega over some states",
                                    from(&Unforced::defect, &SymplecticityDefect::largest)},
-                                  {"rounding", "", "machine epsilon times the largest square of an entry of D",
+                                  {"rounding", "", "machine epsilon times the largest squared entry of D",
                                    from(&Unforced::defect, &SymplecticityDefect::rounding)},
                                   {"message", "", "reason for a missing defect", &Unforced::message}};
   return {.table = table_of(scheme_columns<Unforced>() + columns, rows),

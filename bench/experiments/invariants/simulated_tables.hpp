@@ -22,8 +22,7 @@ struct InvariantSystem {
 [[nodiscard]] std::vector<InvariantSystem> invariant_systems();
 
 /// The forced discrete Noether theorem (th:discforcNoe, eq:noether_force_d): `steps` steps of the one-step map under
-/// arbitrary stage controls. A row per system with a symmetry, method and tableau; the columns are declared in the
-/// source.
+/// arbitrary stage controls. A row per system with a symmetry, method and tableau.
 [[nodiscard]] Table noether_table(int steps);
 
 /// The states at which one-step maps are tested for symplecticity.

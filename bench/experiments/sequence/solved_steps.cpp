@@ -122,16 +122,16 @@ Table step_table(const std::vector<SequenceStep>& steps) {
       scheme_columns<SequenceStep>() +
       Columns<SequenceStep>{
           {"intervals", "", "number of intervals N", &SequenceStep::intervals, in_key},
-          {"sequence", "", "receding_horizon or homotopy", &SequenceStep::sequence, in_key},
-          {"step", "", "number of the step, from 1", &SequenceStep::number, in_key},
+          {"sequence", "", "kind of sequence: receding_horizon or homotopy", &SequenceStep::sequence, in_key},
+          {"step", "", "number of the step, counted from 1", &SequenceStep::number, in_key},
           {"status", "", "status of the warm solve", from(&SequenceStep::warm, &StepSolve::status)},
           {"iterations", "", "iterations of the warm solve", from(&SequenceStep::warm, &StepSolve::iterations)},
-          {"microseconds", "us", "time of the solver in the warm solve",
+          {"microseconds", "us", "time of the warm solve in the solver",
            from(&SequenceStep::warm, &StepSolve::microseconds)},
           {"start_barrier_parameter", "",
            "barrier parameter at the start of the warm solve; empty where the problem has no barrier",
            from(&SequenceStep::start_barrier_parameter)},
-          {"cold_status", "", "status of a solve from the guess; empty if not requested", of_cold(&StepSolve::status)},
+          {"cold_status", "", "status of a solve from the guess; empty without one", of_cold(&StepSolve::status)},
           {"cold_iterations", "", "its iterations", of_cold(&StepSolve::iterations)},
           {"cold_microseconds", "us", "its time", of_cold(&StepSolve::microseconds)},
           {"objective", "cost", "cost of the solution", from(&SequenceStep::objective)}};
@@ -188,7 +188,7 @@ Columns<SummarisedSteps> summary_columns() {
   const auto cold = [](const SequenceStep& step) { return step.cold ? &*step.cold : nullptr; };
   return scheme_columns<Steps>() +
          Columns<Steps>{{"intervals", "", "number of intervals N", &Steps::intervals, in_key},
-                        {"sequence", "", "receding_horizon or homotopy", &Steps::sequence, in_key},
+                        {"sequence", "", "kind of sequence: receding_horizon or homotopy", &Steps::sequence, in_key},
                         {"steps", "", "number of steps", [](const Steps& of) { return of.steps.size(); }},
                         {"solved", "", "number of solved steps", &Steps::solved}} +
          quantile_columns("iterations", "", "iterations of a warm solve", warm, &StepSolve::iterations) +
@@ -197,7 +197,7 @@ Columns<SummarisedSteps> summary_columns() {
          quantile_columns("cold_microseconds", "us", "time of a solve from the guess", cold, &StepSolve::microseconds) +
          Columns<Steps>{
              {"compared_with_cold", "", "number of steps that were also solved from the guess", &Steps::compared},
-             {"warm_is_worse", "", "share of these whose cost exceeds the cost from the guess",
+             {"warm_is_worse", "", "share of the compared steps whose warm cost exceeds the cold cost",
               &Steps::share_of_worse}};
 }
 

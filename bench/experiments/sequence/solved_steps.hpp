@@ -50,13 +50,11 @@ struct SequenceStep {
 /// One method on its way through a sequence.
 class SequenceRun {
  public:
-  /// `solved`: the case of the first problem with its answer. Every step is solved `repeats` times; its time is the
-  /// smallest of them.
+  /// `solved`: the first problem's case with its answer. A step is solved `repeats` times; its time is the shortest.
   SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, const SolverOptions& options,
               int repeats);
 
-  /// Solves the next problem warm, and also cold if requested or if the warm start fails. If both fail, the
-  /// sequence ends.
+  /// Solves the next problem warm, and cold if requested or if the warm start fails. If both fail, the sequence ends.
   [[nodiscard]] SequenceStep next(bool also_cold);
   [[nodiscard]] bool is_at_end() const noexcept { return is_at_end_; }
 

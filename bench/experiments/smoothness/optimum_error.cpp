@@ -17,7 +17,7 @@ double largest_row(const Eigen::MatrixXd& difference) { return difference.rowwis
 /// Throws `Error` if the problem has no closed form.
 OptimalPoint closed_form_point(const Problem& problem, double t) {
   std::optional<OptimalPoint> point = problem.optimum(t);
-  if (!point) throw Error(problem.name() + " has no optimum in closed form");
+  if (!point) throw Error(problem.name() + " states no optimum in closed form");
   return *std::move(point);
 }
 
@@ -78,7 +78,7 @@ KnownOptimum::Sampled KnownOptimum::finer_at(const Trajectory& motion) const {
       motion.stage_u, finer_->cost};
   for (Eigen::Index k = 0; k < motion.q.rows(); ++k) {
     const auto node = node_at(finer_->node_times, motion.node_times[k]);
-    if (!node) throw Error("the reference grid lacks a node of the trajectory");
+    if (!node) throw Error("a node of the trajectory is not a node of the reference grid");
     sampled.q.row(k) = finer_->q.row(*node);
     sampled.p.row(k) = finer_->p.row(*node);
     sampled.psi_q.row(k) = finer_->psi_q.row(*node);

@@ -8,8 +8,7 @@
 
 namespace dmocbench {
 
-/// Largest errors against the optimum, Euclidean norm: the quantities of (main_theorem), and the controls of the
-/// stages.
+/// Largest errors against the optimum, Euclidean norm: the quantities of (main_theorem) and the stage controls.
 struct OptimumError {
   double state = 0.0;         ///< of (q, p) over the nodes
   double costate_q = 0.0;     ///< of ψ^q over the nodes

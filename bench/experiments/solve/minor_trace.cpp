@@ -26,11 +26,11 @@ Table trace_table(const std::vector<MinorIteration>& trace, Eigen::Index variabl
   const Columns<MinorIteration> columns{
       {"major", "", "major iteration", &MinorIteration::major},
       {"phase", "", "1 or 2", [](const MinorIteration& minor) { return static_cast<int>(minor.phase); }},
-      {"entering", "", "column that enters", named(&MinorIteration::entering)},
-      {"leaving", "", "column that leaves", named(&MinorIteration::leaving)},
-      {"into_basis", "", "column that is added to the basis", named(&MinorIteration::into_basis)},
+      {"entering", "", "column that enters the basis", named(&MinorIteration::entering)},
+      {"leaving", "", "column that leaves the basis", named(&MinorIteration::leaving)},
+      {"into_basis", "", "column added to the basis", named(&MinorIteration::into_basis)},
       {"step", "", "length of the step", &MinorIteration::step},
-      {"infeasibility", "", "sum of infeasibilities", &MinorIteration::infeasibility},
+      {"infeasibility", "", "sum of the infeasibilities", &MinorIteration::infeasibility},
       {"objective", "", "scaled objective of the quadratic program", &MinorIteration::objective},
       {"superbasics", "", "number of superbasic columns", &MinorIteration::superbasics},
       {"basic_slacks", "", "number of slacks in the basis", &MinorIteration::basic_slacks},
@@ -52,8 +52,8 @@ bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path
 
 void MinorTrace::add_to(CommandLine& line) {
   line.option("--trace", file_,
-              "file with a row for every minor iteration of one solve by sqp; listed in the metadata if it is in the "
-              "folder of --out");
+              "write this file with a row for every minor iteration of one solve by sqp; the metadata lists the file "
+              "if it is in the folder of --out");
 }
 
 void MinorTrace::check(const std::vector<Case>& cases, const ExperimentCard& card) const {

@@ -16,8 +16,7 @@ class MinorTrace {
   void add_to(CommandLine& line);
   /// Whether the option was given.
   [[nodiscard]] bool is_wanted() const noexcept { return !file_.empty(); }
-  /// Throws `Error` unless there is a single case, solved by sqp, and the file can be written and is not one of the
-  /// run's.
+  /// Throws `Error` unless a single case is solved by sqp, and the file can be written and is not one of the run's.
   void check(const std::vector<Case>& cases, const ExperimentCard& card) const;
   /// Solves the case and keeps its minor iterations, of the last solve if it is repeated.
   [[nodiscard]] SolvedCase solve(const SolveTask& task);

@@ -54,18 +54,19 @@ SolvedCase solve_accurately(Case the_case, const Start& start, const AdaptiveOpt
 
 void WantedAccuracy::add_to(CommandLine& line) {
   line.option("--accuracy", accuracy_,
-              "refines the grid of one case, starting at --intervals or --grid, until the estimated relative error of "
+              "refine the grid of one case, starting at --intervals or --grid, until the estimated relative error of "
               "q, p and cost is at most this value, 1e-14 to 0.1; counts and times include all grids");
-  line.option("--refine", refine_, "with --accuracy: h (steps) or hp (steps, and up to three stages); default: h");
+  line.option("--refine", refine_,
+              "refinement for --accuracy: h (steps) or hp (steps, and up to three stages); default: h");
 }
 
 void WantedAccuracy::check(const std::vector<Case>& cases) {
   if (!is_wanted()) {
-    if (!refine_.empty()) throw Error("--refine selects how --accuracy is reached; give --accuracy too");
+    if (!refine_.empty()) throw Error("--refine selects how --accuracy refines; give --accuracy too");
     return;
   }
   if (cases.size() != 1)
-    throw Error("--accuracy refines exactly one case: one method, one number of stages, one first grid");
+    throw Error("--accuracy refines exactly one case; choose one method, one number of stages and one first grid");
   adaptive_.accuracy = parse_number("--accuracy", accuracy_);
   if (!refine_.empty()) adaptive_.refinement = refinement_named(refine_);
   try {
@@ -96,9 +97,9 @@ void WantedAccuracy::note(const GridAttempt& grid, const Case& the_case) {
 SolvedCase WantedAccuracy::solve(SolveTask task) {
   const Case& the_case = task.the_case;
   if (the_case.form != CostForm::bolza || the_case.derivatives != "tape") {
-    throw Error("--accuracy refines with --form bolza and --derivatives tape");
+    throw Error("--accuracy supports only --form bolza and --derivatives tape");
   }
-  if (task.repeats > 1) throw Error("--accuracy solves once on each grid; leave out --repeats");
+  if (task.repeats > 1) throw Error("--accuracy solves only once on each grid; leave out --repeats");
   AdaptiveOptions options = adaptive_;
   options.solver = the_case.solver;
   options.solver_options = task.options;

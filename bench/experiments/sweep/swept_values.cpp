@@ -65,7 +65,7 @@ double on_grid(const SweptQuantity& quantity, int i, int count) {
 
 void require_few(double count) {
   if (count <= static_cast<double>(most_instances)) return;
-  throw Error(fmt::format("a sweep takes at most {} instances, not {:.0f}; run the rest under another --name",
+  throw Error(fmt::format("a sweep takes at most {} instances, not {:.0f}; split it into runs with different --name",
                           most_instances, count));
 }
 

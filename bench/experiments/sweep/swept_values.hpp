@@ -31,8 +31,7 @@ struct SweptQuantity {
 /// The largest number of instances of a sweep.
 inline constexpr long long most_instances = 100000;
 
-/// Throws `Error` unless a problem has all these quantities: no such parameter, no such entry of an end state, or one
-/// that its bounds leave free.
+/// Throws `Error` unless a problem has all these quantities: parameters, or entries of an end state that are fixed.
 void require_quantities(const Problem& problem, const std::vector<SweptQuantity>& quantities);
 
 /// The names of the quantities that are parameters of the problem, and not entries of an end state.

@@ -1,4 +1,4 @@
-"""dmocbench: state an optimal control problem of a mechanical system, solve it, compare transcriptions.
+"""dmocbench states optimal control problems of mechanical systems, solves them and compares transcriptions.
 
     import dmocbench as db
 
@@ -32,7 +32,7 @@ _folder = _Path(__file__).parent
 _sums = "".join(_hashlib.sha256(file.read_bytes()).hexdigest() for file in sorted(_folder.glob("*.py")))
 if _hashlib.sha256(_sums.encode()).hexdigest() != _core.tag_of_python_code:
     raise ImportError(f"the Python files in {_folder} and the module {_core.__file__} are from different builds; build "
-                      "dmocbench anew, or install both from one build")
+                      "dmocbench again, or install both from the same build")
 
 from ._core import (  # noqa: E402, F401
     Error,

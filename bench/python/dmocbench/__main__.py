@@ -1,4 +1,4 @@
-"""python3 -m dmocbench EXPERIMENT [FILE.py ...] OPTIONS: runs an experiment, also on the problems that the files state.
+"""python3 -m dmocbench EXPERIMENT [FILE.py ...] OPTIONS: runs an experiment. The files may state further problems.
 python3 -m dmocbench figures RESULTS: draws the tables in a results folder."""
 
 import importlib.util
@@ -15,7 +15,7 @@ from .problem import Problem
 
 
 def problems_of(file):
-    """The problems that a file states, in its order, except phases of another problem and classes that need arguments."""
+    """The problems that a file states, in file order, except phases of another problem and classes that need arguments."""
     name = os.path.splitext(os.path.basename(file))[0]
     spec = importlib.util.spec_from_file_location(name, file)
     module = importlib.util.module_from_spec(spec)
@@ -40,16 +40,16 @@ def problems_of(file):
 
 
 _without_problems = {"claims", "misprints", "new", "report", "step_control"}
-"""Experiments without an option --problem; the problems of files are registered for them, too."""
+"""Experiments without an option --problem; problems of files are also registered for these experiments."""
 
 
 def draw(words):
-    """Replaces this process with dmocbench-figures of a wheel, of the build, or of an installation."""
+    """Replaces this process with dmocbench-figures from the wheel, the build folder, or an installation."""
     for place in ("plots/figures", "../../dmocbench-figures", "../../../../bin/dmocbench-figures"):
         script = Path(__file__).parent / place
         if script.exists():
             os.execv(script, [str(script), *words])
-    raise _core.Error("dmocbench-figures is not installed; it is part of the program dmocbench")
+    raise _core.Error("dmocbench-figures is missing; install the program dmocbench, which includes it")
 
 
 def main(words):
@@ -62,7 +62,7 @@ def main(words):
     if experiment == "figures":
         draw(rest)
     if experiment not in [name for name, _ in _core.programs()]:
-        raise _core.Error(f"there is no experiment \"{experiment}\"; python3 -m dmocbench --help lists them")
+        raise _core.Error(f"there is no experiment \"{experiment}\"; python3 -m dmocbench --help lists the experiments")
     files = [word for word in rest if word.endswith(".py")]
     for file in files:
         if not os.path.isfile(file):

@@ -1,4 +1,4 @@
-"""Runs experiments of the program dmocbench in this process, also on problems stated in Python."""
+"""Runs experiments of the program dmocbench in this process, including on problems stated in Python."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .words import in_words_of_python
 
 
 class Table:
-    """Rows of a table: iteration gives a dict for each, with numbers as float or int, and None for empty entries."""
+    """The rows of a table. Iteration yields a dict per row, with numbers as float or int, and None for empty entries."""
 
     def __init__(self, columns: list[str], rows: list[dict[str, Any]]):
         self.columns = columns
@@ -49,7 +49,7 @@ class Table:
     _most_shown = 10
 
     def _shown(self):
-        """The columns that have an entry, those that differ between rows first, and texts of the first rows."""
+        """The columns that have an entry (first the columns that differ between rows), and the texts of the first rows."""
         columns = [name for name in self.columns if any(row[name] is not None for row in self.rows)]
         columns.sort(key=lambda name: len({str(row[name]) for row in self.rows}) == 1)
         return columns, [[_text(row[name]) for name in columns] for row in self.rows[:self._most_shown]]
@@ -80,9 +80,9 @@ def _text(value):
 
 
 class Results(Table):
-    """The rows of an experiment. further: the other tables that it wrote, by the ends of their names ("slopes");
+    """The rows of an experiment. further: its other tables, by the ends of their names ("slopes");
     orders: the fitted orders, if there are any; files: the common beginning of the names of all files; is_complete:
-    whether everything is solved. Experiments with several tables, such as invariants, have only further tables."""
+    whether all solves succeeded. Experiments with several tables, such as invariants, have only further tables."""
 
     further: dict[str, Table]
     orders: Table | None
@@ -109,7 +109,7 @@ def _value(text):
 
 
 def read_table(file: str | os.PathLike[str], problems: Sequence[str] | None = None) -> Table:
-    """Reads a table that dmocbench wrote; with `problems`, only their rows."""
+    """Reads a table that dmocbench wrote; with `problems`, only the rows of these problems."""
     with open(file, newline="") as stream:
         reader = csv.DictReader(stream)
         rows = [{name: _value(text) for name, text in row.items()} for row in reader]
@@ -120,8 +120,8 @@ def read_table(file: str | os.PathLike[str], problems: Sequence[str] | None = No
 
 
 def load_library(*files: str | os.PathLike[str]) -> None:
-    """Loads libraries of problems that dmocbench_add_problems built in CMake; their problems are then known by name.
-    Warns of problems that cannot be used and leaves them out."""
+    """Loads libraries of problems that dmocbench_add_problems built in CMake; their problems can then be used by name.
+    Warns about problems that cannot be used and leaves them out."""
     with in_words_of_python():
         reasons = _core.load_problem_libraries([os.fspath(file) for file in files])
     for reason in reasons:
@@ -129,7 +129,7 @@ def load_library(*files: str | os.PathLike[str]) -> None:
 
 
 def register(problem: AnyProblem) -> _core.ProblemHandle:
-    """Registers a problem by its name for all experiments of this process. Returns its C++ handle."""
+    """Registers a problem under its name for all experiments of this process. Returns the C++ handle of the problem."""
     handle = handle_of(problem)
     if not isinstance(handle.original, Problem):
         return handle
@@ -143,7 +143,7 @@ def register(problem: AnyProblem) -> _core.ProblemHandle:
 
 
 _repeated = {"over", "set", "option", "library", "join"}
-"""Options that take one value each time; others take several, with commas between them."""
+"""Options that take one value each time. Other options take several values, separated by commas."""
 
 
 _without_folder = {"list", "new"}
@@ -175,13 +175,14 @@ def _arguments(options):
 def run(experiment: Experiment, problem: AnyProblem | Sequence[AnyProblem] | None = None, *,
         out: str | os.PathLike[str] = "results", name: str | None = None, arguments: Sequence[Any] = (),
         **options: Any) -> Results | None:
-    """Runs an experiment as the program does, on a problem, a name or a list of them, and returns its `Results`.
+    """Runs an experiment as the program does and returns its `Results`. problem: a problem, a name, or a list of these.
 
-    experiment: its name; help(dmocbench.names.Experiment) and `python3 -m dmocbench --help` list them. out: the folder of the
-    files that it writes, as the program does; name: the beginning of their names.
-    options as on the command line, without dashes: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False,
-    over=["length=0.9:1.1:3", "mass=1:2:2"]; run("solve", arguments=["--help"]) prints them all. arguments: further arguments of a
-    command line. Raises Error where the program would print an error, KeyboardInterrupt on Ctrl-C.
+    experiment: a name; help(dmocbench.names.Experiment) and `python3 -m dmocbench --help` list the names. out: the folder
+    of the written files; name: the beginning of their names.
+    options: as on the command line, without dashes: intervals=[16, 32], method=["dmoc", "tangent"], stages=2, polish=False,
+    over=["length=0.9:1.1:3", "mass=1:2:2"]; run("solve", arguments=["--help"]) prints all options of solve. arguments:
+    further arguments of the command line. Raises Error where the program would print an error, and KeyboardInterrupt
+    on Ctrl-C.
     """
     known = [program for program, _ in _core.programs()]
     if experiment not in known:
@@ -204,7 +205,7 @@ def run(experiment: Experiment, problem: AnyProblem | Sequence[AnyProblem] | Non
 
 
 def _results(out, name, problems, is_complete):
-    """The files of a run, as listed in its metadata; None if it writes no tables."""
+    """The files of a run, as listed in its metadata; None if the run writes no tables."""
     metadata = os.path.join(out, name + ".json")
     if not os.path.exists(metadata):
         return None
@@ -217,5 +218,5 @@ def _results(out, name, problems, is_complete):
 
 
 def convergence(problem: AnyProblem | Sequence[AnyProblem], **options: Any) -> Results | None:
-    """Errors over the step and fitted orders: run("convergence", problem, ...)."""
+    """Computes errors over the step size and fits orders: run("convergence", problem, ...)."""
     return run("convergence", problem, **options)

@@ -1,4 +1,4 @@
-"""Problems of several phases: the motion between switches, and the conditions at the switches."""
+"""Problems with several phases: the trajectories between switches, and the conditions at the switches."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .problem import Problem, _members, _parameters_of
 
 
 class PhaseEnd(Point):
-    """The state at an end of a phase: q, v and y as of `Point`, p: the momentum; t: the time since the start of the first phase."""
+    """The state at an end of a phase. q, v, y: as in `Point`; p: momentum; t: time since the start of the first phase."""
 
     __slots__ = ("p",)
 
@@ -24,7 +24,7 @@ class PhaseEnd(Point):
 
 
 class PhaseEnds:
-    """The ends of all phases: ends.NAME, or ends[i] in their order."""
+    """The ends of all phases: ends.NAME, or ends[i] in the order of the phases."""
 
     def __init__(self, names, ends):
         self._names = names
@@ -43,23 +43,23 @@ class PhaseEnds:
 
 
 class Phases(Problem):
-    """A problem of several phases that follow each other, each a problem of its own. The sum of their costs is minimised.
+    """A problem of several consecutive phases, each of which is a problem. The sum of the phases' costs is minimised.
 
-    Derive a class from it and state the phases in their order, as attributes that are objects of classes derived from
+    Derive a class from Phases and state the phases in order, as attributes that are objects of classes derived from
     Problem, or as phases = {"name": problem, ...}. A horizon = between(...) of a phase makes its duration an unknown,
     duration_NAME. The ends of a phase at a switch are open (`free`) where the switch determines them.
 
     Optional:
 
-    NAME_to_NAME(self, before, after) = 0: the conditions of a switch between two phases; link(self, before, after): of
-    all other switches. Default: `continuous`. There are also `momentum_kept`, `impact`, `dropped` and `new_foothold`.
-    conditions(self, first, last) = 0: conditions that read several ends, such as last.NAME.q or last[-1].t, the total
-    time.
-    follows = {"name": "name of the phase before"}: for branches.
-    Any number of parameters, and of `unknown`s such as impulses. source, reference, name.
+    NAME_to_NAME(self, before, after) = 0: the conditions of a switch between two phases; link(self, before, after) = 0: the
+    conditions of all other switches, by default `continuous`; see also `momentum_kept`, `impact`, `dropped`, `new_foothold`.
+    conditions(self, first, last) = 0: conditions that depend on several ends, such as last.NAME.q or last[-1].t, the
+    total time.
+    follows = {"name": "name of the previous phase"}: the order of phases with branches.
+    Any number of parameters and of `unknown`s, such as impulses; source, reference and name.
 
-    Coordinates, first-order states and controls of a solution have the name of the phase, `_` and their own name;
-    `Solution.phases` has the trajectory of every phase. Phases share parameters of the same name.
+    In a solution, coordinates, first-order states and controls are named PHASE_NAME, with the name of the phase in front.
+    `Solution.phases` has the trajectory of every phase. Phases share parameters with the same name.
     """
 
     _values: dict[str, float]
@@ -86,9 +86,9 @@ class Phases(Problem):
         found.update(self._value_of("phases") if getattr(self, "phases", None) is not None else {})
         for name, problem in found.items():
             if isinstance(problem, Phases):
-                raise Error(f"{self._problem_name()}: phase {name} has phases itself; state them all in one class")
+                raise Error(f"{self._problem_name()}: phase {name} has phases of its own; state all phases in one class")
             if not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
-                raise Error(f"{self._problem_name()}: phases have names such as \"fall\", not {name!r}")
+                raise Error(f"{self._problem_name()}: phases need names such as \"fall\", not {name!r}")
         return found
 
     def _phase_list(self):
@@ -97,7 +97,8 @@ class Phases(Problem):
         follows = getattr(self, "follows", {})
         for name in [*follows, *follows.values()]:
             if name not in names:
-                raise Error(f"{self._problem_name()}: follows refers to {name}, but the phases are {', '.join(names)}")
+                raise Error(f"{self._problem_name()}: follows refers to {name}, which is not a phase; the phases are "
+                            f"{', '.join(names)}")
         return [(name, _core.ProblemHandle(problem), names.index(follows[name]) if name in follows else None)
                 for name, problem in found.items()]
 
@@ -112,12 +113,12 @@ class Phases(Problem):
             raise Error(f"{name} has no phases; write fall = Flight(), with a class Flight derived from Problem")
         for member in sorted(_members - {"name", "source", "reference", "cost_scale"}):
             if getattr(self, member, None) is not None:
-                raise Error(f"{name} states {member}, which is not read; each phase states its own")
+                raise Error(f"{name} states {member}, which is not used; state it in each phase")
         names = list(self._stated_phases())
         for member in vars(type(self)):
             before, found, after = member.partition("_to_")
             if found and callable(getattr(self, member)) and not (before in names and after in names):
-                raise Error(f"{name}: {member} is not between two phases; choose one of {', '.join(names)}")
+                raise Error(f"{name}: {member} does not join two phases; the phases are {', '.join(names)}")
 
     def _stated_members(self):
         return [name for name in ("link", "conditions", "cost_scale") if getattr(self, name, None) is not None]
@@ -134,9 +135,9 @@ class Phases(Problem):
 
 
 class PhaseMotion:
-    """The part of one phase in a solution: arrays with a row per node in the time of the whole motion and the phase's own
-    velocities. t, q, v, p, psi_q, psi_p, y, psi_y; stages_t and u at the stages; duration; coordinates, controls and
-    first_order_states are names."""
+    """The trajectory of one phase in a solution. t, q, v, p, psi_q, psi_p, y, psi_y: arrays with a row per node, in the time of
+    the whole problem; stages_t, u: arrays with a row per stage; duration; coordinates, controls, first_order_states: lists of
+    names."""
 
     t: np.ndarray
     q: np.ndarray
@@ -166,31 +167,32 @@ class PhaseMotion:
 
 
 def continuous(before: PhaseEnd, after: PhaseEnd) -> Sequence[Any]:
-    """q, v and y are continuous. Where the inertia changes, p jumps."""
+    """A switch at which q, v and y are continuous; p jumps if the inertia changes."""
     return _core.continuous(before, after)
 
 
 def momentum_kept(before: PhaseEnd, after: PhaseEnd) -> Sequence[Any]:
-    """q, p and y are continuous, as in a docking. Where the inertia changes, v jumps."""
+    """A switch at which q, p and y are continuous, as in docking; v jumps if the inertia changes."""
     return _core.momentum_kept(before, after)
 
 
 def dropped(before: PhaseEnd, after: PhaseEnd, amount: Sequence[Any]) -> Sequence[Any]:
-    """q and v are continuous, and y falls by `amount`, one entry each: a stage takes its momentum with it."""
+    """A switch at which q and v are continuous and y falls by `amount` (an entry per state), as when a rocket drops a stage."""
     return _core.dropped(before, after, list(amount))
 
 
 def impact(before: PhaseEnd, after: PhaseEnd, guard: Callable[[Any], Any], restitution: Any, impulse: Any) -> Sequence[Any]:
-    """An impact on guard(q) = 0: q and y are continuous, p jumps by the gradient of the guard times `impulse`, an
-    `unknown` per guard, and the velocity along the gradient is reversed and reduced by `restitution`."""
+    """An impact on guard(q) = 0. q and y are continuous, p jumps by the gradient of the guard times `impulse` (an `unknown`
+    per guard), and the velocity along the gradient is reversed and multiplied by `restitution`."""
     names = before.q._names
     return _core.impact(before, after, lambda q: guard(named(q, names, "q")), restitution, impulse)
 
 
 def new_foothold(before: PhaseEnd, after: PhaseEnd, lagrangian: Callable[[Point], Any], on_old_foot: Callable[[Any], Any],
                  on_new_foot: Callable[[Any], Any]) -> Sequence[Any]:
-    """A new foot lands and stays, the old one leaves. lagrangian(x): of the body in coordinates in which no foot is held;
-    on_old_foot(q), on_new_foot(q): these coordinates as functions of the coordinates of the phases before and after."""
+    """A switch at which a new foot lands and stays while the old foot leaves. lagrangian(x): the Lagrangian in coordinates in
+    which no foot is held; on_old_foot(q), on_new_foot(q): these coordinates as functions of the phases' coordinates before
+    and after the switch."""
     return _core.new_foothold(before, after, lambda q, v, t, y: lagrangian(Point(named(q, (), "q"), named(v, (), "v"), None, t,
                                                                                  named(y, (), "y"))),
                               lambda q: on_old_foot(named(q, before.q._names, "q")),

@@ -1,4 +1,4 @@
-"""Pictures of solutions, drawn with matplotlib, which is imported on first use."""
+"""Draws pictures of solutions with matplotlib, which is imported on first use."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def pyplot() -> Any:
-    """matplotlib.pyplot. Raises Error with instructions if matplotlib is not installed."""
+    """Returns matplotlib.pyplot. Raises Error with instructions if matplotlib is not installed."""
     try:
         from matplotlib import pyplot as plt
     except ImportError:
@@ -69,7 +69,7 @@ Shape = Callable[[Any], Any]
 
 
 def _points_of_picture(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-    """Times and points (times x points x 2) of the pairs x, y or tip_x, tip_y in the problem's picture."""
+    """Times and points (times x points x 2) from the pairs x, y or tip_x, tip_y in the problem's picture."""
     columns, values = solution.picture
     names = [re.sub(r"_in_\w+$", "", column) for column in columns]  # without their units
     points = []
@@ -97,7 +97,7 @@ def animate(solution: Solution, shape: Shape | None = None, *, frames: int = 100
         places = np.array([np.asarray(shape(solution.at(t)), dtype=float) for t in times])
         if places.ndim != 3 or places.shape[2] != 2:
             raise Error(f"the function of animate() returns an array of the shape {places.shape[1:]}, expected points (x, y), "
-                        "a row each")
+                        "one per row")
     plt = pyplot()
     from matplotlib.animation import FuncAnimation
 

@@ -1,4 +1,4 @@
-"""Points at which formulas are stated or a solution is read: x.q.theta, x.q[0], x.v, x.u, x.t."""
+"""Points at which formulas are stated or solutions are evaluated: x.q.theta, x.q[0], x.v, x.u, x.t."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import numpy as np
 
 
 class Named(np.ndarray):
-    """A vector whose entries have names: q.theta is q[0]; of a table with a row per time, it is the column. Entries are
-    traced numbers in formulas, and floats of a solution. Results of computations have no names."""
+    """A vector whose entries have names: q.theta is q[0], or the column if q is a table with a row per time. Entries are
+    traced numbers in formulas and floats in a solution. Results of computations have no names."""
 
     def __array_finalize__(self, _source):
         self._names = ()
@@ -37,7 +37,7 @@ def named(entries, names, kind):
 
 
 def with_names(array, names, kind):
-    """The array with these names of its last axis."""
+    """The array with these names for the entries of its last axis."""
     view = array.view(Named)
     view._names = tuple(names)
     view._kind = kind
@@ -45,9 +45,9 @@ def with_names(array, names, kind):
 
 
 class Point:
-    """A state, at which a formula is stated, and the control that acts there.
+    """A state at which a formula is stated, and the control that acts there.
 
-    q: coordinates; v: their rates, by the same names; u: controls (not at the ends, nor in a Lagrangian); y:
+    q: coordinates; v: their rates, with the same names; u: controls (not at the ends and not in a Lagrangian); y:
     first-order states; t: time.
     """
 
@@ -63,9 +63,9 @@ class Point:
 
     def __getattr__(self, name):
         if name == "u":
-            raise AttributeError("there is no x.u here: the Lagrangian and formulas of the ends depend only on q, v, y and t")
+            raise AttributeError("there is no x.u here; the Lagrangian and formulas of ends depend only on q, v, y and t")
         for part in ("q", "u", "y"):
             if name in getattr(getattr(self, part, None), "_names", ()):
                 raise AttributeError(f"x has no {name}; write x.{part}.{name}" +
-                                     (f", and x.v.{name} for its rate" if part == "q" else ""))
+                                     (f" (x.v.{name} for its rate)" if part == "q" else ""))
         raise AttributeError(f"x has no {name}; it has q, v (the rates of q), u, y and t")

@@ -18,7 +18,7 @@ from .points import Named, Point, named
 _infinity = math.inf
 
 Numbers = Union[float, Sequence[float], Mapping[str, float], None]
-"""A number for every entry, a list of them, or a dict by the names of entries."""
+"""One number for all entries, a list of numbers, or a dict from names of entries to numbers."""
 
 # Members of the C++ class as messages name them, and as they are called here.
 _core.spell_members([
@@ -36,7 +36,7 @@ class _Vector:
     def __init__(self, kind, names, unit, bounds):
         for name in names:
             if not isinstance(name, str) or not name.isidentifier():
-                raise Error(f"{kind} have names such as \"theta\", not {name!r}")
+                raise Error(f"{kind} need names such as \"theta\", not {name!r}")
             if hasattr(Named, name):
                 raise Error(f"{kind} cannot be named {name}, which is already an attribute of numpy arrays")
         if len(set(names)) < len(names):
@@ -46,7 +46,7 @@ class _Vector:
         self.bounds = bounds
 
     def limits(self, part):
-        """Lower and upper bounds of a part, an array each."""
+        """Returns the arrays of lower and upper bounds of a part."""
         lower, upper = self.bounds[part]
         return (
             _numbers(lower, self.names, f"the lower bounds of {', '.join(self.names)}", -_infinity),
@@ -55,7 +55,7 @@ class _Vector:
 
 
 def _per_name(value, names, what, kind):
-    """A value for each name: one for all, a list, or a dict by names."""
+    """A value for each name, from one value for all, a list, or a dict by names."""
     if isinstance(value, kind):
         return [value] * len(names)
     if isinstance(value, dict):
@@ -76,11 +76,11 @@ def _require_known(given, names, what):
         if name not in names:
             close = difflib.get_close_matches(str(name), names, 1)
             hint = f"; did you mean {close[0]}?" if close else f"; the names are {', '.join(names) or 'none'}"
-            raise Error(f"{what} has an entry {name}, which is not a name{hint}")
+            raise Error(f"{what} has an unknown entry {name}{hint}")
 
 
 def _numbers(value, names, what, default):
-    """An array with a number for each name: of one for all, a list, or a dict by names; `default` where there is none."""
+    """An array with a number for each name, from one for all, a list, or a dict by names; `default` for missing ones."""
     if value is None:
         return np.full(len(names), float(default))
     if isinstance(value, dict):
@@ -103,8 +103,8 @@ def coordinates(*names: str, unit: str | Sequence[str] | Mapping[str, str] = "",
                 upper: Numbers = None, rate_lower: Numbers = None, rate_upper: Numbers = None) -> Any:
     """Declares the configuration q by the names of its entries.
 
-    unit: of each (for pictures and tables). lower, upper: bounds on q at every node; rate_lower, rate_upper: on q' at
-    every stage. Each is one number for all, a list, or a dict by names.
+    unit: the unit of each entry (for pictures and tables). lower, upper: bounds on q at every node; rate_lower, rate_upper:
+    bounds on q' at every stage. Each argument is one value for all entries, a list, or a dict by names.
     """
     return _Vector("coordinates", names, unit, {"q": (lower, upper), "v": (rate_lower, rate_upper)})
 
@@ -117,15 +117,15 @@ def controls(*names: str, unit: str | Sequence[str] | Mapping[str, str] = "", lo
 
 def first_order_states(*names: str, unit: str | Sequence[str] | Mapping[str, str] = "", lower: Numbers = None,
                        upper: Numbers = None) -> Any:
-    """Declares y by the names of its entries: quantities with a rate and no inertia, such as a mass or a current. Bounds
-    hold at every node, as for `coordinates`."""
+    """Declares first-order states y by the names of their entries: quantities with a rate but no inertia, such as a mass or a
+    current. Bounds hold at every node, as for `coordinates`."""
     return _Vector("first-order states", names, unit, {"y": (lower, upper)})
 
 
 class parameter:
-    """A number of a problem that its user may set: Pendulum(length=2.0), problem.length = 2.0, or --set length=2.
+    """A number of a problem that users may set: Pendulum(length=2.0), problem.length = 2.0, or --set length=2.
 
-    In formulas self.length is a number, or a formula where the parameter is kept open (`solve_batch`, sweeps).
+    In formulas, self.length is a number, or a formula if the parameter varies between instances (`solve_batch`, sweeps).
     """
 
     def __init__(self, value: float, unit: str = "", meaning: str = "", lower: float = -_infinity,
@@ -163,8 +163,8 @@ class parameter:
 
 
 class unknown(parameter):
-    """A parameter that a solve chooses within its range, starting at `guess`; `Solution.unknowns` has its value. Formulas
-    must depend on it; start, end, horizon and bounds use the guess."""
+    """A parameter that a solve chooses within its range, starting at `guess`. `Solution.unknowns` has the chosen value.
+    Formulas must depend on the parameter; start, end, horizon and bounds use the guess."""
 
     def __init__(self, guess: float, unit: str = "", meaning: str = "", lower: float = -_infinity,
                  upper: float = _infinity):
@@ -173,7 +173,7 @@ class unknown(parameter):
 
 
 class between:
-    """A number that is left open between two bounds. guess: the value at which solves start, by default the middle."""
+    """A number that a solve chooses between two bounds. guess: the value at which solves start, by default the middle."""
 
     def __init__(self, lower: float, upper: float, guess: float | None = None):
         self.lower = _number(lower, "between")
@@ -181,22 +181,22 @@ class between:
         if guess is None:
             guess = 0.5 * (self.lower + self.upper)
             if not math.isfinite(guess):
-                raise Error("between: with an infinite bound, guess= is needed")
+                raise Error("between: an infinite bound needs guess=")
         self.guess = _number(guess, "between: guess")
 
 
 class free(between):
-    """A number that is left open. guess: the value at which solves start."""
+    """A number that a solve chooses without bounds. guess: the value at which solves start."""
 
     def __init__(self, guess: float = 0.0):
         super().__init__(-_infinity, _infinity, guess)
 
 
 class state:
-    """A state at an end of the horizon, or at a waypoint: configuration q, rates v and first-order states y, each a list or a dict by
-    names.
+    """A state at an end of the horizon or at a waypoint. q, v, y: configuration, rates and first-order states, each as a list
+    or a dict by names.
 
-    Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None is at rest. A problem without
+    Entries are numbers, `free(guess)` or `between(lower, upper, guess)`. v=None means at rest. A problem without
     coordinates has only y.
     """
 
@@ -215,7 +215,7 @@ class state:
 def at_rest(*q: Any, **by_name: Any) -> state:
     """A state at rest: at_rest(theta=0.0), or at_rest([0.0, 1.0])."""
     if len(q) > 1 or (q and by_name):
-        raise Error("at_rest takes coordinates by their names, or one list of them")
+        raise Error("at_rest takes coordinates by name, or one list of coordinates")
     return state(q[0] if q else by_name)
 
 
@@ -228,7 +228,7 @@ def _end_part(part, names, what, is_rate=False):
         _require_known(part, names, what)
         missing = [name for name in names if name not in part]
         if missing and not is_rate:
-            raise Error(f"{what} lacks {', '.join(missing)}; write free() for entries left open")
+            raise Error(f"{what} lacks {', '.join(missing)}; write free() for free entries")
         part = [part.get(name, 0.0) for name in names]
     if isinstance(part, between):
         part = [part] * len(names)
@@ -248,21 +248,21 @@ def _fixed(value, what):
 
 
 class motion:
-    """A guess from arrays, linear between the times t. q: len(t) x n; v: by default the slopes of q; u: by
-    default 0; y: by default the straight line between the ends. Times are the problem's; for another horizon the motion
-    is stretched."""
+    """A guess from arrays, linear between the times t. q: an array len(t) x n; v: by default the slopes of q; u: by
+    default 0; y: by default the straight line between the ends. t is in the problem's time; for a different horizon, the
+    guess is stretched."""
 
     def __init__(self, t: Any, q: Any, v: Any = None, u: Any = None, y: Any = None):
         self.t = np.asarray(t, dtype=float)
         if self.t.ndim != 1 or len(self.t) < 2 or not np.all(np.diff(self.t) > 0.0):
-            raise Error("motion: t must be at least two times that ascend")
+            raise Error("motion: t must have at least two times, in ascending order")
         self.q = _table(q, self.t, "q")
         self.v = np.gradient(self.q, self.t, axis=0) if v is None else _table(v, self.t, "v")
         self.u = None if u is None else _table(u, self.t, "u")
         self.y = None if y is None else _table(y, self.t, "y")
 
     def at(self, t, horizon):
-        """(q, v, u, y) at a time; None where there is no table."""
+        """(q, v, u, y) at a time; None for missing tables."""
         t = self.t[0] + t / horizon * (self.t[-1] - self.t[0])
         return tuple(None if part is None else np.array([np.interp(t, self.t, column) for column in part.T])
                      for part in (self.q, self.v, self.u, self.y))
@@ -285,39 +285,43 @@ _members = _declared | _formulas
 
 
 class Problem:
-    """A mechanical optimal control problem: minimise the integral of `running_cost` and `final_cost`.
+    """A mechanical optimal control problem: minimise the integral of `running_cost` plus `final_cost`.
 
-    Derive a class from it and state
+    Derive a class from Problem and state
 
-    q = coordinates("theta", ...), u = controls("tau", ...) (may be left out), any number of `parameter`s; without q, only
-    y, where all methods have the same solution;
-    horizon: a number, or between(lower, upper, guess) for one that is free;
-    start, end: a `state` or `at_rest`;
+    q = coordinates("theta", ...), u = controls("tau", ...) (may be left out), any number of `parameter`s; a problem
+    without q has only y, and all methods then have the same solution;
+    horizon: a number, or between(lower, upper, guess) for a free horizon;
+    start, end: a `state` or `at_rest` each;
     lagrangian(self, x): L(q, v, t); force(self, x): the generalised force, n entries (may be left out);
     running_cost(self, x): the integrand of the cost.
 
     Optional:
 
-    final_cost(self, last): a cost of the end, where last.t is the horizon; boundary_conditions(self, first, last) = 0;
-    constraints(self, q) = 0 of a mechanism in redundant coordinates; velocity_constraints(self, q, v) = 0, linear in v, of
-    wheels and blades;
-    path_constraints(self, x) >= 0, which may read self.constraint_multipliers(x), or between bounds = {"path": (lower, upper)}; equal bounds make an equality;
-    waypoints: a dict of shares of the horizon to state(...), conditions at these times; parts and entries that are left out
-    are open;
-    integrands(self, x): their integrals over the horizon are between bounds = {"integrals": (lower, upper)};
-    y = first_order_states("mass", ...) with first_order_rates(self, x), read as x.y.mass: quantities with a rate, but no
+    final_cost(self, last): the cost of the final state, where last.t is the horizon;
+    boundary_conditions(self, first, last) = 0: conditions on both ends;
+    constraints(self, q) = 0: constraints of a mechanism in redundant coordinates; velocity_constraints(self, q, v) = 0:
+    constraints that are linear in v, as for wheels and blades;
+    path_constraints(self, x) >= 0, or within bounds = {"path": (lower, upper)}, where equal bounds make an equality; they may
+    use self.constraint_multipliers(x);
+    waypoints: a dict from shares of the horizon to state(...), the conditions at these times; omitted parts and entries are
+    free;
+    integrands(self, x): functions whose integrals over the horizon lie within bounds = {"integrals": (lower, upper)};
+    y = first_order_states("mass", ...) with first_order_rates(self, x), used as x.y.mass: quantities with a rate but no
     inertia; L is varied with y held fixed;
     any number of `unknown`s: parameters that a solve chooses;
-    bounds: a dict of "q", "v", "u", "y", "path" or "integrals" to (lower, upper), for the latter two and for bounds that
-    depend on parameters; each side is one number for all entries, a list, a dict by names, or None;
-    guess(self, t) -> (q, v), (q, v, u) or (q, v, u, y), or a `motion`: where solves start;
-    symmetry(self, q): the generator of a group action, n entries; cost_scale: the factor by which solvers see the cost;
-    picture(self, x): a dict of a name to a formula or (formula, unit); name, source, time_unit ("s", 1.0), reference
+    bounds: a dict from "q", "v", "u", "y", "path" or "integrals" to (lower, upper), needed for the latter two and for bounds
+    that depend on parameters; each side is one number for all entries, a list, a dict by names, or None;
+    guess(self, t) -> (q, v), (q, v, u) or (q, v, u, y), or a `motion`: the trajectory at which solves start;
+    symmetry(self, q): the generator of a group action, n entries;
+    cost_scale: the factor by which the cost is multiplied for solvers;
+    picture(self, x): a dict from names to a formula or (formula, unit); name, source, time_unit ("s", 1.0), reference
     (cost, digits, certificate), path_constraint_names, boundary_condition_names: words for tables and figures.
 
-    start, end, horizon, bounds, waypoints and cost_scale may be methods too, where they depend on parameters. The docstring of the
-    class is the description. Formulas are traced once: they may loop and call functions, but not branch on x. They may
-    contain functions of dmocbench (sin, sqrt, smooth_abs, Spline, ...), the same ones of numpy, and arrays of formulas.
+    start, end, horizon, bounds, waypoints and cost_scale may also be methods if they depend on parameters. The docstring
+    of the class describes the problem. Formulas are traced once: they may contain loops and function calls, but may not
+    branch on x. They may contain functions of dmocbench (sin, sqrt, smooth_abs, Spline, ...), the same functions of numpy,
+    and arrays of formulas.
     """
 
     q: Any
@@ -356,11 +360,11 @@ class Problem:
             raise Error(f"{self._problem_name()} has no parameter {name}; it has {', '.join(names) or 'none'}")
 
     def constraint_multipliers(self, x):
-        """The multipliers of `constraints`, then of `velocity_constraints`, as formulas of x, for path_constraints. The force
-        on the motion is minus the gradients times the multipliers."""
+        """The multipliers of `constraints`, followed by the multipliers of `velocity_constraints`, as formulas of x for use in
+        path_constraints. The force on the system is minus the gradients times the multipliers."""
         reader = self.__dict__.get("_reader")
         if reader is None:
-            raise Error("constraint_multipliers can be read only in path_constraints while the problem is solved")
+            raise Error("constraint_multipliers can be used only in path_constraints while the problem is solved")
         return reader.constraint_multipliers(x.q, x.v, x.u, x.y, x.t)
 
     def _bound(self, reader):
@@ -437,7 +441,7 @@ class Problem:
     def _horizon(self):
         horizon = self._value_of("horizon")
         if isinstance(horizon, free):
-            raise Error("horizon is free(...), but needs bounds; write between(lower, upper, guess), where lower > 0")
+            raise Error("horizon is free(...), but it needs bounds; write between(lower, upper, guess), where lower > 0")
         if isinstance(horizon, between):
             return horizon.guess, horizon.lower, horizon.upper
         number = _number(horizon, "horizon")
@@ -464,7 +468,7 @@ class Problem:
         return bounds
 
     def _waypoints(self):
-        """(share of the horizon, (lower, upper) of the parts that are given) in the order of time."""
+        """A list of (share of the horizon, bounds of the given parts), in the order of time."""
         stated = self._value_of("waypoints") if getattr(self, "waypoints", None) is not None else {}
         if not isinstance(stated, dict):
             raise Error(f"waypoints is {type(stated).__name__}, expected a dict such as {{0.5: state(q)}}")
@@ -486,7 +490,7 @@ class Problem:
         return sorted(result, key=lambda entry: entry[0])
 
     def _bounds_of_formulas(self, limits, what, part):
-        """Lower and upper bounds, an entry each, or one for all."""
+        """Lower and upper bounds, with an entry per formula, or one for all formulas."""
         if getattr(self, {"path": "path_constraints", "integrals": "integrands"}[part], None) is None:
             raise Error(f"{what} has nothing to bound; write path_constraints(self, x) or integrands(self, x)")
         names = list(getattr(self, "path_constraint_names", [])) if part == "path" else []
@@ -498,7 +502,7 @@ class Problem:
                 entries = [default if side is None else side] if np.ndim(side) == 0 else side
                 sides.append(np.array([_number(entry, what) for entry in entries]))
         if 1 not in map(len, sides) and len(sides[0]) != len(sides[1]):
-            raise Error(f"{what} has {len(sides[0])} lower and {len(sides[1])} upper bounds")
+            raise Error(f"{what} has {len(sides[0])} lower but {len(sides[1])} upper bounds; give equal numbers")
         return tuple(np.broadcast_arrays(*sides))
 
     def _numbers(self):
@@ -556,7 +560,8 @@ class Problem:
 
     def _picture(self, x):
         if getattr(self, "picture", None) is None:
-            pairs = [(getattr(self, "q", None) or coordinates(), x.q), (self._first_order_states(), x.y), (self._controls(), x.u)]
+            pairs = [(getattr(self, "q", None) or coordinates(), x.q), (self._first_order_states(), x.y),
+                     (self._controls(), x.u)]
             return [(name, unit, value) for declared, values in pairs
                     for name, unit, value in zip(declared.names, declared.units, values)]
         quantities = self.picture(x)
@@ -565,7 +570,7 @@ class Problem:
 
 
 def _parameters_of(cls):
-    """All parameters of a class by name, parameters of its bases first."""
+    """All parameters of a class by name; the parameters of its base classes come first."""
     found = {}
     for base in reversed(cls.__mro__):
         found.update({name: value for name, value in vars(base).items() if isinstance(value, parameter)})
@@ -611,4 +616,4 @@ def _refuse_misspelt(problem, name):
                 continue
             close = difflib.get_close_matches(member, _members, 1, cutoff=0.85)
             if close and getattr(problem, close[0], None) is None:
-                raise Error(f"{name} has a member {member}, which is not read; did you mean {close[0]}?")
+                raise Error(f"{name} has a member {member}, which is not used; did you mean {close[0]}?")

@@ -1,4 +1,4 @@
-"""Solving one problem, or many instances of it."""
+"""Solves one problem, or many instances of a problem."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .words import arguments_of_solve, in_words_of_python, spelt
 
 
 class NamedProblem:
-    """A built-in problem or a problem of a library, with values of its parameters: problem("cart_pole", mass=2)."""
+    """A built-in problem or a problem from a library, with values of its parameters: problem("cart_pole", mass=2)."""
 
     def __init__(self, name, **values):
         with in_words_of_python():
@@ -52,7 +52,7 @@ def _named_problem(name, values):
 
 
 def problem(name: str, **values: float) -> NamedProblem:
-    """The named problem, built in or from a library, with these values of its parameters."""
+    """Returns the named problem, built in or from a library, with these values of its parameters."""
     return NamedProblem(name, **values)
 
 
@@ -66,7 +66,7 @@ def handle_of(problem: AnyProblem) -> _core.ProblemHandle:
     elif inspect.isclass(problem) and issubclass(problem, Problem):
         problem = problem()
     if not isinstance(problem, (Problem, NamedProblem)):
-        raise Error(f"expected a problem, or its name, not {problem!r}")
+        raise Error(f"expected a problem or the name of a problem, not {problem!r}")
     return problem.handle()
 
 
@@ -82,7 +82,7 @@ def _fill(request, given):
 
 
 class Stages:
-    """Values at the stages of all intervals, a row each: t, q, v, u, p, y, psi_q, psi_p."""
+    """Values at the stages of all intervals, with a row per stage: t, q, v, u, p, y, psi_q, psi_p."""
 
     t: np.ndarray | None
     q: np.ndarray | None
@@ -103,13 +103,15 @@ class Stages:
 
 
 class Prices:
-    """The increase of the optimal cost per unit of the active bound: positive for a lower bound, negative for an upper
-    one, 0 where none is active. None where there are no such bounds, or the solve ended without multipliers.
+    """The prices of bounds. A price is the increase of the optimal cost per unit of the active bound: positive for a lower
+    bound, negative for an upper bound, 0 where no bound is active. A price is None if there are no such bounds or the solve
+    ended without multipliers.
 
-    q, v, y: of bounds at the nodes, a row each. stage_v, stage_u, path: of bounds of velocities, controls and path
-    constraints at the stages, per unit of time: moving the bound by e(t) changes the optimal cost by the sum of
-    h b_i price_i e(t_i). unknowns: a dict, of the ranges of parameters that the solve chose. horizon: of the bounds of T, 0
-    where it is given. Prices of integrals are in `Solution.integral_prices`; values that are given at the ends have costates.
+    q, v, y: prices of bounds at the nodes, with a row per node. stage_v, stage_u, path: prices of bounds on velocities,
+    controls and path constraints at the stages, per unit of time: moving the bound by e(t) changes the optimal cost by the
+    sum of h b_i price_i e(t_i). unknowns: a dict of the prices of the ranges of parameters that the solve chose. horizon: the
+    price of the bounds on T, 0 if T is fixed. Prices of integrals are in `Solution.integral_prices`; fixed values at the ends
+    have costates.
     """
 
     q: np.ndarray | None
@@ -133,15 +135,16 @@ class Prices:
 
 
 class Solution:
-    """A solution: numbers, and arrays of the trajectory with a row per node (a row per stage in `stages`).
+    """A solution: numbers, and arrays of the trajectory with a row per node (or, in `stages`, a row per stage).
 
     status, message, is_solved; cost, iterations, seconds, setup_seconds, kkt_residual, constraint_violation,
-    relative_jump, replay_error (norm of the distance from the end when the controls are replayed; printed by unit),
+    relative_jump, replay_error (norm of the distance from the final state after a replay; printed by unit),
     largest_violation (of bounds and path constraints along the whole trajectory); t, q, v, p, psi_q, psi_p,
     psi = (psi_q, psi_p); stages.t, .q, .v, .u, .p.
-    With first-order states y, psi_y and stages.y; unknowns: a dict of the parameters that the solve chose; integrals, and
-    integral_prices: the increase of the optimal cost per unit of the active bound; prices: of all other bounds (`Prices`).
-    None if the solve ended without it. Arrays are views of C++ results; they may outlive the solution.
+    With first-order states: y, psi_y and stages.y. unknowns: a dict of the parameters that the solve chose; integrals;
+    integral_prices: the increase of the optimal cost per unit of the active bound; prices: the same for all other bounds
+    (`Prices`). An attribute is None if the solve ended without it. Arrays are views of C++ results and may outlive the
+    solution.
     """
 
     problem: str
@@ -191,7 +194,7 @@ class Solution:
         if name.startswith("_"):
             raise AttributeError(name)
         if name == "u":
-            raise AttributeError("a Solution has no u; controls act at stages: write solution.stages.u, at solution.stages.t")
+            raise AttributeError("a Solution has no u; controls act at stages; write solution.stages.u and solution.stages.t")
         if name in self.coordinates + self.first_order_states + self.controls:
             raise AttributeError(f"a Solution has no {name}; write solution.column(\"{name}\")")
         raise AttributeError(f"a Solution has no {name}; it has {', '.join(type(self).__annotations__)}, stages, prices, psi, "
@@ -199,11 +202,11 @@ class Solution:
 
     @property
     def message(self) -> str:
-        """The outcome of the solve, in a sentence."""
+        """The outcome of the solve as a sentence."""
         return spelt(self._answer.message, arguments_of_solve)
 
     def estimated_error(self) -> float:
-        """The estimated relative error of q, p and cost, from this solution alone. Raises Error if the solve failed, the
+        """The relative error of q, p and cost, estimated from this solution alone. Raises Error if the solve failed, the
         horizon is free, bounds or path constraints are active, or there are first-order states, unknowns or integrals."""
         with in_words_of_python(arguments_of_solve):
             return self._answer.estimated_error()
@@ -218,7 +221,7 @@ class Solution:
 
     @property
     def phases(self) -> dict[str, PhaseMotion]:
-        """The trajectory of every phase of a problem of several phases, by its name."""
+        """The trajectories of the phases of a problem with several phases, by the names of the phases."""
         return {name: PhaseMotion(arrays) for name, arrays in self._answer.phases.items()}
 
     @property
@@ -242,8 +245,9 @@ class Solution:
 
     def at(self, t: Any) -> Point:
         """The trajectory at a time, or at an array of times, as a point x: x.q, x.v, x.u, x.y, by index or by name, as in
-        formulas; a row per time of an array. q is piecewise cubic and v its derivative; u is linear between the stages, or the
-        polynomial through the stages of an interval; y is linear between the nodes. Raises Error outside of the horizon."""
+        formulas. For an array of times, x has a row per time. q is piecewise cubic and v is its derivative; u is linear between
+        the stages, or the polynomial through the stages of an interval; y is linear between the nodes. Raises Error outside
+        the horizon."""
         if self._answer.motion is None:
             raise Error(f"{self.status}: the solution has no trajectory")
         times = np.asarray(t, dtype=float)
@@ -254,25 +258,26 @@ class Solution:
         return Point(q, v, u, t, y)
 
     def plot(self, *names: str) -> Any:
-        """Draws coordinates, first-order states and controls over time with matplotlib, a panel for each unit: lines are the
-        trajectory (`at`), dots its nodes and stages. names: only these. Returns the axes, as an array; in a script,
+        """Draws coordinates, first-order states and controls over time with matplotlib, with a panel for each unit. Lines
+        are the trajectory (`at`), dots its nodes and stages. names: draw only these. Returns an array of the axes; in a script,
         matplotlib.pyplot.show() opens the window, and axes[0].figure.savefig("solution.png") writes a file."""
         return plotting.plot(self, *names)
 
     def animate(self, shape: Callable[[Any], Any] | None = None, *, frames: int = 100, seconds: float | None = None) -> Any:
-        """A matplotlib animation of the trajectory. shape: a function of a point x (`at`) that returns the points (x, y) of a
-        line, such as the joints of an arm; without one the points of the problem's picture. seconds: its duration, by
-        default as long as the horizon. Keep a reference to the returned animation; its save("motion.gif") writes a file, and
-        IPython.display.HTML(animation.to_jshtml()) shows it in a notebook."""
+        """Returns a matplotlib animation of the trajectory. shape: a function of a point x (`at`) that returns the points
+        (x, y) of a line, such as the joints of an arm; by default the points of the problem's picture. seconds: the duration
+        of the animation, by default the horizon. Keep a reference to the returned animation; its save("motion.gif") writes a
+        file, and IPython.display.HTML(animation.to_jshtml()) shows it in a notebook."""
         return plotting.animate(self, shape, frames=frames, seconds=seconds)
 
     def to_pandas(self, at: str = "nodes") -> Any:
-        """A pandas DataFrame with named columns. at="nodes": a row per node with t, q, rate_NAME, momentum_NAME, y and the controls
-        at the nodes (`at`); at="stages": a row per stage with t, q, rate_NAME, momentum_NAME, y and the controls as solved."""
+        """Returns a pandas DataFrame with named columns. at="nodes": a row per node with t, q, rate_NAME, momentum_NAME, y and
+        the controls at the nodes (`at`); at="stages": a row per stage with t, q, rate_NAME, momentum_NAME, y and the controls
+        as solved."""
         import pandas
 
         if at not in ("nodes", "stages"):
-            raise Error(f'at={at!r} is neither "nodes" nor "stages"')
+            raise Error(f'at= takes "nodes" or "stages", not {at!r}')
         part: Any = self if at == "nodes" else self.stages
         if part.t is None:
             raise Error(f"{self.status}: the solution has no trajectory")
@@ -291,7 +296,7 @@ class Solution:
         return Solution(self._answer)
 
     def __getstate__(self) -> dict[str, Any]:
-        """All numbers, including those computed on first use, but not the problem."""
+        """All numbers, including numbers that are computed on first use, but not the problem."""
         if isinstance(self._answer, _Kept):
             return dict(vars(self._answer))
         state = {name: getattr(self._answer, name) for name, value in vars(_core.Answer).items() if isinstance(value, property)}
@@ -342,7 +347,7 @@ _arrays = {"t", "q", "v", "p", "y", "psi_q", "psi_p", "psi_y", "integrals", "int
 
 
 class _Kept(types.SimpleNamespace):
-    """The contents of a pickled solution, in place of the solution of C++."""
+    """The contents of a pickled solution, in place of the C++ solution."""
 
     def estimated_error(self):
         if isinstance(self.error, str):
@@ -354,18 +359,19 @@ class _Kept(types.SimpleNamespace):
 _remedies = {
     "none": "",
     "more_time": "more time (most_seconds=) or fewer intervals.",
-    "finite_formula": "bounds that keep the coordinates away from the singularity of that formula, and a guess within them.",
+    "finite_formula": "bounds that keep the coordinates away from that formula's singularity, and a guess within these bounds.",
     "radians": "radians: {coordinate} changes by {size:g}, which looks like an angle in degrees.",
-    "other_units": "other units: {coordinate} is about {size:.1g}, {smallest} about {smallest_size:.1g}; sizes near 1 suit solvers.",
+    "other_units": "other units: {coordinate} is about {size:.1g}, {smallest} about {smallest_size:.1g}; sizes near 1 suit "
+                   "solvers.",
     "longer_horizon": "a longer horizon than T = {size:g}, or wider bounds: the ends may be out of reach.",
     "longer_phases": "longer phases, or wider bounds: the ends may be out of reach.",
     "solver_auto": "solver=\"auto\".",
-    "several_solvers": "solver=\"auto\": interior_point, then ipopt, then a feasible trajectory as the start.",
-    "common_start": "another start: start= with a solution by another method.",
+    "several_solvers": "solver=\"auto\": interior_point, then ipopt, then a solve from a feasible trajectory.",
+    "common_start": "another start, such as start= with a solution by a different method.",
     "another_guess": "another guess, or start= with a solution near the one you want.",
     "finer_grid": "accuracy=1e-4, or more intervals: with these controls {coordinate} misses its final value by {size:.2g} of "
                   "its range.",
-    "feedback": "feedback to follow this trajectory. The system is unstable: with these controls alone {coordinate} misses its "
+    "feedback": "feedback to follow this trajectory. The system is unstable: without feedback, {coordinate} misses its "
                 "final value by {size:.2g} of its range.",
 }
 
@@ -376,13 +382,13 @@ class Iteration(NamedTuple):
     solver: str
     """The running solver; "auto" tries several in turn."""
     number: int
-    """Counts from 1 and starts again with every grid and solver."""
+    """The number of the iteration; counting restarts at 1 with every grid and solver."""
     cost: float
     """The cost at the iterate."""
     violation: float
     """The largest violation of a constraint of the discrete program."""
     stationarity: float
-    """The largest entry of the gradient of the Lagrangian, as the solver measures it."""
+    """The largest entry of the gradient of the Lagrangian, as measured by the solver."""
 
 
 Start = Union["Solution", motion, Sequence[Any]]
@@ -419,33 +425,34 @@ def solve(problem: AnyProblem, method: Method = "dmoc", *, intervals: int = 128,
 
     problem: an instance of a class derived from Problem, the class, a `problem(...)` or the name of a built-in problem.
     method: the transcription. "dmoc"; "hamiltonian" or "tangent" collocation; "multiple_shooting_rk4_1" and
-        "single_shooting_rk4_1", where the last parts are the integrator, rk4 or midpoint, and its steps per interval;
+        "single_shooting_rk4_1", where the last parts are the integrator (rk4 or midpoint) and its steps per interval;
         "galerkin_1_1", where the last parts are the degree of q and the control nodes per interval, and tableau= and stages=
-        are the quadrature. `methods()` lists them.
+        choose the quadrature. `methods()` lists them.
     intervals: N, the number of intervals of a uniform grid.
-    tableau: "gauss", "lobatto" or "lobatto_shared" (one control where two intervals meet): the times of the stages in an
-        interval. Shooting has its own integrator and uses only the stages of the control from it.
-    stages: s, the stages per interval: 1 to 4 with "gauss", 2 to 4 with "lobatto". The order is 2s or 2s - 2.
+    tableau: the times of the stages in an interval: "gauss", "lobatto" or "lobatto_shared" (one control where two intervals
+        meet). Shooting has its own integrator and uses the tableau only for the stages of the control.
+    stages: the number s of stages per interval: 1 to 4 with "gauss" (order 2s), 2 to 4 with "lobatto" (order 2s - 2).
     solver: "auto" (interior_point, then ipopt, then another start), "interior_point" (ours, which uses the structure of the
         program), "ipopt", "sqp" (ours, an active-set method) or "nlopt" (SLSQP, for small programs).
-    start: the start of the solve, by default the guess of the problem: a Solution, also of another grid, method or problem with
-        the same coordinates and controls, whose costates are used too; a `motion`; or arrays (t, q, v, u), of which v and u
-        may be left out, t ascending, a row of the others per time.
-    accuracy: the estimated relative error of q, p and cost at which to stop, 1e-14 to 0.1: the grid is refined until it is
-        reached; iterations and seconds include all grids. None: one grid.
-    refinement: the quantities that accuracy= refines: "h", the steps, or "hp", also the stages, up to three.
-    nodes: relative times of the nodes from 0 to 1, ascending, instead of intervals=.
-    tolerance: for the residual of the optimality conditions of the scaled program, by default 1e-10.
-    most_iterations: of the solver, by default 500; a solve that reaches it has the status "iteration limit".
-    most_seconds: of the call with its set-up and all grids, 0 for no limit; a solve that reaches it has the status "time limit"
-        and returns the last solution.
-    derivatives: their source: "tape" (exact, the fastest), "adolc" or "adolc_whole" (by ADOL-C, where it was
-        built in), "finite_differences" (central), "forward_differences" or "dense_differences".
-    form: the form of the cost: "bolza" (a sum), or "mayer" (one more unknown per node, the cost so far).
-    verbose: prints the solver's own output, and a line per grid with accuracy=.
-    options: of the solver, by name, such as {"mu_strategy": "adaptive"} for "ipopt".
-    callback: called with an `Iteration` after each iteration; if it returns a true value, the solve ends with the status
-        "interrupted", and the solution is the last iterate.
+    start: the start of the solve, by default the guess of the problem: a Solution (its grid, method or problem may be
+        different, with the same coordinates and controls; its costates are used too); a `motion`; or arrays (t, q, v, u) with
+        ascending t and a row per time, where v and u may be left out.
+    accuracy: the estimated relative error of q, p and cost at which to stop, 1e-14 to 0.1. The grid is refined until this
+        error is reached; iterations and seconds include all grids. None: solve on one grid.
+    refinement: the quantities that accuracy= refines: "h" (the steps) or "hp" (the steps and up to three stages).
+    nodes: relative times of the nodes, ascending from 0 to 1, instead of intervals=.
+    tolerance: the limit for the residual of the optimality conditions of the scaled program, by default 1e-10.
+    most_iterations: the limit for iterations of the solver, by default 500; a solve that reaches it has the status
+        "iteration limit".
+    most_seconds: the time limit for the call, including set-up and all grids; 0: no limit. A solve that reaches it has the
+        status "time limit" and returns the last solution.
+    derivatives: the source of derivatives: "tape" (exact, the fastest), "adolc" or "adolc_whole" (by ADOL-C, if built in),
+        "finite_differences" (central), "forward_differences" or "dense_differences".
+    form: the form of the cost: "bolza" (a sum), or "mayer" (one more unknown per node: the accumulated cost).
+    verbose: print the solver's own output and, with accuracy=, a line per grid.
+    options: options of the solver by name, such as {"mu_strategy": "adaptive"} for "ipopt".
+    callback: a function that is called with an `Iteration` after each iteration; if it returns a true value, the solve ends
+        with the status "interrupted", and the solution is the last iterate.
     """
     handle = handle_of(problem)
     given = {"method": method, "intervals": intervals, "tableau": tableau, "stages": stages, "solver": solver,
@@ -463,8 +470,8 @@ def solve(problem: AnyProblem, method: Method = "dmoc", *, intervals: int = 128,
 
 
 class Batch:
-    """Solutions of many instances, a row each: cost, status, is_solved, iterations; with motions=True also q (instances x
-    nodes x n) and u (instances x stages of all intervals x m), NaN where there is none."""
+    """Solutions of many instances, with an entry per instance: cost, status, is_solved, iterations; with motions=True also q
+    (instances x nodes x n) and u (instances x stages of all intervals x m), which are NaN for instances without a solution."""
 
     cost: np.ndarray
     status: np.ndarray
@@ -494,11 +501,11 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
                 threads: int = 0, motions: bool = False) -> Batch:
     """Solves many instances of one problem, eight side by side in vector registers, on all processors.
 
-    parameters: a dict of names to arrays, one number per instance; start, end: arrays of states (q, v), a row of 2n
-    numbers per instance. Missing values are the problem's. Both ends and the horizon must be fixed. Each instance starts
-    at its own guess; run("sweep") starts all from one trajectory and may end in other minima. most_seconds: of the
-    whole batch, 0 for no limit; other instances then have the status "time limit". Returns a `Batch`. Raises Error
-    on misuse.
+    parameters: a dict from names to arrays with one number per instance; start, end: arrays of states (q, v) with a row of
+    2n numbers per instance. Missing values are taken from the problem. Both ends and the horizon must be fixed. Each instance
+    starts at its own guess; run("sweep") starts all instances from one trajectory and may find other minima. most_seconds:
+    the time limit for the whole batch, 0 for no limit; unfinished instances have the status "time limit". Returns a `Batch`.
+    Raises Error on misuse.
     """
     handle = handle_of(problem)
     n, m = len(handle.coordinates), len(handle.controls)
@@ -506,8 +513,8 @@ def solve_batch(problem: AnyProblem, *, parameters: Mapping[str, Any] | None = N
     tables = [np.zeros((0, 2 * n)) if table is None else np.asarray(table, dtype=float) for table in (start, end)]
     for name, table in zip(("start", "end"), tables):
         if table.ndim != 2:
-            raise Error(f"solve_batch: {name} has {table.ndim} dimensions, expected a row of {2 * n} numbers (q, v) per "
-                        "instance")
+            raise Error(f"solve_batch: {name} has {table.ndim} dimensions, expected 2: a row of {2 * n} numbers (q, v) "
+                        "per instance")
     counts = {len(values) for values in columns.values()} | {len(table) for table in tables if len(table)}
     if len(counts) != 1:
         raise Error("solve_batch: arrays of parameters, start and end must have the same number of instances, got "

@@ -1,4 +1,4 @@
-"""Messages of C++ in the words of Python: name= and not --name."""
+"""Restates messages from C++ in the words of Python: name= instead of --name."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ arguments_of_solve = {"seconds": "most_seconds", "iterations": "most_iterations"
 
 
 def spelt(sentence: str, renamed: Mapping[str, str] = {}) -> str:
-    """A sentence about options of a program, restated with arguments; `renamed`: options with other names."""
+    """Restates a sentence about options of a program with arguments. renamed: the options with different names."""
 
     def argument(match: re.Match[str]) -> str:
         name, value = match["name"].replace("-", "_"), match["value"]
