@@ -296,7 +296,7 @@ ExpressionVector TracedProblem::parameters() const {
 void TracedProblem::require_first_order(Eigen::Index given) const {
   if (given == l_) return;
   throw Error(
-      fmt::format("this method does not support first-order states ({}); dmoc, hamiltonian, tangent and galerkin do",
+      fmt::format("this method does not support first-order states ({}); choose dmoc, hamiltonian, tangent or galerkin",
                   member_name("Problem::first_order_names")));
 }
 

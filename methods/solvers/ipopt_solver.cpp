@@ -315,7 +315,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& o
   application->RethrowNonIpoptException(true);
   set_options(*application, options, named);
   if (application->Initialize("") != Ipopt::Solve_Succeeded) {
-    throw Error("Ipopt rejects one of the options passed on to it");
+    throw Error("Ipopt rejects one of the options passed to it");
   }
   return application;
 }

@@ -204,7 +204,7 @@ TEST_F(WiderStatementsRefused, UnknownThatAFormulaReadsAsANumber) {
       return parameter("a") * x.u[0] * x.u[0];
     }
   };
-  EXPECT_EQ(sentence(Number()), "number: a formula reads the unknown a with parameter(), as a number; use varying()");
+  EXPECT_EQ(sentence(Number()), "number: a formula reads the unknown a as a number, with parameter(); use varying()");
 }
 
 TEST_F(WiderStatementsRefused, BoundsOfAnotherSize) {

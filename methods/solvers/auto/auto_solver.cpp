@@ -49,8 +49,8 @@ class AutoRun final : public PreparedRun {
     if (moved.size() > 0) {
       continue_with(0, moved, solution);
       solution.failed_before =
-          "interior_point and ipopt failed; interior_point restarted near the guess, at which derivatives of a "
-          "violated path constraint vanish.";
+          "interior_point and ipopt failed; interior_point restarted near the guess, where derivatives of a violated "
+          "path constraint vanish.";
       if (!leaves_hope(solution.status)) return;
     }
     const Eigen::VectorXd feasible = feasible_point(program_, options_, start);
