@@ -153,8 +153,8 @@ TEST(GalerkinOptions, RefuseANumberThatIsInNoCombination) {
     change(options);
     expect_error_naming({because}, [&] { static_cast<void>(expand_cases(options)); });
   };
-  refuses("degree 2 needs 2 quadrature points", [](ExperimentOptions& options) { options.points = {1}; });
-  refuses("3 control nodes needs 3", [](ExperimentOptions& options) {
+  refuses("degree 2 needs at least 2 quadrature points", [](ExperimentOptions& options) { options.points = {1}; });
+  refuses("3 control nodes needs at least 3", [](ExperimentOptions& options) {
     options.points = {2};
     options.control_nodes = {1, 3};
   });

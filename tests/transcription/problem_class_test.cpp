@@ -359,12 +359,12 @@ TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
   // The guess is q = t: sqrt(q - 0.6) is not a number before t = 0.6.
   EXPECT_NE(sentence([](Statement& s) {
               s.running_cost = [](const ControlledState& x) { return sqrt(x.q[0] - 0.6) + x.u[0] * x.u[0]; };
-            }).find("at its guess in interval 0 (t = 0.0078125) running_cost is not a number; give a guess that"),
+            }).find("at its guess in interval 0 (t = 0.0078125), running_cost is not a number; give a guess that"),
             std::string::npos);
   // u = 0 at the guess, where u^1.5 and its slope are 0.
   EXPECT_NE(sentence([](Statement& s) {
               s.running_cost = [](const ControlledState& x) { return pow(x.u[0], 1.5); };
-            }).find("at its guess in interval 0 (t = 0.0078125) a second derivative of running_cost is not a number"),
+            }).find("at its guess in interval 0 (t = 0.0078125), a second derivative of running_cost is not a number"),
             std::string::npos);
   EXPECT_NE(sentence([](Statement& s) {
               s.path_constraints = [](const ControlledState& x) {

@@ -240,7 +240,7 @@ struct Mistake {
 const std::vector<Mistake>& mistakes() {
   static const std::vector<Mistake> all = {
       {"ForceTooShort", "force has 1 entry, expected 2", statement<ForceTooShort>()},
-      {"ForceForgotten", "The force does not depend on a control", statement<ForceForgotten>()},
+      {"ForceForgotten", "The force does not depend on any control", statement<ForceForgotten>()},
       {"OneControlForgotten", "no formula depends on the control pull", statement<OneControlForgotten>()},
       {"ForceReadsFar", "a formula reads u[2], but u has 2 entries", statement<ForceReadsFar>()},
       {"VelocityReadsFar", "a formula reads v[2]", statement<VelocityReadsFar>()},
