@@ -29,7 +29,7 @@ class EccentricTransfer : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "low thrust transfer of a satellite between two ellipses, least control effort",
+        .description = "low-thrust transfer of a satellite between two ellipses, with least control effort",
         .title = "Transfer between ellipses",
         .axis_units = AxisUnits::pure_numbers(),
         .source =

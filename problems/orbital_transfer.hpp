@@ -92,7 +92,7 @@ class OrbitalTransfer : public CircleToCircle {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = CircleToCircle::card();
-    card.description = "low thrust transfer of a satellite between two circular orbits, least control effort";
+    card.description = "low-thrust transfer of a satellite between two circular orbits, with least control effort";
     card.title = "Orbital transfer";
     card.picture = [this](const ControlledState& x) -> Picture {
       const Expression radius = initial_radius() * x.q[0];

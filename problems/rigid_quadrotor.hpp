@@ -39,7 +39,7 @@ class RigidQuadrotor final : public Problem {
 
   [[nodiscard]] std::string name() const override { return "rigid_quadrotor"; }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "a quadrotor in space, a rigid body, follows a curve in fixed time, final state free",
+    return {.description = "flight of a quadrotor, a rigid body, along a curve in fixed time; the final state is free",
             .title = "Quadrotor in space",
             .axis_units = {.state = "m or rad", .control = "m/s² or rad/s²", .momentum = "m/s or m²/s", .cost = "m² s"},
             .source =

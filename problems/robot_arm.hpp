@@ -106,8 +106,8 @@ class RobotArm : public Problem {
                               .digits = 6,
                               .certificate =
                                   "DMOC and tangent-space collocation with 2 Gauss stages on 512 intervals, both "
-                                  "replayed, and the limits of both with the midpoint rule; no more digits, because "
-                                  "u_theta is singular in the middle of the trajectory",
+                                  "replayed, and the limits of both with the midpoint rule; no more digits are "
+                                  "certain, because u_theta is singular in the middle of the trajectory",
                               .remark = "the published values belong to the equations without Coriolis terms"};
     }
     return ReferenceOptimum{
@@ -120,10 +120,10 @@ class RobotArm : public Problem {
             "these times has the same T to 11 digits",
         .published = {{9.14138, "COPS 3.0, trapezoidal rule, N = 200"}},
         .remark =
-            "COPS prints the value of its grid, which lacks the switching times: ours with the trapezoidal rule is "
-            "9.14140 on 200 intervals and 9.14103 on 400; with several stages on 1024 intervals use the tolerance "
-            "1e-10: at 1e-8 the barrier does not determine the controls near their switches, T is 2e-4 too large, and "
-            "such a solution is not confirmed"};
+            "COPS prints the value of its grid, which lacks the switching times: with the trapezoidal rule, T is "
+            "9.14140 on 200 intervals and 9.14103 on 400 here. With several stages on 1024 intervals, use the "
+            "tolerance 1e-10: at 1e-8 the barrier does not determine the controls near their switches, T is 2e-4 too "
+            "large, and the solution is not confirmed"};
   }
 
   /// I_φ(ρ).

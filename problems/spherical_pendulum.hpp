@@ -31,7 +31,7 @@ class SphericalPendulum : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "spherical pendulum from one steady cone to a wider one, least control effort",
+        .description = "transfer of a spherical pendulum from a steady cone to a wider cone, with least control effort",
         .title = "Spherical pendulum",
         .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
         .source =

@@ -21,7 +21,7 @@ class SwingAndRelease final : public PhasedProblem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PhasedProblem::card();
-    card.description = "swing on a rod and flight to a target, least control effort";
+    card.description = "swing on a rod and flight to a target, with least control effort";
     card.title = "Swing and release";
     card.axis_units = {.state = "m", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"};
     card.source = "a release from a constraint in its simplest form, stated for this library";
