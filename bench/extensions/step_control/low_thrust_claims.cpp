@@ -74,10 +74,10 @@ Finding pays_in_momentum_alone(const ResultTables& tables, const std::string& pr
   }
   require(compared >= 3, "low_thrust.csv has {} grids with usable rows of dmoc and tangent; three are needed",
           compared);
-  return found(ClaimVerdict::measured, "on {} grids cost and replay errors differ by a factor of at most {:.2f}",
+  return found(ClaimVerdict::measured, "on {} grids, cost and replay errors differ by a factor of at most {:.2f}",
                compared, Measurement{"largest factor between cost or replay errors", farthest, "tangent"})
-      .also(worded("change of angular momentum minus work over the whole horizon: tangent-space collocation at least "
-                   "{:.1f} times DMOC",
+      .also(worded("the change of angular momentum minus the work over the horizon is at least {:.1f} times as large "
+                   "with tangent-space collocation as with DMOC",
                    Measurement{"least ratio of the momentum balance", least, "tangent"}));
 }
 
@@ -107,8 +107,8 @@ Claims low_thrust_claims() {
            .problems = only_orbit,
            .where = "section 4.2.1, with many revolutions",
            .whose = Whose::extension,
-           .states = "in polar coordinates, with 8 to 32 steps per revolution: differences between tangent-space "
-                     "collocation and DMOC in the errors of cost and replay and in the balance of momentum",
+           .states = "differences between tangent-space collocation and DMOC in the errors of cost and replay and in "
+                     "the balance of momentum, in polar coordinates with 8 to 32 steps per revolution",
            .judge = pays_in_momentum_alone,
            .evidence = evidence,
            .has_verdict = false},
@@ -116,8 +116,8 @@ Claims low_thrust_claims() {
            .problems = only_orbit,
            .where = "section 4.2.1, with many revolutions",
            .whose = Whose::extension,
-           .states = "compared with shooting with the explicit midpoint rule, of the same order, DMOC has the smaller "
-                     "state error with 8 to 32 steps per revolution",
+           .states = "with 8 to 32 steps per revolution, DMOC has a smaller state error than shooting with the "
+                     "explicit midpoint rule, which has the same order",
            .judge = pays_beside_explicit,
            .evidence = evidence},
           {.id = "low_thrust_order_pays_more",
@@ -125,7 +125,7 @@ Claims low_thrust_claims() {
            .where = "section 4.2.1, with many revolutions",
            .whose = Whose::extension,
            .states = "from 12 steps per revolution on, the order matters more than the structure: shooting with rk4 "
-                     "has the smaller cost error",
+                     "has a smaller cost error than DMOC",
            .judge = order_pays_more,
            .condition = "coordinates in which a circular orbit is a straight line",
            .evidence = evidence}};

@@ -65,7 +65,7 @@ Finding energy_by_principle(const ResultTables& tables, const std::string& /*pro
   };
   const auto words = [](const Row& row) {
     const std::string at = fmt::format("e = {}, {}", row.text("eccentricity"), row.text("rule"));
-    return worded("e = {}: {} oscillates by {:.1e}, changes by {:.1e}", row.text("eccentricity"), row.text("rule"),
+    return worded("e = {}: {} oscillates by {:.1e} and changes by {:.1e}", row.text("eccentricity"), row.text("rule"),
                   Measurement{"oscillation of the energy", row.needed("oscillation"), "", at},
                   Measurement{"change of the energy", std::abs(row.needed("change")), "", at});
   };
@@ -151,7 +151,7 @@ Claims step_control_claims() {
            .problems = simulated,
            .where = in_outlook,
            .whose = Whose::extension,
-           .states = "with variational steps the energy oscillates; with steps computed beforehand it drifts",
+           .states = "with variational steps, the energy oscillates; with steps computed beforehand, the energy drifts",
            .judge = energy_by_principle,
            .evidence = {"step_control_energy_behaviour.csv", "figures/step_control.svg"}},
           {.id = "variational_steps_accuracy",
