@@ -31,7 +31,7 @@ class Formation final : public Problem {
   [[nodiscard]] std::string name() const override { return "formation"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "satellites in formation that reverse their order and keep a least distance",
+    return {.description = "reversal of the order of satellites in formation, with a least distance between them",
             .title = "Satellites in formation",
             .axis_units = {.state = "km"},
             .source =

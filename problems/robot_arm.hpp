@@ -106,7 +106,7 @@ class RobotArm : public Problem {
                               .digits = 6,
                               .certificate =
                                   "DMOC and tangent-space collocation with 2 Gauss stages on 512 intervals, both "
-                                  "replayed, and the limits of both with the midpoint rule; no more digits are "
+                                  "replayed, and the limits of both with the midpoint rule agree; no more digits are "
                                   "certain, because u_theta is singular in the middle of the trajectory",
                               .remark = "the published values belong to the equations without Coriolis terms"};
     }
@@ -115,9 +115,9 @@ class RobotArm : public Problem {
         .digits = 11,
         .certificate =
             "switching times: all controls are bang-bang and the trajectory is symmetric in time, so that u_rho "
-            "switches at T/4 and 3T/4, u_theta at T/2, u_phi at 0.3058824 T and its mirror image, found with T by "
-            "Newton's method on the integrated half of the trajectory; Gauss with 3 stages on a grid with nodes at "
-            "these times has the same T to 11 digits",
+            "switches at T/4 and 3T/4, u_theta at T/2, and u_phi at 0.3058824 T and its mirror image. Newton's method "
+            "on the integrated half of the trajectory yields this time and T. Gauss with 3 stages on a grid with nodes "
+            "at these times has the same T to 11 digits",
         .published = {{9.14138, "COPS 3.0, trapezoidal rule, N = 200"}},
         .remark =
             "COPS prints the value of its grid, which lacks the switching times: with the trapezoidal rule, T is "

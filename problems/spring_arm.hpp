@@ -19,7 +19,7 @@ class SpringArm final : public Problem {
   [[nodiscard]] std::string name() const override { return "spring_arm"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "arm with a spring of unknown stiffness from rest to rest, with least torque",
+    return {.description = "transfer of an arm with a spring of unknown stiffness from rest to rest, with least torque",
             .title = "Arm with a spring",
             .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
             .source = "an arm with parallel elasticity, stated for this library"};

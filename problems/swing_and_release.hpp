@@ -28,7 +28,7 @@ class SwingAndRelease final : public PhasedProblem {
     card.reference = ReferenceOptimum{
         .objective = 20.23233163845,
         .digits = 12,
-        .certificate = "the same problem in the angle of the rod, Gauss with 3 stages on 128 and 256 intervals"};
+        .certificate = "the same problem in the angle of the rod, with Gauss with 3 stages on 128 and 256 intervals"};
     return card;
   }
 

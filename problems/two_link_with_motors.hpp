@@ -16,7 +16,7 @@ class TwoLinkWithMotors final : public TwoLinkManipulator {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = TwoLinkManipulator::card();
-    card.description = "swing-up of a planar two-link arm with motors with inductance, with least heat";
+    card.description = "swing-up of a planar two-link arm driven by motors with inductance, with least heat";
     card.title = "Two-link manipulator with motors";
     card.axis_units = {.state = "rad"};
     card.source = "two_link_manipulator with motors in its joints";

@@ -212,8 +212,8 @@ class AdaptiveRun {
 
   [[nodiscard]] std::string failure() const {
     const GridAttempt& last = answer_.grids.back();
-    return fmt::format("Grid {}, {} intervals: {}: {}", answer_.grids.size(), last.intervals, name_of(last.status),
-                       last.message);
+    return fmt::format("Grid {} with {} intervals has the status {}. {}", answer_.grids.size(), last.intervals,
+                       name_of(last.status), last.message);
   }
 
   bool has_ended() {

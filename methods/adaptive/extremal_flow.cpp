@@ -173,7 +173,7 @@ Eigen::MatrixXd ExtremalCoordinates::matrix(Eigen::Index row, Eigen::Index which
 }
 
 ExtremalStates ExtremalCoordinates::of_nodes(const Trajectory& motion) {
-  if (!motion.has_costates()) throw Error("an optimal trajectory can only be replayed with its costates");
+  if (!motion.has_costates()) throw Error("an optimal trajectory can be replayed only with its costates");
   evaluate(motion.q, motion.v, motion.node_times);
   ExtremalStates states{motion.q, motion.v, cost_scale_ * motion.psi_q, cost_scale_ * motion.psi_p};
   for (Eigen::Index k = 0; k < motion.q.rows(); ++k) {

@@ -129,7 +129,7 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   for (Eigen::Index i = 0; i < n_ && constraint_count_ == 0; ++i) {
     const auto row = mass.row(i);
     if (std::all_of(row.begin(), row.end(), is_zero)) {
-      throw Error(problem.name() + ": the Lagrangian is not regular, L_vv has a zero row for " +
+      throw Error(problem.name() + ": the Lagrangian is not regular: L_vv has a zero row for " +
                   problem.configuration_names()[static_cast<std::size_t>(i)]);
     }
   }

@@ -20,8 +20,8 @@ constexpr auto entries = std::to_array<Entry>({
     {Status::acceptable, "acceptable",
      "The solver did not reach the tolerance, but its residual is at most a hundred times the tolerance."},
     {Status::infeasible, "no trajectory found",
-     "No trajectory found: the last point is a local minimum of the constraint violation, and descent on the violation "
-     "from other points did not satisfy the constraints either. This does not prove that the problem is infeasible."},
+     "No trajectory was found: the last point is a local minimum of the constraint violation, and descent from other "
+     "points did not satisfy the constraints either. This does not prove that the problem is infeasible."},
     {Status::diverged, "diverged", "The iterates grew without bound."},
     {Status::step_failed, "step failed", "The solver found no step that improves the iterate."},
     {Status::evaluation_failed, "evaluation failed", "A formula evaluated to NaN or infinity."},

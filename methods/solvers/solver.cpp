@@ -167,9 +167,9 @@ class RelaxedProgram final : public ForwardingProgram {
     if (judged.status != Status::solved) return false;
     solution.kkt_residual = judged.kkt_residual;
     solution.constraint_violation = judged.constraint_violation;
-    solution.message += fmt::format(
-        " Constraint {} {} other constraints and {} left out for the solver; state each condition once.",
-        fmt::join(relaxed_, ", "), relaxed_.size() == 1 ? "repeats" : "repeat", relaxed_.size() == 1 ? "was" : "were");
+    solution.message +=
+        fmt::format(" These constraints repeat others and were left out for the solver: {}. State each condition once.",
+                    fmt::join(relaxed_, ", "));
     return true;
   }
 

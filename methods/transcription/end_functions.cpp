@@ -245,8 +245,8 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
     const double excess = is_below ? path.lower[entry] - value : value - path.upper[entry];
     if (!(excess > uncertainty(h, x, values))) continue;  // a NaN at an end may be a number inside
     throw Error(
-        fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} at its time (t "
-                    "= {:g}), but must be at {} {:g}",
+        fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} at t = {:g}, "
+                    "but must be at {} {:g}",
                     problem.name(), member_name(point.name), i, names.empty() ? "" : " (" + names[i] + ")", value,
                     point.time, is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]));
   }

@@ -102,7 +102,7 @@ void require_changeable(const Problem& problem, const TracedProblem& traced, con
 
 void require_same_velocities(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
   if (before.bounded_velocities() == now.bounded_velocities()) return;
-  throw Error(problem.name() + ": other velocities have bounds than before; create a new transcription");
+  throw Error(problem.name() + ": the velocities with bounds have changed; create a new transcription");
 }
 
 void require_same_times(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
@@ -111,7 +111,7 @@ void require_same_times(const Problem& problem, const ProblemBounds& before, con
   };
   if (std::ranges::equal(before.interior, now.interior, is_same)) return;
   throw Error(problem.name() + ": " + member_name("bounds().interior") +
-              " has other times than before, or bounds on other velocities; create a new transcription");
+              " has changed its times or its velocities with bounds; create a new transcription");
 }
 
 }  // namespace
@@ -395,7 +395,7 @@ void Transcription::use(Values values) {
   }
   if (horizon.is_free() != end_rules_.free_horizon) {
     throw Error(problem_->name() +
-                ": a fixed horizon cannot become free, or a free horizon fixed; create a new transcription");
+                ": a fixed horizon cannot become free, nor a free horizon fixed; create a new transcription");
   }
   require_same_velocities(*problem_, problem_bounds_, values.bounds);
   require_same_times(*problem_, problem_bounds_, values.bounds);

@@ -274,7 +274,7 @@ class PushedInABand(db.Problem):
 
 
 class TwoLinkWithMotors(TwoLinkManipulator):
-    """swing-up of a planar two-link arm with motors with inductance, with least heat"""
+    """swing-up of a planar two-link arm driven by motors with inductance, with least heat"""
 
     u = db.controls("voltage_1", "voltage_2", unit="V")
     y = db.first_order_states("current_1", "current_2", unit="A")
@@ -383,7 +383,7 @@ class ChainOfGivenLength(db.Problem):
 
 
 class PointsAtGivenTimes(db.Problem):
-    """hovercraft through given points at given times, with least control effort"""
+    """hovercraft that passes given points at given times, with least control effort"""
 
     name = "waypoints"
     q = db.coordinates("x", "y", unit="m")

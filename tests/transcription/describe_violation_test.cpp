@@ -75,7 +75,7 @@ TEST_P(ViolationInWords, UnreachableFinalStateIsNamedWithTheBoundsThatHold) {
   EXPECT_PRED2(says, words, "The largest violation is ");
   EXPECT_PRED2(says, words, " of q[0] (q1) ");
   EXPECT_PRED2(says, words, "(t = ");
-  EXPECT_PRED2(says, words, "bounds().u holds u[0] (u1) at ");
+  EXPECT_PRED2(says, words, "bounds().u is active for u[0] (u1) at ");
   EXPECT_PRED2(says, words,
                "The solver found no trajectory near its last point that satisfies final_state within the bounds");
   const std::string before = "The largest violation is ";

@@ -275,8 +275,8 @@ class EndsAgainstPathConstraints : public testing::Test {
 };
 
 TEST_F(EndsAgainstPathConstraints, AreRefusedWithTheEndAndTheAmount) {
-  expect_refusal(said([](const ControlledState& x) { return x.q[0] - 0.25; }), "initial_state", "-0.25 there (t = 0)");
-  expect_refusal(said([](const ControlledState& x) { return 0.75 - x.q[0]; }), "final_state", "-0.25 there (t = 1)");
+  expect_refusal(said([](const ControlledState& x) { return x.q[0] - 0.25; }), "initial_state", "-0.25 at t = 0,");
+  expect_refusal(said([](const ControlledState& x) { return 0.75 - x.q[0]; }), "final_state", "-0.25 at t = 1,");
   expect_refusal(said([](const ControlledState& x) { return x.v[0] - 0.5; }), "initial_state", "-0.5");
   expect_refusal(said([](const ControlledState& x) { return 0.5 - x.q[0] * x.t; }), "final_state", "-0.5");
 }
@@ -372,7 +372,7 @@ TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
                 h << x.q[0], 2.0 + log(0.5 - x.q[0]);
                 return h;
               };
-            }).find("in interval 4 (t = 0.507812) path_constraints[1] is not a number"),
+            }).find("in interval 4 (t = 0.507812), path_constraints[1] is not a number"),
             std::string::npos);
 }
 

@@ -122,8 +122,8 @@ void check(const Problem& problem, const LatticeOptions& options) {
                             problem.name(), problem.control_size(), 2 * n));
   }
   if (options.connection < 1 || options.connection > options.time_steps || options.intervals_per_step < 1) {
-    throw Error(fmt::format("connections of {} time steps do not fit a horizon of {} time steps", options.connection,
-                            options.time_steps));
+    throw Error(fmt::format("connections of {} time steps do not fit into a horizon of {} time steps",
+                            options.connection, options.time_steps));
   }
   const auto intervals = static_cast<Eigen::Index>(options.connection) * options.intervals_per_step;
   if (intervals * problem.control_size() < 2 * n) {

@@ -165,7 +165,7 @@ IntervalTrace ShootingElement::trace(const TracedProblem& problem, const Tableau
 void require_substeps(int substeps) {
   constexpr int most = ShootingElement::most_substeps;
   if (substeps >= 1 && substeps <= most) return;
-  throw Error(fmt::format("shooting takes 1 to {} substeps per interval, got {}", most, substeps));
+  throw Error(fmt::format("shooting supports 1 to {} substeps per interval, got {}", most, substeps));
 }
 
 std::string shooting_name(std::string_view family, std::string_view integrator, int substeps) {
