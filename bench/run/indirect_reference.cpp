@@ -80,7 +80,7 @@ bool is_near(const IndirectSolution& solution, const Trajectory& direct) {
 void require_near(const Problem& problem, const IndirectSolution& solution, const Trajectory& direct) {
   if (is_near(solution, direct)) return;
   throw Error("the indirect solution of " + problem.name() +
-              " is on another branch than the row, so the row states no errors; run only this method on finer grids");
+              " is on a different branch from the row, so the row has no errors; run only this method on finer grids");
 }
 
 /// The solution in a file; empty if there is no such file or it is not a solution of this problem on this branch.

@@ -53,9 +53,10 @@ struct TracedFlow {
   [[nodiscard]] ExpressionMatrix curvature() const { return hessian(hamiltonian, at.u); }
   [[nodiscard]] Schedule control_step() const {
     return Schedule(ExpressionVector(
-        at.u - solve_symmetric(curvature(), gradient(hamiltonian, at.u),
-                               "the error cannot be estimated: H_u = 0 does not determine the control, because H_uu "
-                               "vanishes; the running cost must be strictly convex in the control")));
+        at.u -
+        solve_symmetric(curvature(), gradient(hamiltonian, at.u),
+                        "the error cannot be estimated: H_u = 0 does not determine the control from the costate, "
+                        "because H_uu vanishes; the running cost must be strictly convex in the control")));
   }
   /// True if H is quadratic in u: one step of Newton's method finds the control.
   [[nodiscard]] bool is_quadratic() const {

@@ -64,7 +64,7 @@ Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string
     const std::string entry = fmt::format("{}: entry {}", subject, i);
     if (std::isnan(bounds.lower[i]) || std::isnan(bounds.upper[i])) throw Error(entry + " is not a number");
     if (bounds.lower[i] == infinite || bounds.upper[i] == -infinite)
-      throw Error(entry + " has infinity as lower bound or -infinity as upper bound");
+      throw Error(entry + " is infinite with the wrong sign");
     if (bounds.lower[i] > bounds.upper[i]) {
       throw Error(fmt::format("{} has the lower bound {:g} above the upper bound {:g}", entry, bounds.lower[i],
                               bounds.upper[i]));

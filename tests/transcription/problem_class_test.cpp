@@ -329,7 +329,7 @@ TEST(ProblemClassRefusals, NameEndsThatMoveFasterThanTheBounds) {
     return refusal([&] { tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(8)); });
   };
   EXPECT_EQ(sentence(-3.0), "");
-  EXPECT_NE(sentence(3.0).find("bounds().first and bounds().v leave no value for v[0]: 3 lies above 2"),
+  EXPECT_NE(sentence(3.0).find("bounds().first and bounds().v leave no value for v[0]: the lower bound 3 lies"),
             std::string::npos)
       << sentence(3.0);
 }
