@@ -34,7 +34,7 @@ class CartPole : public Problem {
             .title = "Cart-pole swing-up",
             .axis_units = {.state = "m or rad", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
             .source = "Kelly: An Introduction to Trajectory Optimization, SIAM Review 59 (2017), section 6",
-            .guess = "x = d t/T, theta = pi t/T - 2 sin(pi t/T), v their slopes, u = 0",
+            .guess = "x = d t/T, theta = pi t/T - 2 sin(pi t/T), slopes v, u = 0",
             .configuration_units = {"m", "rad"},
             .control_units = {"N"},
             // The bounds need not hold: they are not active at the optimum.

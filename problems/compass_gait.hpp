@@ -28,8 +28,8 @@ class CompassGait final : public PhasedProblem {
     card.title = "Compass gait";
     card.axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"};
     card.source =
-        "Goswami, Espiau, Keramane: Limit cycles in a passive compass gait biped, with two torques; the step "
-        "and its data stated for this library";
+        "Goswami, Espiau, Keramane: Limit cycles in a passive compass gait biped, with two torques; the step and its "
+        "data are stated for this library";
     card.reference = with_default_parameters(
         *this, {.objective = 0.052586249351195,
                 .digits = 13,

@@ -35,7 +35,7 @@ class HangGlider : public Problem {
         .source =
             "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 11, after "
             "Bulirsch, Nerz, Pesch, von Stryk: Combining direct and indirect methods in optimal control (1993)",
-        .guess = "q on the straight line to x = 1200 m in T = 100 s, v its slope, c_L = 0.7, half its bound",
+        .guess = "q on the straight line to x = 1200 m in T = 100 s with slope v, c_L = 0.7, half its bound",
         .time_unit = {.name = "s", .factor = time_unit_in_seconds},
         .reference = reference_optimum(),
         .picture = [this](const ControlledState& x) -> Picture {

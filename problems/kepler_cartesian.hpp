@@ -23,7 +23,7 @@ class KeplerCartesian : public CircleToCircle {
     card.title = "Orbital transfer (Cartesian)";
     card.source += ", in other coordinates";
     card.guess =
-        "a spiral: radius and angle on straight lines, d revolutions from circle to circle, v its slope, u = 0";
+        "a spiral: radius and angle on straight lines, d revolutions from circle to circle, with slope v, u = 0";
     card.picture = [this](const ControlledState& x) -> Picture {
       const Expression r = radius(x.q);
       const Expression thrust = acceleration_scale() * x.u[0];

@@ -39,7 +39,7 @@ class LinkChain : public Problem {
                 "with n links",
             .guess =
                 "q on straight lines, plus 2.5 sin(pi t/T) with alternating signs, positive for the last rod and "
-                "absent for the first; v its slope, u = 0",
+                "absent for the first; slope v, u = 0",
             .reference = reference_optimum(),
             .picture = [this](const ControlledState& x) -> Picture {
               Picture quantities;

@@ -25,7 +25,7 @@ class PlanarQuadrotor : public Problem {
             .title = "Planar quadrotor",
             .axis_units = {.state = "m or rad", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
             .source = "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor), with a flight of this suite",
-            .guess = "q on the straight line from q(0) to q(T), v its slope, u_1 = u_2 = m g / 2 (hovering)",
+            .guess = "q on the straight line from q(0) to q(T) with slope v, u_1 = u_2 = m g / 2 (hovering)",
             .configuration_units = {"m", "m", "rad"},
             .control_units = {"N", "N"},
             .reference = with_default_parameters(

@@ -45,7 +45,7 @@ class RigidQuadrotor final : public Problem {
             .source =
                 "Montoison, Caillau: Modeling and Optimization of Control Problems on GPUs (arXiv:2510.03932), problem "
                 "quadrotor, after ExaModels.jl; with torques instead of angular velocities",
-            .guess = "hovering: q on the straight line to (0, 0, 2 m), v its slope, u_1 = g, no torque",
+            .guess = "hovering: q on the straight line to (0, 0, 2 m) with slope v, u_1 = g, no torque",
             .reference = with_default_parameters(
                 *this, {.objective = 4.27652988126,
                         .digits = 12,

@@ -33,7 +33,7 @@ class RobotArm : public Problem {
         .title = "Robot arm",
         .axis_units = {.cost = "s"},
         .source = "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 8",
-        .guess = "q on the straight line from q(0) to q(T), v its slope, u = 0, T = 10",
+        .guess = "q on the straight line from q(0) to q(T) with slope v, u = 0, T = 10",
         .reference = reference_optimum(),
         .picture = [](const ControlledState& x) -> Picture {
           const Expression across = x.q[0] * sin(x.q[2]);

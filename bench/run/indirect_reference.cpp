@@ -122,7 +122,7 @@ constexpr auto extremal_of = &IndirectSolution::extremal;
 const Columns<Entry> reference_columns{
     {"problem", "", "name of the problem", from(&Entry::problem), in_key},
     {"cost", "cost", "optimal cost", from(solution_of, &IndirectSolution::cost)},
-    {"certified_digits", "", "digits on which two solves with different orders and grids agree",
+    {"certified_digits", "", "number of digits on which two solves with different orders and grids agree",
      from(solution_of, &IndirectSolution::certified_digits)},
     {"state_agreement", "", "relative difference of the states of both solves",
      from(solution_of, agreement_of, &IndirectAgreement::state)},
@@ -132,7 +132,7 @@ const Columns<Entry> reference_columns{
      from(solution_of, agreement_of, &IndirectAgreement::control)},
     {"cost_agreement", "", "relative difference of the costs of both solves",
      from(solution_of, agreement_of, &IndirectAgreement::cost)},
-    {"hamiltonian_drift", "", "relative max - min of the Hamiltonian; empty if the problem depends on time",
+    {"hamiltonian_drift", "", "relative range (max - min) of the Hamiltonian; empty if the problem depends on time",
      from(solution_of, &IndirectSolution::hamiltonian_drift)},
     {"shooting_defect", "", "largest relative distance between a node and the integration from the preceding node",
      from(&Entry::shooting_defect)},

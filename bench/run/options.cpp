@@ -293,8 +293,8 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
             "tableaus of --tableau");
   line.list("--points", options.points, "number of quadrature points, at least s; default: s; lobatto: s + 1");
   line.list("--control-nodes", options.control_nodes,
-            "control points of galerkin per interval: Gauss points (1 for a constant control), or Lobatto points with "
-            "--controls shared (for a continuous control); default: s");
+            "number of control points of galerkin per interval: Gauss points (1 for a constant control), or Lobatto "
+            "points with --controls shared (for a continuous control); default: s");
   line.list("--integrator", options.integrators, "integrators of shooting: rk4, midpoint; default: rk4");
   line.list("--substeps", options.substeps, "integrator steps of shooting per interval; default: 1");
   line.group("Grid");
@@ -306,8 +306,8 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
       "--intervals", [&options] { return options.grid_file.empty(); }, "--grid replaces it");
   line.group("Start");
   line.option("--start", options.start,
-              "start of the solves: common (one trajectory for all methods and grids), guess (the problem's own), or a "
-              "CSV file with columns t, q and v_q per configuration, and optionally controls and costates");
+              "start of the solves: common (one trajectory for all methods and grids), guess (the problem's guess), or "
+              "a CSV file with columns t, q and v_q per configuration, and optionally controls and costates");
   line.number("--start-seconds", options.start_seconds, 0.0, 1e6,
               "time limit for finding the common start of a problem (and tableau); if it is reached, solves start at "
               "the guess");
@@ -362,10 +362,10 @@ void add_part_options(CommandLine& line, ExperimentOptions& options) {
               "i/n: solve only the i-th of n parts of the cases and keep its rows in OUT/NAME.parts/i-of-n.rows. An "
               "interrupted part is resumed. The exit code is 0 even if solves fail",
               OptionRole::place);
-  line.option(
-      "--join", options.join,
-      "results folder with parts of the same command; joins them into one table instead of solving; may be repeated",
-      OptionRole::place);
+  line.option("--join", options.join,
+              "results folder with parts of the same command, which are joined into one table instead of solving; may "
+              "be repeated",
+              OptionRole::place);
 }
 
 SolverOptions solver_options(const ExperimentOptions& options) {

@@ -323,8 +323,8 @@ std::string held_horizon(const Problem& problem, const Transcription& transcript
   if (!transcription.has_free_horizon()) return "";
   const HorizonBounds bounds = problem.bounds().horizon;
   const double horizon = transcription.horizon(x);
-  if (is_held(horizon, bounds.lower)) return " " + member_name("bounds().horizon") + " holds T at its lower bound.";
-  if (is_held(horizon, bounds.upper)) return " " + member_name("bounds().horizon") + " holds T at its upper bound.";
+  if (is_held(horizon, bounds.lower)) return " " + member_name("bounds().horizon") + ": T is at its lower bound.";
+  if (is_held(horizon, bounds.upper)) return " " + member_name("bounds().horizon") + ": T is at its upper bound.";
   return "";
 }
 

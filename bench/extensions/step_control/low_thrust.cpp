@@ -58,7 +58,7 @@ const Columns<Measured> columns =
         {"objective", "", "cost J", &Measured::objective},
         {"reference", "", "reference of the errors: the indirect solution, or a fine grid on which two methods agree",
          &Measured::reference},
-        {"reference_digits", "", "digits on which two routes to the reference agree", &Measured::digits},
+        {"reference_digits", "", "number of digits on which two routes to the reference agree", &Measured::digits},
         {"cost_error", "", "|J - J_ref| / J_ref", from(errors, &TransferErrors::cost)},
         {"state_error", "", "max over the nodes of |q - q_ref|", from(errors, &TransferErrors::state)},
         {"control_error", "", "max over the stages of |u - u_ref|", from(errors, &TransferErrors::control)},
@@ -80,7 +80,7 @@ const Columns<Reference> reference_columns{
     {"problem", "", "name of the problem", &Reference::problem, in_key},
     {"revolutions", "", "number of revolutions d", &Reference::revolutions, in_key},
     {"reference", "", "indirect solution, or a fine grid on which two methods agree", &Reference::kind},
-    {"digits", "", "digits on which two routes agree", &Reference::digits},
+    {"digits", "", "number of digits on which two routes agree", &Reference::digits},
     {"cost", "cost", "J", &Reference::cost}};
 
 std::vector<std::string> families() {

@@ -83,7 +83,7 @@ Finding pays_in_momentum_alone(const ResultTables& tables, const std::string& pr
 
 Finding pays_beside_explicit(const ResultTables& tables, const std::string& problem) {
   const ErrorRatios ratios = ratios_of(tables, problem, "dmoc", explicit_midpoint, "state_error", 0.0);
-  return found(ratios.least > 1.0, "ratio of state errors, {} to DMOC, on {} grids: {:.2f} to {:.2f}",
+  return found(ratios.least > 1.0, "the ratio of state errors of {} and DMOC on {} grids is {:.2f} to {:.2f}",
                explicit_midpoint, ratios.count,
                Measurement{"least ratio of state errors", ratios.least, explicit_midpoint},
                Measurement{"largest ratio of state errors", ratios.most, explicit_midpoint});
@@ -92,11 +92,12 @@ Finding pays_beside_explicit(const ResultTables& tables, const std::string& prob
 Finding order_pays_more(const ResultTables& tables, const std::string& problem) {
   constexpr double from = 12.0;
   const ErrorRatios ratios = ratios_of(tables, problem, runge_kutta_4, "dmoc", "cost_error", from);
-  return found(ratios.least > 1.0,
-               "ratio of cost errors, DMOC to {}, on {} grids from {:g} steps per revolution on: {:.1f} to {:.1f}",
-               runge_kutta_4, ratios.count, Measurement{"fewest steps per revolution", from},
-               Measurement{"least ratio of cost errors", ratios.least, "dmoc"},
-               Measurement{"largest ratio of cost errors", ratios.most, "dmoc"});
+  return found(
+      ratios.least > 1.0,
+      "the ratio of cost errors of DMOC and {} on {} grids from {:g} steps per revolution on is {:.1f} to {:.1f}",
+      runge_kutta_4, ratios.count, Measurement{"fewest steps per revolution", from},
+      Measurement{"least ratio of cost errors", ratios.least, "dmoc"},
+      Measurement{"largest ratio of cost errors", ratios.most, "dmoc"});
 }
 
 }  // namespace

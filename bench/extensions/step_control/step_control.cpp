@@ -46,12 +46,12 @@ Columns<Record> choice_columns() {
   return {{"problem", "", "name of the problem", [](const Record& /*row*/) { return "kepler"; }, in_key},
           {"eccentricity", "", "eccentricity of the ellipse", eccentricity_of<Record>(), in_key},
           {"rule", "",
-           "uniform; h = pace * sigma, as part of the principle (variational) or imposed on plain DMOC (imposed); h = "
-           "pace * sigma(q_k), computed before the step (from_left)",
+           "step sizes: uniform; h = pace * sigma, as part of the principle (variational) or imposed on plain DMOC "
+           "(imposed); or h = pace * sigma(q_k), computed before the step (from_left)",
            from(&Record::choice, &StepChoice::rule_name), in_key},
           {"sigma", "", "quantity on which the step function depends", from(&Record::choice, &StepChoice::sigma_name),
            in_key},
-          {"stages", "", "Gauss stages", from(&Record::choice, &StepChoice::stages), in_key}};
+          {"stages", "", "number of Gauss stages", from(&Record::choice, &StepChoice::stages), in_key}};
 }
 template <class Record>
 Column<Record> steps_per_period(bool is_key = false) {
@@ -60,11 +60,12 @@ Column<Record> steps_per_period(bool is_key = false) {
 
 const Columns<Symplecticity> symplecticity_columns =
     choice_columns<Symplecticity>() +
-    Columns<Symplecticity>{steps_per_period<Symplecticity>(),
-                           {"defect", "", "largest entry of D^T Omega D - Omega, D of (q, t, p, -E), over a period",
-                            from(&Symplecticity::result, &ControlledSteps::Symplecticity::defect)},
-                           {"rounding", "", "machine epsilon times the largest square of an entry of D",
-                            from(&Symplecticity::result, &ControlledSteps::Symplecticity::rounding)}};
+    Columns<Symplecticity>{
+        steps_per_period<Symplecticity>(),
+        {"defect", "", "largest entry of D^T Omega D - Omega, with D of (q, t, p, -E), over a period",
+         from(&Symplecticity::result, &ControlledSteps::Symplecticity::defect)},
+        {"rounding", "", "machine epsilon times the largest square of an entry of D",
+         from(&Symplecticity::result, &ControlledSteps::Symplecticity::rounding)}};
 
 const Columns<Momentum> momentum_columns =
     choice_columns<Momentum>() +
@@ -91,7 +92,7 @@ const Columns<PeriodError> error_columns =
         steps_per_period<PeriodError>(in_key),
         {"status", "", "solved, or step failed if a step is so large that its equations have no solution",
          [](const PeriodError& row) { return row.result ? "solved" : "step failed"; }},
-        {"state_error", "", "max over a period of |(q, v) - exact|, each node at its own time",
+        {"state_error", "", "max over a period of |(q, v) - exact|, with each node at its own time",
          from(period_error, &ControlledSteps::PeriodError::state)},
         {"energy_error", "", "max over a period of |E - E_0|",
          from(period_error, &ControlledSteps::PeriodError::energy)},
@@ -120,17 +121,17 @@ constexpr auto transfer_errors = &OptimalSteps::errors;
 const Columns<Transfer> transfer_columns{
     {"problem", "", "name of the problem", [](const Transfer& /*row*/) { return "ellipse_transfer"; }, in_key},
     {"eccentricity", "", "eccentricity of both ellipses", eccentricity_of<Transfer>(), in_key},
-    {"rule", "", "uniform; proportional to sigma along the optimum (imposed); part of the principle (variational)",
+    {"rule", "", "uniform; proportional to sigma along the optimum (imposed); or part of the principle (variational)",
      from(&Transfer::choice, &StepChoice::rule_name), in_key},
     {"sigma", "", "quantity on which the step function depends", from(&Transfer::choice, &StepChoice::sigma_name),
      in_key},
-    {"stages", "", "Gauss stages", from(&Transfer::choice, &StepChoice::stages), in_key},
+    {"stages", "", "number of Gauss stages", from(&Transfer::choice, &StepChoice::stages), in_key},
     {"intervals", "", "number of intervals N", &Transfer::intervals, in_key},
     {"variables", "", "number of variables of the program", from(solved, &OptimalSteps::variables)},
     {"status", "", "status of the solve", from(solved, &OptimalSteps::status)},
-    {"reference_digits", "", "certified digits of the indirect solution", &Transfer::digits},
+    {"reference_digits", "", "number of certified digits of the indirect solution", &Transfer::digits},
     {"cost_error", "", "|J - J*| / J*", from(solved, transfer_errors, &StepsErrors::cost)},
-    {"state_error", "", "max over the nodes of |q - q*|, each at its own time",
+    {"state_error", "", "max over the nodes of |q - q*|, with each node at its own time",
      from(solved, transfer_errors, &StepsErrors::state)},
     {"control_error", "", "max over the stages of |u - u*|", from(solved, transfer_errors, &StepsErrors::control)},
     {"momentum_defect", "",

@@ -190,7 +190,7 @@ class EntryTable {
     PaddedRun& known = found->second;
     const bool follows = some.entry == known.entry + known.length && some.begin == known.begin + known.length;
     const bool is_straight = run.length == 1 || (moves(row, run.row_step) && moves(column, run.column_step));
-    if (!is_straight || !(is_new || follows)) refuse("its derivatives are not stored by intervals");
+    if (!is_straight || !(is_new || follows)) refuse("its derivatives are not stored interval by interval");
     if (!is_new) known.length += some.length;
   }
 
