@@ -94,7 +94,7 @@ Finding order_pays_more(const ResultTables& tables, const std::string& problem) 
   const ErrorRatios ratios = ratios_of(tables, problem, runge_kutta_4, "dmoc", "cost_error", from);
   return found(
       ratios.least > 1.0,
-      "the ratio of cost errors of DMOC and {} on {} grids from {:g} steps per revolution on is {:.1f} to {:.1f}",
+      "the ratio of cost errors of DMOC and {} on {} grids with at least {:g} steps per revolution is {:.1f} to {:.1f}",
       runge_kutta_4, ratios.count, Measurement{"fewest steps per revolution", from},
       Measurement{"least ratio of cost errors", ratios.least, "dmoc"},
       Measurement{"largest ratio of cost errors", ratios.most, "dmoc"});

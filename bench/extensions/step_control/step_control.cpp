@@ -60,12 +60,11 @@ Column<Record> steps_per_period(bool is_key = false) {
 
 const Columns<Symplecticity> symplecticity_columns =
     choice_columns<Symplecticity>() +
-    Columns<Symplecticity>{
-        steps_per_period<Symplecticity>(),
-        {"defect", "", "largest entry of D^T Omega D - Omega, with D of (q, t, p, -E), over a period",
-         from(&Symplecticity::result, &ControlledSteps::Symplecticity::defect)},
-        {"rounding", "", "machine epsilon times the largest square of an entry of D",
-         from(&Symplecticity::result, &ControlledSteps::Symplecticity::rounding)}};
+    Columns<Symplecticity>{steps_per_period<Symplecticity>(),
+                           {"defect", "", "largest entry of D^T Omega D - Omega for D of (q, t, p, -E) over a period",
+                            from(&Symplecticity::result, &ControlledSteps::Symplecticity::defect)},
+                           {"rounding", "", "machine epsilon times the largest square of an entry of D",
+                            from(&Symplecticity::result, &ControlledSteps::Symplecticity::rounding)}};
 
 const Columns<Momentum> momentum_columns =
     choice_columns<Momentum>() +
