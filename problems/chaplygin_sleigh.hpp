@@ -39,7 +39,7 @@ class ChaplyginSleigh : public Problem {
             .reference = with_default_parameters(
                 *this, {.objective = 2.4338801165994428,
                         .digits = 15,
-                        .certificate = "indirect shooting in 26 digits, with a residual below 1e-22"}),
+                        .certificate = "indirect shooting with 26 digits and a residual below 1e-22"}),
             .picture = [](const ControlledState& x) -> Picture {
               return {{"x", "m", x.y[0]},
                       {"y", "m", x.y[1]},

@@ -114,7 +114,7 @@ class HangGlider : public Problem {
             "the published values are specific to their grids: here the cost is -1247.918 with the midpoint rule on "
             "200 intervals and -1282.4, -1254.6, -1248.8, -1247.97 with the trapezoidal rule on 50, 100, 200, 400. "
             "Lobatto with four stages has false optima on 64 intervals, -1370 and -1445. A replay refutes them, and "
-            "they do not exist on 128"};
+            "they do not exist on 128 intervals"};
     if (original) {
       known.objective = -1248.031025;
       known.published = {};

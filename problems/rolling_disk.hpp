@@ -33,7 +33,7 @@ class RollingDisk final : public Problem {
             .reference = with_default_parameters(
                 *this, {.objective = 0.99079776270619299,
                         .digits = 15,
-                        .certificate = "indirect shooting in 26 digits, with a residual below 1e-24"})};
+                        .certificate = "indirect shooting with 26 digits and a residual below 1e-24"})};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y", "theta", "phi"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"steering", "drive"}; }

@@ -137,7 +137,7 @@ const Columns<Entry> reference_columns{
     {"shooting_defect", "", "largest relative distance between a node and the integration from the preceding node",
      from(&Entry::shooting_defect)},
     {"replay_error", "", "distance between the end of the replay and the final state", from(&Entry::replay_error)},
-    {"stages", "", "Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
+    {"stages", "", "number of Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
     {"intervals", "", "number of intervals", from(solution_of, extremal_of, &CollocatedExtremal::intervals)},
     {"seconds", "s", "time of the solve; empty if the solution was read from a file", from(&Entry::seconds)},
 };

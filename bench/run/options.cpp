@@ -291,7 +291,7 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--quadrature", options.quadratures,
             "quadrature of galerkin: gauss or lobatto; the number of stages s is the degree of q; default: the "
             "tableaus of --tableau");
-  line.list("--points", options.points, "number of quadrature points, at least s; default: s; lobatto: s + 1");
+  line.list("--points", options.points, "number of quadrature points, at least s; default: s (lobatto: s + 1)");
   line.list("--control-nodes", options.control_nodes,
             "number of control points of galerkin per interval: Gauss points (1 for a constant control), or Lobatto "
             "points with --controls shared (for a continuous control); default: s");
