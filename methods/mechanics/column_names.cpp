@@ -18,7 +18,7 @@ namespace {
 /// Columns of one table by their names, and whose each is.
 class TakenColumns {
  public:
-  /// `subject` begins the sentences, "spring: among configuration_names and control_names".
+  /// `subject` begins the sentences, "spring: in configuration_names and control_names".
   TakenColumns(std::string subject, const std::string& time) : subject_(std::move(subject)), owners_{{time, ""}} {}
 
   /// Throws `Error` if the column has no name that a table can have, or one that another has.
