@@ -23,7 +23,7 @@ class Acrobot : public Problem {
  public:
   Acrobot()
       : Problem({
-            switch_parameter("physical", false, "0: the potential of the PROPT guide, 1: the mechanical one"),
+            switch_parameter("physical", false, "0: potential of the PROPT guide, 1: mechanical potential"),
             {"friction", 0.1, "N m s", "viscous friction b1 = b2 of the joints", 0.0, 1e2},
             switch_parameter("bounded", true, "1: the torque is at most 10 N m, 0: no bound"),
             horizon_parameter(4.0, "swing-up"),
@@ -32,7 +32,7 @@ class Acrobot : public Problem {
   [[nodiscard]] std::string name() const override { return "acrobot"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "swing-up of a double pendulum by a motor at its elbow in fixed time, least control effort",
+    return {.description = "swing-up of a double pendulum with an elbow motor in fixed time, with least control effort",
             .title = "Acrobot swing-up",
             .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
             .source = "PROPT guide, example Acrobot, after Tedrake: Underactuated Robotics, chapter 3",
@@ -94,21 +94,21 @@ class Acrobot : public Problem {
       return ReferenceOptimum{
           .objective = 43.08989,
           .digits = 6,
-          .certificate = "Gauss s = 3 on 800 and s = 4 on 500 intervals agree; the replay meets the end to 4e-4",
+          .certificate = "Gauss with s = 3 on 800 and s = 4 on 500 intervals agree; the replay meets the end to 4e-4",
           .remark =
-              "the best of about a hundred starts, many of them around it; not proven to be the global minimum; "
-              "another minimum is 93.09407"};
+              "the best minimum from about a hundred starts, many of them near it; not proven to be global. Another "
+              "minimum is 93.09407"};
     }
     return ReferenceOptimum{
         .objective = 54.412699,
         .digits = 7,
-        .certificate = "Gauss s = 3 and s = 4 on 800 and Lobatto s = 4 on 900 intervals and a replay agree",
+        .certificate = "Gauss with s = 3 and s = 4 on 800 and Lobatto with s = 4 on 900 intervals and a replay agree",
         .published = {{4.4432421953665, "PROPT guide, 80 collocation points"}},
         .remark =
             "the published cost is impossible: no trajectory costs less than 4 b2 dV = 27.468. Coarse grids have such "
-            "false optima: DMOC with s = 1 and N = 128 finds 23.16 near this trajectory. The best of more than a "
-            "hundred starts, many of them around it; not proven to be the global minimum. From the guess every method "
-            "ends in a different minimum"};
+            "false optima: DMOC with s = 1 and N = 128 finds 23.16 near this trajectory. The reference is the best "
+            "minimum from more than a hundred starts, many of them near it; it is not proven to be global. From the "
+            "guess, every method converges to a different minimum"};
   }
 
   static constexpr double mass_1 = 1.0;           // kg

@@ -23,7 +23,7 @@ class Beam : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "elastic line between two clamps below a bound, least bending",
+        .description = "elastic beam between two clamps and below a bound, with least bending",
         .title = "Beam below a bound",
         .axis_units = {.state = "dimensionless",
                        .control = "dimensionless",
@@ -32,14 +32,13 @@ class Beam : public Problem {
         .source =
             "Bryson, Denham, Dreyfus (1963); Bryson, Ho: Applied Optimal Control, section 3.11; beam of "
             "OptimalControlProblems.jl",
-        .guess = "the line without a bound, x = t(1 - t), lowered to x <= l",
+        .guess = "the beam without a bound, x = t(1 - t), limited to x <= l",
         .time_unit = {.name = "", .factor = 1.0},
-        .reference =
-            ReferenceOptimum{.objective = least_cost(),
-                             .digits = 16,
-                             .certificate = "closed form, 8/(9 l) where x lies on the bound",
-                             .remark = "a bound that holds only at the nodes costs less, by order h^2; where nodes lie "
-                                       "at 3 l and 1 - 3 l, as with multiples of ten intervals, it costs the same"},
+        .reference = ReferenceOptimum{.objective = least_cost(),
+                                      .digits = 16,
+                                      .certificate = "closed form, 8/(9 l) if x reaches the bound",
+                                      .remark = "with a bound only at the nodes, the cost is lower by O(h^2), or equal "
+                                                "if nodes lie at 3 l and 1 - 3 l, as with multiples of ten intervals"},
         .picture = [](const ControlledState& x) -> Picture {
           return {{"deflection", "", x.q[0]}, {"slope", "", x.v[0]}, {"bending", "", x.u[0]}};
         }};

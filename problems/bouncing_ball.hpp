@@ -19,14 +19,14 @@ class BouncingBall final : public PhasedProblem {
       : PhasedProblem({{"fall", std::make_shared<Flight>(at(1.0, 0.0), open(0.0, -4.0))},
                        {"rise", std::make_shared<Flight>(open(0.0, 3.0), at(1.1, 0.5))}},
                       {{"restitution", 0.7, "", "coefficient of restitution, 1 for an elastic impact", 0.0, 1.0},
-                       {.name = "impulse", .value = 7.0, .unit = "N s", .meaning = "of the impact", .is_unknown = true},
+                       {.name = "impulse", .value = 7.0, .unit = "N s", .meaning = "total impulse", .is_unknown = true},
                        horizon_parameter(1.2)}) {}
 
   [[nodiscard]] std::string name() const override { return "bouncing_ball"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PhasedProblem::card();
-    card.description = "ball with one bounce between given states, least control effort";
+    card.description = "ball with one bounce between given states, with least control effort";
     card.title = "Bouncing ball";
     card.axis_units = {.state = "m", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"};
     card.source = "a controlled impact in its simplest form, stated for this library";

@@ -20,27 +20,27 @@ class BouncingHopper final : public PhasedProblem {
             {{"down", std::make_shared<Flight>(at({1.5, 0.0}, {0.0, 0.0}), open({1.1, 0.4}, {-0.5, 0.5}), 1.1)},
              {"up", std::make_shared<Flight>(open({1.1, 0.4}, {0.5, 0.5}), at({1.6, 1.2}, {0.0, 0.3}), 1.5)}},
             {{"restitution", 1.0, "", "coefficient of restitution, 1 for an elastic impact", 0.0, 1.0},
-             {"unevenness", 0.15, "", "a of the surface", 0.0, 0.3},
-             {.name = "impulse", .value = 1.0, .unit = "", .meaning = "of the impact", .is_unknown = true},
+             {"unevenness", 0.15, "", "unevenness a of the surface", 0.0, 0.3},
+             {.name = "impulse", .value = 1.0, .unit = "", .meaning = "contact impulse", .is_unknown = true},
              {"horizon", 2.6, "", "duration T", 1e-3, 1e3}}) {}
 
   [[nodiscard]] std::string name() const override { return "bouncing_hopper"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PhasedProblem::card();
-    card.description = "hopper that bounces once on an uneven asteroid, least control effort";
+    card.description = "hopper that bounces once on an uneven asteroid, with least control effort";
     card.title = "Bouncing hopper";
     card.axis_units = AxisUnits::pure_numbers();
     card.source = "an impact on a curved surface, stated for this library";
     const double e = parameter("restitution");
     const bool is_known = e == 1.0 || e == 0.6 || e == 0.0;
     if (is_known && has_default_parameters({"restitution"})) {
-      card.reference =
-          ReferenceOptimum{.objective = e == 1.0   ? 0.33974806686376
-                                        : e == 0.6 ? 0.42583077514461
-                                                   : 0.76833700307553,
-                           .digits = 14,
-                           .certificate = "indirect shooting over both phases; Gauss with 3 stages on 128 intervals"};
+      card.reference = ReferenceOptimum{
+          .objective = e == 1.0   ? 0.33974806686376
+                       : e == 0.6 ? 0.42583077514461
+                                  : 0.76833700307553,
+          .digits = 14,
+          .certificate = "indirect shooting over both phases and Gauss with 3 stages on 128 intervals agree"};
     }
     return card;
   }

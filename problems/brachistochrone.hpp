@@ -20,8 +20,8 @@ class Brachistochrone : public Problem {
  public:
   Brachistochrone()
       : Problem({
-            {"width", 10.0, "m", "x of the end", 1e-3, 1e3},
-            {"drop", 5.0, "m", "height y lost on the way", 1e-3, 1e3},
+            {"width", 10.0, "m", "x of the end point", 1e-3, 1e3},
+            {"drop", 5.0, "m", "height y of the descent", 1e-3, 1e3},
             gravity_parameter(1e-3, 9.80665),
         }) {}
 
@@ -33,7 +33,7 @@ class Brachistochrone : public Problem {
         .title = "Brachistochrone",
         .axis_units = {.state = "m", .control = "1/s", .momentum = "m/s", .cost = "s"},
         .source = "Johann Bernoulli 1696; data of the Dymos example",
-        .guess = "the slide down a straight wire, u its reaction over the speed at half the time",
+        .guess = "the slide down a straight wire; u is its reaction divided by the speed at half the time",
         .reference = reference_optimum(),
         .picture = [](const ControlledState& x) -> Picture {
           const Expression speed = sqrt(x.v[0] * x.v[0] + x.v[1] * x.v[1]);
@@ -110,7 +110,7 @@ class Brachistochrone : public Problem {
                              .certificate = "closed form, the cycloid through both points",
                              .remark =
                                  "Lobatto tableaus leave the control at t = 0 undetermined and converge slowly or not "
-                                 "at all; certify with Gauss tableaus"};
+                                 "at all; use Gauss tableaus to certify"};
     if (has_default_parameters()) optimum.published.push_back({1.8016, "Dymos, example brachistochrone"});
     const bool is_psopt = parameter("width") == 2.0 && parameter("drop") == 2.0 && parameter("gravity") == 9.8;
     if (is_psopt) optimum.published.push_back({0.8247591, "PSOPT, example brac1"});

@@ -15,7 +15,7 @@ namespace dmocbench {
 /// numbers only. Solved in units of 1000 m and 10 s; the cost is in m.
 class Cannonball final : public Problem {
  public:
-  Cannonball() : Problem({{"radius", 0.05, "m", "of the ball", 0.01, 0.1, false, true}}) {}
+  Cannonball() : Problem({{"radius", 0.05, "m", "radius of the ball", 0.01, 0.1, false, true}}) {}
 
   [[nodiscard]] std::string name() const override { return "cannonball"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
@@ -24,12 +24,12 @@ class Cannonball final : public Problem {
             .title = "Cannonball",
             .axis_units = {.state = "km", .cost = "m"},
             .source = "Falck, Gray, Ponnapalli, Wright: Dymos, example cannonball",
-            .guess = "a parabola of 3000 m and 25 s, radius 0.05 m",
+            .guess = "a parabola with a range of 3000 m and a duration of 25 s; radius 0.05 m",
             .time_unit = {.name = "s", .factor = 10.0},
-            .reference =
-                ReferenceOptimum{.objective = -3213.36476053,
-                                 .digits = 12,
-                                 .certificate = "Gauss with 3 stages on 512 intervals, by DMOC and both collocations"},
+            .reference = ReferenceOptimum{.objective = -3213.36476053,
+                                          .digits = 12,
+                                          .certificate =
+                                              "Gauss with 3 stages on 512 intervals, with DMOC and both collocations"},
             .picture = [](const ControlledState& x) -> Picture {
               return {{"x", "m", length_unit * x.q[0]}, {"height", "m", length_unit * x.q[1]}};
             }};

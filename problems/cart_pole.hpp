@@ -30,11 +30,11 @@ class CartPole : public Problem {
   [[nodiscard]] std::string name() const override { return "cart_pole"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "swing-up of a pendulum on a cart in fixed time, least control effort",
+    return {.description = "swing-up of a pendulum on a cart in fixed time, with least control effort",
             .title = "Cart-pole swing-up",
             .axis_units = {.state = "m or rad", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
             .source = "Kelly: An Introduction to Trajectory Optimization, SIAM Review 59 (2017), section 6",
-            .guess = "x = d t/T, theta = pi t/T - 2 sin(pi t/T), v their slopes, u = 0",
+            .guess = "x = d t/T, theta = pi t/T - 2 sin(pi t/T), slopes v, u = 0",
             .configuration_units = {"m", "rad"},
             .control_units = {"N"},
             // The bounds need not hold: they are not active at the optimum.
@@ -42,12 +42,12 @@ class CartPole : public Problem {
                 *this,
                 {.objective = 57.9447803067,
                  .digits = 10,
-                 .certificate = "Gauss and Lobatto with s = 4 on 192 intervals, a replay and, without the bounds, "
-                                "which are not active, the indirect method agree",
+                 .certificate = "Gauss and Lobatto with s = 4 on 192 intervals, a replay and the indirect method "
+                                "without the bounds, which are not active, agree",
                  .published = {{58.8839489745, "Dymos, test_cartpole_opt.py, after the tutorial (tolerance 1e-3)"}},
-                 .remark = "two minima: the pole swings back first (57.944780, from which the guess starts) or forward "
-                           "first (58.807667, the minimum of the straight line and of the published value); Dymos adds "
-                           "u(T) = 0 and is 0.13 % above the latter"},
+                 .remark = "there are two minima: the pole swings back first (57.944780, near the guess) or forward "
+                           "first (58.807667, near the straight line and the published value). Dymos adds u(T) = 0, so "
+                           "its cost is 0.13 % above the second minimum"},
                 {"bounded"}),
             .picture = [this](const ControlledState& x) -> Picture {
               const double l = parameter("length");

@@ -29,7 +29,7 @@ class ChaplyginSleigh : public Problem {
   [[nodiscard]] std::string name() const override { return "chaplygin_sleigh"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "sleigh on a blade to a new position and attitude, least control effort",
+    return {.description = "transfer of a sleigh on a blade to a new position and attitude, with least control effort",
             .title = "Chaplygin sleigh",
             .axis_units = {.state = "m or rad", .control = "N or N m", .momentum = "N s or N m s", .energy = "N m"},
             .source = "Chaplygin's sleigh in quasi-velocities, with data of this suite",
@@ -39,7 +39,7 @@ class ChaplyginSleigh : public Problem {
             .reference = with_default_parameters(
                 *this, {.objective = 2.4338801165994428,
                         .digits = 15,
-                        .certificate = "indirect shooting in 26 digits, with a residual below 1e-22"}),
+                        .certificate = "indirect shooting with 26 digits and a residual below 1e-22"}),
             .picture = [](const ControlledState& x) -> Picture {
               return {{"x", "m", x.y[0]},
                       {"y", "m", x.y[1]},

@@ -18,22 +18,22 @@ namespace dmocbench {
 class CompassGait final : public PhasedProblem {
  public:
   CompassGait()
-      : PhasedProblem({{"step", std::make_shared<Step>()}}, {{"length", 0.5, "m", "of the step", 0.05, 1.0}}) {}
+      : PhasedProblem({{"step", std::make_shared<Step>()}}, {{"length", 0.5, "m", "length of the step", 0.05, 1.0}}) {}
 
   [[nodiscard]] std::string name() const override { return "compass_gait"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PhasedProblem::card();
-    card.description = "periodic step of a two-legged walker, least torque, free duration";
+    card.description = "periodic step of a two-legged walker with least torque and free duration";
     card.title = "Compass gait";
     card.axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"};
     card.source =
-        "Goswami, Espiau, Keramane: Limit cycles in a passive compass gait biped, with two torques; the step "
-        "and its data stated for this library";
+        "Goswami, Espiau, Keramane: Limit cycles in a passive compass gait biped, with two torques; the step and its "
+        "data are stated for this library";
     card.reference = with_default_parameters(
         *this, {.objective = 0.052586249351195,
                 .digits = 13,
-                .certificate = "indirect shooting of the periodic step; Gauss with 3 stages on 128 intervals"});
+                .certificate = "indirect shooting of the step and Gauss with 3 stages on 128 intervals agree"});
     return card;
   }
 

@@ -27,7 +27,7 @@ class ContainerCrane : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "container crane in fixed time with the least swing, velocities bounded",
+        .description = "transfer with a container crane in fixed time, with least swing and bounded velocities",
         .title = "Container crane",
         .axis_units = {.state = "m or rad", .control = "m/s²"},
         .source =
@@ -88,7 +88,7 @@ class ContainerCrane : public Problem {
                               .digits = 10,
                               .certificate =
                                   "Gauss with 3 stages and Lobatto with 4 on 512 intervals, tolerance 1e-13, and the "
-                                  "replays of both controls"};
+                                  "replays of both controls agree"};
     }
     if (weight != 0.0) return std::nullopt;
     return ReferenceOptimum{
@@ -96,11 +96,11 @@ class ContainerCrane : public Problem {
         .digits = 5,
         .certificate =
             "Gauss with 1 and with 2 stages and Lobatto with 3 on 256 to 1024 intervals, and the replays of their "
-            "controls; no more digits, because the control is singular",
+            "controls agree; no more digits are certain, because the control is singular",
         .published = {{0.0051513, "PSOPT, example crane"}},
         .remark =
-            "the published value is specific to its mesh, 2e-4 above; on fine grids a Newton step moves the singular "
-            "controls by tenths of their size, whatever the tolerance, while states and cost do not change; such "
+            "the published value is specific to its mesh and 2e-4 larger. On fine grids, a Newton step moves the "
+            "singular controls by tenths of their size with any tolerance, while states and cost do not change. Such "
             "solutions may remain unconfirmed"};
   }
 };

@@ -16,7 +16,7 @@ class ControlRate final : public Problem {
   [[nodiscard]] std::string name() const override { return "control_rate"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "double integrator whose force has a bounded rate, least effort",
+    return {.description = "double integrator whose force has a bounded rate, with least effort",
             .title = "Double integrator with bounded rate",
             .source = "Becerra: PSOPT Optimal Control Solver User Manual, example control_rate",
             .guess = "q and the force on straight lines between the ends, u = 0",

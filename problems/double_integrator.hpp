@@ -26,10 +26,10 @@ class DoubleIntegrator : public Problem {
   [[nodiscard]] std::string name() const override { return "double_integrator"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "a unit mass from rest to rest in fixed time, least control effort",
+    return {.description = "transfer of a unit mass from rest to rest in fixed time, with least control effort",
             .title = "Double integrator",
             .axis_units = {.state = "m", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
-            .source = "folklore; mineng_di of the PSOPT examples",
+            .source = "folklore; PSOPT, example mineng_di",
             .configuration_units = {"m"},
             .control_units = {"N"},
             .reference = reference_optimum(),

@@ -27,13 +27,13 @@ class DoubleOscillator : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "two shaken masses whose damper is the control, initial velocity and final state free",
+        .description = "two shaken masses with a damper as the control; initial velocity and final state are free",
         .title = "Double oscillator",
         .axis_units = {.state = "m", .control = "dimensionless"},
         .source =
             "OptimalControlProblems.jl and CTBenchmarks.jl, problem double_oscillator, after Coudurier, Lepreux, "
             "Petit: Optimal bang-bang control of a mechanical double oscillator using averaging methods (2018)",
-        .guess = "everything at rest, u = 0",
+        .guess = "both masses at rest, u = 0",
         .reference = with_default_parameters(
             *this,
             {.objective = 9.11034863017e-4,
@@ -42,8 +42,8 @@ class DoubleOscillator : public Problem {
                  "Gauss with 3 stages and Lobatto with 4; the replays of both controls have the same cost to 12 digits",
              .published = {{0.000910190, "CTBenchmarks.jl, midpoint rule, N = 200"},
                            {0.000910336, "CTBenchmarks.jl, trapezoidal rule, N = 200"}},
-             .remark = "the published values are specific to their grids: ours with the midpoint and the trapezoidal "
-                       "rule on 200 intervals are 0.000910190 and 0.000910336, and converge to the reference as h^2"}),
+             .remark = "the published values are specific to their grids: here the midpoint and the trapezoidal rule "
+                       "on 200 intervals give 0.000910190 and 0.000910336, which converge to the reference as h^2"}),
         .picture = [this](const ControlledState& x) -> Picture {
           return {{"x_1", "m", x.q[0]},
                   {"x_2", "m", x.q[1]},

@@ -22,14 +22,14 @@ class EccentricTransfer : public Problem {
             {"initial_eccentricity", 0.8, "", "eccentricity of the first ellipse", 0.0, 0.8},
             {"target_eccentricity", 0.6, "", "eccentricity of the last ellipse", 0.0, 0.8},
             {"axis_ratio", 1.2, "", "semi-major axis of the last ellipse divided by the axis of the first", 0.1, 10.0},
-            {"revolutions", 2.0, "", "revolutions d during the transfer", 1.0, 100.0, true},
+            {"revolutions", 2.0, "", "number d of revolutions", 1.0, 100.0, true},
         }) {}
 
   [[nodiscard]] std::string name() const override { return "eccentric_transfer"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "low thrust transfer of a satellite between two ellipses, least control effort",
+        .description = "low-thrust transfer of a satellite between two ellipses, with least control effort",
         .title = "Transfer between ellipses",
         .axis_units = AxisUnits::pure_numbers(),
         .source =

@@ -18,7 +18,7 @@ class ForcedOscillator : public Problem {
   [[nodiscard]] std::string name() const override { return "forced_oscillator"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "harmonic oscillator from rest to rest, least control effort; constant mass, optimum 1/pi",
+    return {.description = "harmonic oscillator from rest to rest with least effort; constant mass, optimum 1/pi",
             .title = "Forced oscillator",
             .axis_units = AxisUnits::pure_numbers(),
             .source = "minimum energy control of a linear system, closed form; not in the paper",

@@ -24,14 +24,14 @@ class Formation final : public Problem {
  public:
   Formation()
       : Problem({{"satellites", 3.0, "", "number k of satellites", 2.0, 12.0, true},
-                 {"distance", 0.5, "km", "the least distance d between two satellites", 0.0, 2.0},
-                 {"mean_motion", 1.0, "1/(1000 s)", "of the orbit", 0.0, 10.0},
+                 {"distance", 0.5, "km", "least distance d between two satellites", 0.0, 2.0},
+                 {"mean_motion", 1.0, "1/(1000 s)", "mean motion of the orbit", 0.0, 10.0},
                  {"attraction", 1.0, "", "weight c of the distances in the cost", 0.0, 1e3}}) {}
 
   [[nodiscard]] std::string name() const override { return "formation"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "satellites in formation reverse their order with least distances between them",
+    return {.description = "reversal of the order of satellites in formation, with a least distance between them",
             .title = "Satellites in formation",
             .axis_units = {.state = "km"},
             .source =

@@ -21,7 +21,7 @@ class HangGlider : public Problem {
             {"gravity", 9.81, "m/s^2", "gravitational acceleration", 1.0, 1e2},
             {"forward_velocity", 13.23, "m/s", "horizontal velocity at both ends", 1.0, 1e2},
             {"climb_velocity", -1.288, "m/s", "vertical velocity at both ends", -1e1, 1e1},
-            {"updraft", 2.5, "m/s", "u_c of the thermal", 0, 1e1},
+            {"updraft", 2.5, "m/s", "speed u_c of the thermal", 0, 1e1},
             {"wing_load", 100.0 / 14.0, "kg/m^2", "mass m divided by wing area S", 1.0, 1e2},
         }) {}
 
@@ -35,7 +35,7 @@ class HangGlider : public Problem {
         .source =
             "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 11, after "
             "Bulirsch, Nerz, Pesch, von Stryk: Combining direct and indirect methods in optimal control (1993)",
-        .guess = "q on the straight line to x = 1200 m in T = 100 s, v its slope, c_L = 0.7, half its bound",
+        .guess = "q on the straight line to x = 1200 m in T = 100 s with slope v, c_L = 0.7, half its bound",
         .time_unit = {.name = "s", .factor = time_unit_in_seconds},
         .reference = reference_optimum(),
         .picture = [this](const ControlledState& x) -> Picture {
@@ -106,15 +106,15 @@ class HangGlider : public Problem {
         .objective = -1247.987601,
         .digits = 10,
         .certificate =
-            "Gauss with 3 and with 2 stages on 1024 intervals, tolerance 1e-13, and the replays of both controls",
+            "Gauss with 3 and with 2 stages on 1024 intervals, tolerance 1e-13, and the replays of both controls agree",
         .published = {{-1255.05, "COPS 3.0, trapezoidal rule, N = 100"},
                       {-1250.190, "PSOPT, example glider, 5 meshes"},
                       {-1247.918, "CTBenchmarks.jl, midpoint rule, N = 200"}},
         .remark =
-            "the published values are specific to their grids: ours are -1247.918 with the midpoint rule on 200 "
-            "intervals and -1282.4, -1254.6, -1248.8, -1247.97 with the trapezoidal rule on 50, 100, 200, 400; Lobatto "
-            "with four stages has false optima on 64 intervals, -1370 and -1445, which a replay refutes and which do "
-            "not exist on 128"};
+            "the published values are specific to their grids: here the cost is -1247.918 with the midpoint rule on "
+            "200 intervals and -1282.4, -1254.6, -1248.8, -1247.97 with the trapezoidal rule on 50, 100, 200, 400. "
+            "Lobatto with four stages has false optima on 64 intervals, -1370 and -1445. A replay refutes them, and "
+            "they do not exist on 128 intervals"};
     if (original) {
       known.objective = -1248.031025;
       known.published = {};

@@ -16,13 +16,13 @@ namespace dmocbench {
 class HangingChain final : public Problem {
  public:
   HangingChain()
-      : Problem({{"length", 4.0, "", "of the chain, larger than the distance between its ends", 2.25, 100.0}}) {}
+      : Problem({{"length", 4.0, "", "length of the chain, larger than the distance between its ends", 2.25, 100.0}}) {}
 
   [[nodiscard]] std::string name() const override { return "hanging_chain"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card{
-        .description = "chain of given length between two points, least potential energy",
+        .description = "chain of given length between two points, with least potential energy",
         .title = "Hanging chain",
         .source = "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 4",
         .guess = "the parabola of COPS, 4 |b - a| x (x/2 - 1/4) + a, without force",

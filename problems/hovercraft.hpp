@@ -26,7 +26,7 @@ class Hovercraft : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "underactuated hovercraft to a new position and attitude, least control effort",
+        .description = "transfer of an underactuated hovercraft to a new position and attitude, with least effort",
         .title = "Hovercraft",
         .axis_units = {.state = "m or rad", .control = "N", .momentum = "N m s", .cost = "N² s", .energy = "N m"},
         .source =
@@ -34,11 +34,12 @@ class Hovercraft : public Problem {
             "data of this suite",
         .configuration_units = {"m", "m", "rad"},
         .control_units = {"N", "N"},
-        .reference = with_default_parameters(*this, {.objective = 0.8719293256585,
-                                                     .digits = 12,
-                                                     .certificate = by_indirect_method(12),
-                                                     .remark = "another minimum costs 1.22519; of 100 perturbed starts "
-                                                               "41 end in the reference and 59 in this minimum"}),
+        .reference =
+            with_default_parameters(*this, {.objective = 0.8719293256585,
+                                            .digits = 12,
+                                            .certificate = by_indirect_method(12),
+                                            .remark = "another minimum costs 1.22519; of 100 perturbed starts, 41 "
+                                                      "converge to the reference minimum and 59 to this one"}),
         .picture = [this](const ControlledState& x) -> Picture {
           const double r = parameter("lever");
           return {{"centre_x", "m", x.q[0]},

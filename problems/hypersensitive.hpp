@@ -24,8 +24,8 @@ class Hypersensitive : public Problem {
             .axis_units = AxisUnits::pure_numbers(),
             .source =
                 "Rao, Mease: Eigenvector approximate dichotomic basis method for solving hyper-sensitive optimal "
-                "control problems, Optimal Control Applications and Methods 21, 2000; of second order here",
-            .guess = "the trajectory with q'' = q between the ends, v its slope, u = 0",
+                "control problems, Optimal Control Applications and Methods 21, 2000; here a second-order problem",
+            .guess = "the trajectory with q'' = q between the ends, with slope v, u = 0",
             .time_unit = {.name = "", .factor = 1.0},
             .reference = with_default_parameters(
                 *this, {.objective = 2.780799731435,

@@ -21,9 +21,9 @@ class KeplerCartesian : public CircleToCircle {
     ProblemCard card = CircleToCircle::card();
     card.description = "the orbital transfer in Cartesian coordinates, where the mass matrix is constant";
     card.title = "Orbital transfer (Cartesian)";
-    card.source += ", in another chart";
+    card.source += ", in other coordinates";
     card.guess =
-        "a spiral: radius and angle on straight lines, d revolutions from circle to circle, v its slope, u = 0";
+        "a spiral: radius and angle on straight lines, d revolutions from circle to circle, with slope v, u = 0";
     card.picture = [this](const ControlledState& x) -> Picture {
       const Expression r = radius(x.q);
       const Expression thrust = acceleration_scale() * x.u[0];

@@ -31,7 +31,7 @@ class LinkChain : public Problem {
   [[nodiscard]] std::string name() const override { return "link_chain"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "swing-up of a planar chain of n rods in fixed time, least control effort",
+    return {.description = "swing-up of a planar chain of n rods in fixed time, with least control effort",
             .title = "Chain of links",
             .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
             .source =
@@ -39,7 +39,7 @@ class LinkChain : public Problem {
                 "with n links",
             .guess =
                 "q on straight lines, plus 2.5 sin(pi t/T) with alternating signs, positive for the last rod and "
-                "absent for the first; v its slope, u = 0",
+                "absent for the first; slope v, u = 0",
             .reference = reference_optimum(),
             .picture = [this](const ControlledState& x) -> Picture {
               Picture quantities;
@@ -129,12 +129,12 @@ class LinkChain : public Problem {
       known.digits = 12;
     } else if (links() == 2) {
       known.objective = 80.37902916907;
-      known.remark = "the minimum of two_link_manipulator; others near 89.56, 167, 171, 192, 205";
+      known.remark = "the minimum of two_link_manipulator; other minima near 89.56, 167, 171, 192, 205";
     } else if (links() == 3) {
       known.objective = 134.8718555982;
       known.remark =
-          "the cheapest minimum found from 66 perturbed starts; others near 159.9, 162.8, 177.2, 179.4, 188.9, 207.3, "
-          "227.2, 240.5 and above";
+          "the cheapest minimum found from 66 perturbed starts; other minima near 159.9, 162.8, 177.2, 179.4, 188.9, "
+          "207.3, 227.2, 240.5 and above";
     } else {
       return std::nullopt;
     }

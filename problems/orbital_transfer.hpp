@@ -72,7 +72,7 @@ class CircleToCircle : public Problem {
     std::vector<Parameter> all{
         {"initial_altitude", 30.0, "km", "altitude of the first orbit", 0.0, 1e6},
         {"target_altitude", 330.0, "km", "altitude of the last orbit", 0.0, 1e6},
-        {"revolutions", 2.0, "", "revolutions d during the transfer", 1.0, 1000.0, true},
+        {"revolutions", 2.0, "", "number d of revolutions", 1.0, 1000.0, true},
         {"earth_radius", 6371.0, "km", "radius of the Earth", 1.0, 1e6},
         {"gravitational_parameter", 398600.0, "km^3/s^2", "gravitational constant times mass of the Earth", 1.0, 1e12}};
     all.insert(all.end(), more.begin(), more.end());
@@ -92,7 +92,7 @@ class OrbitalTransfer : public CircleToCircle {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = CircleToCircle::card();
-    card.description = "low thrust transfer of a satellite between two circular orbits, least control effort";
+    card.description = "low-thrust transfer of a satellite between two circular orbits, with least control effort";
     card.title = "Orbital transfer";
     card.picture = [this](const ControlledState& x) -> Picture {
       const Expression radius = initial_radius() * x.q[0];

@@ -19,13 +19,13 @@ class OrbitalTransferWithMass final : public OrbitalTransfer {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = OrbitalTransfer::card();
-    card.description = "low thrust transfer of a satellite that burns mass, least control effort";
+    card.description = "low-thrust transfer of a satellite that burns mass, with least control effort";
     card.title = "Orbital transfer with mass";
     card.source = "orbital_transfer with the mass flow of an engine of limited power";
     card.reference = with_default_parameters(
         *this, {.objective = 3.29498773270e-5,
                 .digits = 12,
-                .certificate = "Gauss with 3 stages on 128 and 256 intervals, by DMOC and tangent-space collocation"});
+                .certificate = "Gauss with 3 stages on 128 and 256 intervals; DMOC and tangent-space collocation"});
     return card;
   }
   [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"mass"}; }

@@ -26,7 +26,7 @@ class ParticleSteering : public Problem {
   [[nodiscard]] std::string name() const override { return "particle_steering"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "a particle steered by the direction of its thrust to a height and a speed, shortest time",
+    return {.description = "particle steered by the direction of its thrust to a height and speed in the shortest time",
             .title = "Particle steering",
             .axis_units = {.state = "m", .control = "rad", .momentum = "m/s", .cost = "s"},
             .source = "Dolan, More, Munson: Benchmarking Optimization Software with COPS 3.0, problem 10",

@@ -20,35 +20,35 @@ class PlanarQuadrotor : public Problem {
   [[nodiscard]] std::string name() const override { return "planar_quadrotor"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {
-        .description = "a quadrotor in a vertical plane flown from rest to rest in fixed time, least control effort",
-        .title = "Planar quadrotor",
-        .axis_units = {.state = "m or rad", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
-        .source = "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor), with a flight of this suite",
-        .guess = "q on the straight line from q(0) to q(T), v its slope, u_1 = u_2 = m g / 2 (hovering)",
-        .configuration_units = {"m", "m", "rad"},
-        .control_units = {"N", "N"},
-        .reference =
-            with_default_parameters(*this,
-                                    {.objective = 19.81198431842,
-                                     .digits = 11,
-                                     .certificate = certificate,
-                                     .remark = "no published value is known; the optional bounds are not active; other "
-                                               "minima cost more and tumble on the way (23.05, 23.38, 25.58)"},
-                                    {"bounded"}),
-        .picture = [this](const ControlledState& x) -> Picture {
-          const double r = parameter("arm");
-          const Expression arm_x = r * cos(x.q[2]);
-          const Expression arm_y = r * sin(x.q[2]);
-          return {{"x", "m", x.q[0]},
-                  {"y", "m", x.q[1]},
-                  {"right_x", "m", x.q[0] + arm_x},
-                  {"right_y", "m", x.q[1] + arm_y},
-                  {"left_x", "m", x.q[0] - arm_x},
-                  {"left_y", "m", x.q[1] - arm_y},
-                  {"right_thrust", "N", x.u[0]},
-                  {"left_thrust", "N", x.u[1]}};
-        }};
+    return {.description =
+                "flight of a quadrotor in a vertical plane from rest to rest in fixed time, with least control effort",
+            .title = "Planar quadrotor",
+            .axis_units = {.state = "m or rad", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
+            .source = "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor), with a flight of this suite",
+            .guess = "q on the straight line from q(0) to q(T) with slope v, u_1 = u_2 = m g / 2 (hovering)",
+            .configuration_units = {"m", "m", "rad"},
+            .control_units = {"N", "N"},
+            .reference = with_default_parameters(
+                *this,
+                {.objective = 19.81198431842,
+                 .digits = 11,
+                 .certificate = certificate,
+                 .remark = "no published value is known; the optional bounds are not active; other "
+                           "minima cost more and tumble on the way (23.05, 23.38, 25.58)"},
+                {"bounded"}),
+            .picture = [this](const ControlledState& x) -> Picture {
+              const double r = parameter("arm");
+              const Expression arm_x = r * cos(x.q[2]);
+              const Expression arm_y = r * sin(x.q[2]);
+              return {{"x", "m", x.q[0]},
+                      {"y", "m", x.q[1]},
+                      {"right_x", "m", x.q[0] + arm_x},
+                      {"right_y", "m", x.q[1] + arm_y},
+                      {"left_x", "m", x.q[0] - arm_x},
+                      {"left_y", "m", x.q[1] - arm_y},
+                      {"right_thrust", "N", x.u[0]},
+                      {"left_thrust", "N", x.u[1]}};
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y", "theta"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2"}; }
@@ -104,7 +104,7 @@ class PlanarQuadrotor : public Problem {
             {"arm", 0.25, "m", "distance r of the rotors from the centre", 1e-3, 1e2},
             gravity_parameter(0.0),
             horizon_parameter(duration, "flight"),
-            switch_parameter("bounded", false, "1: 0 <= u <= m g for either thrust, 0: no bounds"),
+            switch_parameter("bounded", false, "1: 0 <= u <= m g for both thrusts, 0: no bounds"),
         }) {}
 
   /// True if the rotors' thrusts are bounded.

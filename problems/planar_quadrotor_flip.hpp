@@ -16,7 +16,7 @@ class PlanarQuadrotorFlip : public PlanarQuadrotor {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PlanarQuadrotor::card();
-    card.description = "a somersault of a planar quadrotor on the spot in fixed time, least control effort";
+    card.description = "somersault of a planar quadrotor on the spot in fixed time, with least control effort";
     card.title = "Somersault of the quadrotor";
     card.reference = reference_optimum();
     return card;
@@ -32,7 +32,7 @@ class PlanarQuadrotorFlip : public PlanarQuadrotor {
       return ReferenceOptimum{
           .objective = 15.3075,
           .digits = 6,
-          .certificate = "Gauss s = 3 on 256 and Lobatto s = 4 on 192 intervals and a replay agree"};
+          .certificate = "Gauss with s = 3 on 256 intervals, Lobatto with s = 4 on 192 intervals and a replay agree"};
     }
     return ReferenceOptimum{
         .objective = 14.19952298017,

@@ -126,7 +126,7 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
   registry.add_all(problems, path.string());
   if (registry.names().size() > known) return;
   if (registry.refused().size() > refused) throw Error(registry.refused()[refused].reason);
-  throw Error(fmt::format("{} adds no problems", path.string()));
+  throw Error(fmt::format("{} contains no problems", path.string()));
 }
 
 }  // namespace dmocbench

@@ -32,7 +32,7 @@ class Refraction final : public PhasedProblem {
     card.reference = ReferenceOptimum{.objective = 0.86820690564808470,
                                       .digits = 16,
                                       .certificate = "closed form, two arcs of cycloids and Snell's law",
-                                      .remark = "certify with Gauss tableaus, as for brachistochrone"};
+                                      .remark = "use Gauss tableaus to certify, as for brachistochrone"};
     return card;
   }
 

@@ -71,7 +71,7 @@ std::string name_made_by(const Registry::Maker& maker) {
   std::string name = maker()->name();
   if (is_name(name)) return name;
   throw Error("a problem cannot be named \"" + name +
-              R"(": names are small letters, digits and underscores, a letter first, and not "all")");
+              R"(": names consist of small letters, digits and underscores, begin with a letter, and are not "all")");
 }
 
 std::string in_brackets(const std::string& origin) { return origin.empty() ? "" : " (" + origin + ")"; }
@@ -186,7 +186,7 @@ const Registry::Entry& Registry::entry(std::string_view name) const {
 void Registry::require_new(const std::string& name, const std::string& origin) const {
   const auto known = std::ranges::find(entries_, name, &Entry::name);
   if (known == entries_.end()) return;
-  throw Error("there is a problem " + name + " already" + in_brackets(known->origin) + "; give the new one" +
+  throw Error("there is already a problem " + name + in_brackets(known->origin) + "; give the new problem" +
               in_brackets(origin) + " another name");
 }
 

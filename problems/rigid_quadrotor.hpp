@@ -39,13 +39,13 @@ class RigidQuadrotor final : public Problem {
 
   [[nodiscard]] std::string name() const override { return "rigid_quadrotor"; }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "a quadrotor in space, a rigid body, follows a curve in fixed time, final state free",
+    return {.description = "flight of a quadrotor, a rigid body, along a curve in fixed time; the final state is free",
             .title = "Quadrotor in space",
             .axis_units = {.state = "m or rad", .control = "m/s² or rad/s²", .momentum = "m/s or m²/s", .cost = "m² s"},
             .source =
                 "Montoison, Caillau: Modeling and Optimization of Control Problems on GPUs (arXiv:2510.03932), problem "
                 "quadrotor, after ExaModels.jl; with torques instead of angular velocities",
-            .guess = "hovering: q on the straight line to (0, 0, 2 m), v its slope, u_1 = g, no torque",
+            .guess = "hovering: q on the straight line to (0, 0, 2 m) with slope v, u_1 = g, no torque",
             .reference = with_default_parameters(
                 *this, {.objective = 4.27652988126,
                         .digits = 12,

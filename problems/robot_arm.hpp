@@ -33,7 +33,7 @@ class RobotArm : public Problem {
         .title = "Robot arm",
         .axis_units = {.cost = "s"},
         .source = "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 8",
-        .guess = "q on the straight line from q(0) to q(T), v its slope, u = 0, T = 10",
+        .guess = "q on the straight line from q(0) to q(T) with slope v, u = 0, T = 10",
         .reference = reference_optimum(),
         .picture = [](const ControlledState& x) -> Picture {
           const Expression across = x.q[0] * sin(x.q[2]);
@@ -106,8 +106,8 @@ class RobotArm : public Problem {
                               .digits = 6,
                               .certificate =
                                   "DMOC and tangent-space collocation with 2 Gauss stages on 512 intervals, both "
-                                  "replayed, and the limits of both with the midpoint rule; no more digits, because "
-                                  "u_theta is singular in the middle of the trajectory",
+                                  "replayed, and the limits of both with the midpoint rule agree; no more digits are "
+                                  "certain, because u_theta is singular in the middle of the trajectory",
                               .remark = "the published values belong to the equations without Coriolis terms"};
     }
     return ReferenceOptimum{
@@ -115,15 +115,15 @@ class RobotArm : public Problem {
         .digits = 11,
         .certificate =
             "switching times: all controls are bang-bang and the trajectory is symmetric in time, so that u_rho "
-            "switches at T/4 and 3T/4, u_theta at T/2, u_phi at 0.3058824 T and its mirror image, found with T by "
-            "Newton's method on the integrated half of the trajectory; Gauss with 3 stages on a grid with nodes at "
-            "these times has the same T to 11 digits",
+            "switches at T/4 and 3T/4, u_theta at T/2, and u_phi at 0.3058824 T and its mirror image. Newton's method "
+            "on the integrated half of the trajectory yields this time and T. Gauss with 3 stages on a grid with nodes "
+            "at these times has the same T to 11 digits",
         .published = {{9.14138, "COPS 3.0, trapezoidal rule, N = 200"}},
         .remark =
-            "COPS prints the value of its grid, which lacks the switching times: ours with the trapezoidal rule is "
-            "9.14140 on 200 intervals and 9.14103 on 400; with several stages on 1024 intervals use the tolerance "
-            "1e-10: at 1e-8 the barrier does not determine the controls near their switches, T is 2e-4 too large, and "
-            "such a solution is not confirmed"};
+            "COPS prints the value of its grid, which lacks the switching times: with the trapezoidal rule, T is "
+            "9.14140 on 200 intervals and 9.14103 on 400 here. With several stages on 1024 intervals, use the "
+            "tolerance 1e-10: at 1e-8 the barrier does not determine the controls near their switches, T is 2e-4 too "
+            "large, and the solution is not confirmed"};
   }
 
   /// I_φ(ρ).

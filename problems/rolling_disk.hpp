@@ -23,7 +23,7 @@ class RollingDisk final : public Problem {
   [[nodiscard]] std::string name() const override { return "rolling_disk"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "upright disk rolls to a position ahead and to the side, least control effort",
+    return {.description = "upright disk that rolls to a position ahead and to the side, with least control effort",
             .title = "Rolling disk",
             .axis_units = {.state = "m or rad", .control = "N m", .momentum = "N s or N m s", .energy = "N m"},
             .source = "the vertical rolling disk of Bloch: Nonholonomic Mechanics and Control, with data of this suite",
@@ -33,7 +33,7 @@ class RollingDisk final : public Problem {
             .reference = with_default_parameters(
                 *this, {.objective = 0.99079776270619299,
                         .digits = 15,
-                        .certificate = "indirect shooting in 26 digits, with a residual below 1e-24"})};
+                        .certificate = "indirect shooting with 26 digits and a residual below 1e-24"})};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y", "theta", "phi"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"steering", "drive"}; }

@@ -37,7 +37,7 @@ class SatelliteDirectors final : public Problem {
   [[nodiscard]] std::string name() const override { return "satellite_directors"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "a rigid satellite turns from rest to rest, with a rotation matrix as its attitude",
+    return {.description = "slew of a rigid satellite from rest to rest, with a rotation matrix as its attitude",
             .title = "Satellite (directors)",
             .axis_units = {.state = "dimensionless"},
             .source =

@@ -23,7 +23,7 @@ class SphericalPendulum : public Problem {
             gravity_parameter(1e-3),
             {"initial_cone", std::numbers::pi / 4.0, "rad", "angle of the first cone, 0 downwards", 0.1, 1.5},
             {"target_cone", std::numbers::pi / 3.0, "rad", "angle of the last cone, 0 downwards", 0.1, 1.5},
-            {"revolutions", 1.0, "", "revolutions d during the transfer", 0.0, 100.0, true},
+            {"revolutions", 1.0, "", "number d of revolutions", 0.0, 100.0, true},
             horizon_parameter(1.5),
         }) {}
 
@@ -31,7 +31,7 @@ class SphericalPendulum : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "spherical pendulum from one steady cone to a wider one, least control effort",
+        .description = "transfer of a spherical pendulum from a steady cone to a wider cone, with least control effort",
         .title = "Spherical pendulum",
         .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
         .source =

@@ -15,7 +15,7 @@ class SphericalPendulumCartesian : public RedundantStatement<SphericalPendulum> 
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     const ProblemCard of_angles = minimal().card();
-    return {.description = "spherical pendulum from one steady cone to a wider one, as a point on a sphere",
+    return {.description = "transfer of a spherical pendulum, a point on a sphere, from a steady cone to a wider cone",
             .title = "Spherical pendulum (Cartesian)",
             .axis_units = {.state = "m", .control = "N m", .momentum = "N s", .cost = "N² m² s", .energy = "N m"},
             .source = "spherical_pendulum in Cartesian coordinates with one constraint",

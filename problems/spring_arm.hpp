@@ -12,14 +12,14 @@ namespace dmocbench {
 class SpringArm final : public Problem {
  public:
   SpringArm()
-      : Problem({{"stiffness", 5.0, "N m", "k of the spring", 0.0, 100.0, false, true},
-                 {"damping", 0.5, "N m s", "d of the joint", 0.0, 10.0},
+      : Problem({{"stiffness", 5.0, "N m", "stiffness k of the spring", 0.0, 100.0, false, true},
+                 {"damping", 0.5, "N m s", "damping d of the joint", 0.0, 10.0},
                  horizon_parameter(1.0)}) {}
 
   [[nodiscard]] std::string name() const override { return "spring_arm"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "arm with a spring of unknown stiffness from rest to rest, least torque",
+    return {.description = "transfer of an arm with a spring of unknown stiffness from rest to rest, with least torque",
             .title = "Arm with a spring",
             .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
             .source = "an arm with parallel elasticity, stated for this library"};

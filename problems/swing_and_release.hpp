@@ -21,14 +21,14 @@ class SwingAndRelease final : public PhasedProblem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PhasedProblem::card();
-    card.description = "swing on a rod and flight to a target, least control effort";
+    card.description = "swing on a rod and flight to a target, with least control effort";
     card.title = "Swing and release";
     card.axis_units = {.state = "m", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"};
     card.source = "a release from a constraint in its simplest form, stated for this library";
     card.reference = ReferenceOptimum{
         .objective = 20.23233163845,
         .digits = 12,
-        .certificate = "the same problem in the angle of the rod, Gauss with 3 stages on 128 and 256 intervals"};
+        .certificate = "the same problem in the angle of the rod, with Gauss with 3 stages on 128 and 256 intervals"};
     return card;
   }
 

@@ -32,7 +32,7 @@ class TwoLinkManipulator : public Problem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
-        .description = "swing-up of a planar two-link arm in fixed time, least control effort",
+        .description = "swing-up of a planar two-link arm in fixed time, with least control effort",
         .title = "Two-link manipulator",
         .axis_units = {.state = "rad", .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
         .source = "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2",

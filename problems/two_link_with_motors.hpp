@@ -16,14 +16,14 @@ class TwoLinkWithMotors final : public TwoLinkManipulator {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = TwoLinkManipulator::card();
-    card.description = "swing-up of a planar two-link arm by motors with inductance, least heat";
+    card.description = "swing-up of a planar two-link arm driven by motors with inductance, with least heat";
     card.title = "Two-link manipulator with motors";
     card.axis_units = {.state = "rad"};
     card.source = "two_link_manipulator with motors in its joints";
     card.reference = with_default_parameters(
         *this, {.objective = 83.8281466682,
                 .digits = 12,
-                .certificate = "Gauss with 3 stages on 256 and 512 intervals, by DMOC and tangent-space collocation",
+                .certificate = "Gauss with 3 stages on 256 and 512 intervals, with DMOC and tangent-space collocation",
                 .remark = "another minimum at 93.27"});
     card.picture = [base = card.picture](const ControlledState& x) -> Picture {
       Picture picture = base(x);

@@ -24,7 +24,7 @@ class TwoStageRocket final : public PhasedProblem {
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PhasedProblem::card();
-    card.description = "ascent of a rocket that drops its first stage, least control effort";
+    card.description = "ascent of a rocket that drops its first stage, with least control effort";
     card.title = "Two-stage rocket";
     card.axis_units = AxisUnits::pure_numbers();
     card.source = "a drop of mass in its simplest form, stated for this library";

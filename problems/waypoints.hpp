@@ -19,7 +19,7 @@ class Waypoints final : public Problem {
   [[nodiscard]] std::string name() const override { return "waypoints"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    ProblemCard card{.description = "hovercraft through given points at given times, least control effort",
+    ProblemCard card{.description = "hovercraft that passes given points at given times, with least control effort",
                      .title = "Hovercraft through waypoints",
                      .axis_units = {.state = "m", .control = "N", .momentum = "N s", .cost = "N² s", .energy = "N m"},
                      .source = "Pulsipher, Zhang, Hongisto, Zavala: InfiniteOpt.jl, example hovercraft path planning",

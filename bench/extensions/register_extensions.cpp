@@ -25,7 +25,7 @@ void register_extensions() {
   static constexpr std::array added{
       Program{"low_thrust", "Low-thrust transfers over many revolutions with few steps per revolution",
               low_thrust_program::run},
-      Program{"primitives", "Global minima from roadmaps of DMOC primitives, compared with multi-start",
+      Program{"primitives", "Global minima from roadmaps of DMOC primitives, compared with multi-start solves",
               primitives_program::run},
       Program{"read-sol", "Reads and checks the solution of another solver", read_sol_program::run},
       Program{"step_control", "Step sizes that depend on the trajectory, imposed or varied with the action",

@@ -174,14 +174,14 @@ std::string in_words(const Advice& advice) {
       return "Try more time (--seconds) or fewer intervals.";
     case Remedy::finite_formula:
       return fmt::format(
-          "Try bounds that keep the coordinates away from the singularity of that formula ({}), and a "
-          "guess within them.",
+          "Try bounds that keep the coordinates away from the singularity of the formula ({}), and a guess within "
+          "them.",
           member_name("Problem::bounds"));
     case Remedy::radians:
       return fmt::format("Try radians: {} changes by {:g}, which looks like an angle in degrees.", advice.coordinate,
                          advice.size);
     case Remedy::other_units:
-      return fmt::format("Try other units: {} is about {:.1g}, {} about {:.1g}; sizes near 1 suit solvers.",
+      return fmt::format("Try other units: {} is about {:.1g}, {} about {:.1g}; solvers work best with sizes near 1.",
                          advice.coordinate, advice.size, advice.smallest, advice.smallest_size);
     case Remedy::longer_horizon:
       return fmt::format("Try a longer horizon than T = {:g}, or wider bounds: the ends may be out of reach.",
@@ -191,20 +191,20 @@ std::string in_words(const Advice& advice) {
     case Remedy::solver_auto:
       return "Try --solver auto.";
     case Remedy::several_solvers:
-      return "Try --solver auto: interior_point, then ipopt, then a feasible trajectory as the start.";
+      return "Try --solver auto, which uses interior_point, then ipopt, then a start from a feasible trajectory.";
     case Remedy::common_start:
       return "Try --start common, which first searches for a trajectory with other methods.";
     case Remedy::another_guess:
-      return fmt::format("Try another guess ({}), or --start FILE with a trajectory near the one you want.",
+      return fmt::format("Try another guess ({}), or --start FILE with a trajectory near the solution you expect.",
                          member_name("Problem::guess"));
     case Remedy::finer_grid:
       return fmt::format(
-          "Try --accuracy 1e-4, or more intervals: with these controls {} misses its final value by {:.2g} of its "
+          "Try --accuracy 1e-4, or more intervals: with these controls, {} misses its final value by {:.2g} of its "
           "range.",
           advice.coordinate, advice.size);
     case Remedy::feedback:
       return fmt::format(
-          "Try feedback to follow this trajectory. The system is unstable: with these controls alone {} misses its "
+          "Try feedback to follow this trajectory. The system is unstable: with these controls alone, {} misses its "
           "final value by {:.2g} of its range.",
           advice.coordinate, advice.size);
   }

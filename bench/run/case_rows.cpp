@@ -45,7 +45,7 @@ std::vector<std::filesystem::path> stores_of_parts(const std::filesystem::path& 
     if (is_file && path.extension() == ".rows" && !path.filename().string().starts_with('.')) files.push_back(path);
   }
   if (files.empty()) {
-    throw Error(fmt::format("there are no parts of {} in {}{}; run it with --part 1/n to n/n first", name,
+    throw Error(fmt::format("there are no parts of {} in {}{}; run the command with --part 1/n to n/n first", name,
                             parts.string(), none ? ": " + none.message() : ""));
   }
   std::ranges::sort(files);
@@ -169,7 +169,7 @@ void CaseRows::join(const RunPlan& plan, Json& metadata) {
       for (const std::size_t number : take(store)) {
         const std::filesystem::path origin = std::exchange(origins[number], file);
         if (origin.empty() || origin == file) continue;
-        throw Error(fmt::format("{} exists twice ({} and {}); remove one", plan.cases()[number].label(),
+        throw Error(fmt::format("{} exists twice ({} and {}); remove one of the files", plan.cases()[number].label(),
                                 origin.string(), file.string()));
       }
       headers.push_back(store.header);

@@ -229,7 +229,7 @@ template <class Record>
 [[nodiscard]] Columns<Record> scheme_columns() {
   constexpr auto scheme = &Record::scheme;
   return {{"problem", "", "name of the problem", from(scheme, &Scheme::problem), in_key},
-          {"method", "", "family of elements, or another integrator", from(scheme, &Scheme::method), in_key},
+          {"method", "", "family of elements, or an integrator", from(scheme, &Scheme::method), in_key},
           {"tableau", "", "family of Butcher tableaus", from(scheme, &Scheme::tableau), in_key},
           {"stages", "", "number of stages s", from(scheme, &Scheme::stages), in_key}};
 }
@@ -244,9 +244,9 @@ template <class Record>
 [[nodiscard]] Columns<Record> fitted_order_columns(FittedOrder Record::*fit) {
   return {{"slope", "", "fitted order", from(fit, &FittedOrder::order)},
           {"standard_error", "", "standard error of the order; empty with two points", from(fit, standard_error_of)},
-          {"finest", "", "smallest step used", from(fit, &FittedOrder::first_abscissa)},
-          {"coarsest", "", "largest step used", from(fit, &FittedOrder::last_abscissa)},
-          {"points", "", "number of steps used", from(fit, &FittedOrder::points)}};
+          {"finest", "", "smallest step size of the fit", from(fit, &FittedOrder::first_abscissa)},
+          {"coarsest", "", "largest step size of the fit", from(fit, &FittedOrder::last_abscissa)},
+          {"points", "", "number of step sizes of the fit", from(fit, &FittedOrder::points)}};
 }
 
 }  // namespace dmocbench

@@ -330,7 +330,7 @@ int run_program(const std::string& name, const std::string& description, int arg
     return 130;
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return report_error(name, "cannot write to standard output");
-    const int code = report_error(name, (interrupt_requested() ? "interrupted, then: " : "") + sentence_of(error));
+    const int code = report_error(name, (interrupt_requested() ? "interrupted, and then: " : "") + sentence_of(error));
     return interrupt_requested() ? 130 : code;
   } catch (...) {  // from formulas of other authors
     return report_error(name, "a problem threw an object that is not a std::exception; throw dmocbench::Error");

@@ -98,8 +98,8 @@ Json schema_of(const std::string& title, const Json& properties, const std::vect
   return {{"$schema", draft},
           {"title", title},
           {"description",
-           "a row: an empty field is null, a field of a text column is a text, any other field that parses as a number "
-           "is a number"},
+           "a row: empty fields are null, fields of text columns are strings, and other fields that parse as numbers "
+           "are numbers"},
           {"type", "object"},
           {"properties", properties},
           {"required", names},
@@ -146,8 +146,8 @@ void require_as_written(const nlohmann::json& metadata, const std::string& sourc
   if (const std::string missing = lacked(columns, found.columns()); !missing.empty())
     throw Error(fmt::format("{} lacks the column {}, which {} lists", table, missing, source));
   if (told["rows"] != found.rows().size()) {
-    throw Error(fmt::format("{} states {} but {} has {}: they come from different runs, or rows are missing", source,
-                            counted(told["rows"].get<long long>(), "row"), table, found.rows().size()));
+    throw Error(fmt::format("{} states {}, but {} has {}: the files come from different runs, or rows are missing",
+                            source, counted(told["rows"].get<long long>(), "row"), table, found.rows().size()));
   }
   if (const std::string checksum = checksum_of(content); told["crc32"] != checksum) {
     throw Error(fmt::format("{} was changed after its run: its checksum is {}, but {} states {}", table, checksum,

@@ -80,7 +80,7 @@ bool is_near(const IndirectSolution& solution, const Trajectory& direct) {
 void require_near(const Problem& problem, const IndirectSolution& solution, const Trajectory& direct) {
   if (is_near(solution, direct)) return;
   throw Error("the indirect solution of " + problem.name() +
-              " is on a different branch from the row, so the row has no errors; run only this method, on finer grids");
+              " is on a different branch from the row, so the row has no errors; run only this method on finer grids");
 }
 
 /// The solution in a file; empty if there is no such file or it is not a solution of this problem on this branch.
@@ -122,22 +122,22 @@ constexpr auto extremal_of = &IndirectSolution::extremal;
 const Columns<Entry> reference_columns{
     {"problem", "", "name of the problem", from(&Entry::problem), in_key},
     {"cost", "cost", "optimal cost", from(solution_of, &IndirectSolution::cost)},
-    {"certified_digits", "", "digits on which two runs of different order and grid agree",
+    {"certified_digits", "", "number of digits on which two solves with different orders and grids agree",
      from(solution_of, &IndirectSolution::certified_digits)},
-    {"state_agreement", "", "relative difference of their states",
+    {"state_agreement", "", "relative difference of the states of both solves",
      from(solution_of, agreement_of, &IndirectAgreement::state)},
-    {"costate_agreement", "", "relative difference of their costates",
+    {"costate_agreement", "", "relative difference of the costates of both solves",
      from(solution_of, agreement_of, &IndirectAgreement::costate)},
-    {"control_agreement", "", "relative difference of their controls",
+    {"control_agreement", "", "relative difference of the controls of both solves",
      from(solution_of, agreement_of, &IndirectAgreement::control)},
-    {"cost_agreement", "", "relative difference of their costs",
+    {"cost_agreement", "", "relative difference of the costs of both solves",
      from(solution_of, agreement_of, &IndirectAgreement::cost)},
-    {"hamiltonian_drift", "", "relative max - min of the Hamiltonian; empty if the problem depends on time",
+    {"hamiltonian_drift", "", "relative range (max - min) of the Hamiltonian; empty if the problem depends on time",
      from(solution_of, &IndirectSolution::hamiltonian_drift)},
-    {"shooting_defect", "", "largest relative distance from a node when an integrator starts at the preceding node",
+    {"shooting_defect", "", "largest relative distance between a node and the integration from the preceding node",
      from(&Entry::shooting_defect)},
-    {"replay_error", "", "distance from the final state when the control is replayed", from(&Entry::replay_error)},
-    {"stages", "", "Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
+    {"replay_error", "", "distance between the end of the replay and the final state", from(&Entry::replay_error)},
+    {"stages", "", "number of Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
     {"intervals", "", "number of intervals", from(solution_of, extremal_of, &CollocatedExtremal::intervals)},
     {"seconds", "s", "time of the solve; empty if the solution was read from a file", from(&Entry::seconds)},
 };
@@ -174,7 +174,7 @@ Entry solution_near(const Problem& problem, const Trajectory& direct, const std:
     try {
       write_file(path, written(problem, *solution));
     } catch (const Error& error) {
-      notes.push_back(fmt::format("{}: its indirect solution is not saved: {}", problem.name(), error.what()));
+      notes.push_back(fmt::format("{}: the indirect solution is not saved: {}", problem.name(), error.what()));
     }
   }
   constexpr double replay_tolerance = 1e-13;

@@ -28,7 +28,7 @@ nlohmann::ordered_json read_json(const std::string& text) {
 }  // namespace
 
 void JsonPlace::refuse(const char* wanted) const {
-  throw Error(fmt::format("{}: {} is {}, not {}", file_, path_.empty() ? "its content" : path_, shown(*json_), wanted));
+  throw Error(fmt::format("{}: {} is {}, not {}", file_, path_.empty() ? "the content" : path_, shown(*json_), wanted));
 }
 
 JsonPlace JsonPlace::inner(const nlohmann::ordered_json& json, const std::string& key) const {

@@ -128,8 +128,8 @@ void KeptRows::require_described(const std::filesystem::path& file) const {
     const bool is_described = earlier.has("tables") && earlier.at("tables").has(name);
     if (is_described || earlier.at("complete").boolean()) require_as_written(earlier_, source, name, read_file(file));
   } catch (const Error& error) {
-    throw Error(fmt::format("{}; {} has rows of other problems: move both away, or choose another --out", error.what(),
-                            file.string()));
+    throw Error(fmt::format("{}; {} has rows of other problems: move both files away, or choose another --out",
+                            error.what(), file.string()));
   }
 }
 

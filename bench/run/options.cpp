@@ -270,9 +270,9 @@ bool is_of_paper(const std::string& problem) {
 
 void add_options(CommandLine& line, ExperimentOptions& options) {
   line.group(group_of_problem);
-  line.list("--problem", options.problems, "names of problems, see `dmocbench list`; all: every problem");
+  line.list("--problem", options.problems, "names of problems (see `dmocbench list`), or all");
   line.option("--set", options.settings,
-              "parameter=value of a problem, see `dmocbench list --problem NAME`; may be repeated");
+              "parameter=value of a problem (see `dmocbench list --problem NAME`); may be repeated");
   line.option("--form", options.form,
               "form of the cost: bolza (a sum), or mayer (the cost up to each node is an additional unknown)");
   line.list(
@@ -283,21 +283,20 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--method", options.methods,
             fmt::format("methods: {}", fmt::join(all_families(), ", ")) +
                 (options.methods.empty() ? fmt::format("; default: {}", fmt::join(paper_families(), ", ")) : ""));
-  line.list("--tableau", options.tableaus, "names of the families of Butcher tableaus");
+  line.list("--tableau", options.tableaus, "families of Butcher tableaus");
   line.list("--stages", options.stages, "numbers of stages s; each tableau uses the numbers that it supports");
   line.option("--controls", options.controls,
-              "stage: every stage has its own control; shared: neighbouring intervals share the control at their node, "
-              "requires --tableau lobatto; tables name it lobatto_shared");
+              "stage: every stage has its own control; shared: neighbouring intervals share the control at their "
+              "common node (only with --tableau lobatto; lobatto_shared in tables)");
   line.list("--quadrature", options.quadratures,
-            "quadrature of galerkin: gauss or lobatto; its number of stages s is the degree of q; default: the "
+            "quadrature of galerkin: gauss or lobatto; the number of stages s is the degree of q; default: the "
             "tableaus of --tableau");
-  line.list("--points", options.points, "points of this quadrature, at least s; default: s, for lobatto s + 1");
-  line.list(
-      "--control-nodes", options.control_nodes,
-      "control points of galerkin per interval: Gauss points, 1 for a constant control, or with --controls shared "
-      "Lobatto points, for a continuous control; default: s");
+  line.list("--points", options.points, "number of quadrature points, at least s; default: s (lobatto: s + 1)");
+  line.list("--control-nodes", options.control_nodes,
+            "number of control points of galerkin per interval: Gauss points (1 for a constant control), or Lobatto "
+            "points with --controls shared (for a continuous control); default: s");
   line.list("--integrator", options.integrators, "integrators of shooting: rk4, midpoint; default: rk4");
-  line.list("--substeps", options.substeps, "steps of the integrator of shooting per interval; default: 1");
+  line.list("--substeps", options.substeps, "integrator steps of shooting per interval; default: 1");
   line.group("Grid");
   line.option("--intervals", options.intervals,
               "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed");
@@ -307,11 +306,11 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
       "--intervals", [&options] { return options.grid_file.empty(); }, "--grid replaces it");
   line.group("Start");
   line.option("--start", options.start,
-              "start of the solves: common (one trajectory for all methods and grids), guess (the problem's own), or a "
-              "CSV file with columns t, q and v_q per configuration, and optionally controls and costates");
-  line.number(
-      "--start-seconds", options.start_seconds, 0.0, 1e6,
-      "time limit for finding the common start of a problem (and tableau); afterwards solves start at the guess");
+              "start of the solves: common (one trajectory for all methods and grids), guess (the problem's guess), or "
+              "a CSV file with columns t, q and v_q per configuration, and optionally controls and costates");
+  line.number("--start-seconds", options.start_seconds, 0.0, 1e6,
+              "time limit for finding the common start of a problem (and tableau); if it is reached, solves start at "
+              "the guess");
   line.group("Solver");
   line.list("--solver", options.solvers,
             std::string("names of solvers; see `dmocbench list`") +
@@ -321,8 +320,8 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.option("--iterations", options.most_iterations, "maximum number of solver iterations");
   line.number("--seconds", options.most_seconds, 0.0, 1e6,
               "time limit per case, including set-up and all grids; 0: no limit");
-  line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
-  line.option("--repeats", options.repeats, "solves per row; times are medians");
+  line.option("--option", options.passed_on, "option=value passed to the solver; may be repeated");
+  line.option("--repeats", options.repeats, "number of solves per row; times are medians");
   line.flag("--verbose", options.verbose, "show the solver's own output", OptionRole::machine);
   line.group(group_of_output);
   line.option("--out", options.out, "folder for the results", OptionRole::place);
@@ -332,20 +331,20 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
 
 void add_jobs_option(CommandLine& line, ExperimentOptions& options) {
   line.number("--jobs", options.jobs, 1, 256,
-              "number of processes; each solves one problem at a time, or in large batches one method of a problem",
+              "number of processes; each solves one problem at a time, or, in large batches, one method of a problem",
               OptionRole::machine);
 }
 
 void add_tolerances_option(CommandLine& line, ExperimentOptions& options) {
-  line.list("--tolerances", options.tolerances, "several tolerances, a row for each; overrides --tolerance");
+  line.list("--tolerances", options.tolerances, "several tolerances, one row for each; overrides --tolerance");
   line.ignored_unless(
       "--tolerance", [&options] { return options.tolerances.empty(); }, "--tolerances replaces it");
 }
 
 void add_batch_option(CommandLine& line, ExperimentOptions& options) {
   line.flag("--batch,!--no-batch", options.batch,
-            "solve eight cases at a time that differ only in start, parameters or end states, with interior_point and "
-            "without times; not with --seconds, --option, --verbose or --repeats");
+            "use interior_point to solve eight cases at a time that differ only in start, parameters or end states; "
+            "times are not measured; not with --seconds, --option, --verbose or --repeats");
   line.ignored_unless(
       "--batch",
       [&options] {
@@ -363,10 +362,10 @@ void add_part_options(CommandLine& line, ExperimentOptions& options) {
               "i/n: solve only the i-th of n parts of the cases and keep its rows in OUT/NAME.parts/i-of-n.rows. An "
               "interrupted part is resumed. The exit code is 0 even if solves fail",
               OptionRole::place);
-  line.option(
-      "--join", options.join,
-      "results folder with parts of the same command; joins them into one table instead of solving; may be repeated",
-      OptionRole::place);
+  line.option("--join", options.join,
+              "results folder with parts of the same command, which are joined into one table instead of solving; may "
+              "be repeated",
+              OptionRole::place);
 }
 
 SolverOptions solver_options(const ExperimentOptions& options) {
@@ -440,8 +439,8 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
 
 void ProblemOptions::add_to(CommandLine& line) {
   line.group(group_of_problem);
-  line.list("--problem", problems, "names of problems, see `dmocbench list`; all: every problem");
-  line.option("--set", settings, "parameter=value of a problem, see `dmocbench list --problem NAME`; may be repeated");
+  line.list("--problem", problems, "names of problems (see `dmocbench list`), or all");
+  line.option("--set", settings, "parameter=value of a problem (see `dmocbench list --problem NAME`); may be repeated");
   add_library_option(line, libraries);
   line.group("Options");
 }
@@ -529,7 +528,7 @@ std::vector<long long> parse_intervals(std::string_view option, std::string_view
       throw Error(fmt::format("{}: the range {} contains only {}; write {},{}", option, whole, first, first, last));
     for (long long count = first; count <= last; count *= 2) counts.insert(count);
     if (counts.size() > most_counts) {  // all grids are in memory at the same time
-      throw Error(fmt::format("{} takes at most {} numbers; run the rest under another --name", option, most_counts));
+      throw Error(fmt::format("{} takes at most {} numbers; run the rest with another --name", option, most_counts));
     }
   } while (!rest.empty());
   return {counts.begin(), counts.end()};
@@ -545,7 +544,7 @@ std::string remark_on_ranges(std::string_view option, std::string_view text) {
     if (counts.back() == parse_count(option, entry.substr(colon + 1))) continue;
     remarks.push_back(fmt::format("{} {} takes {}", option, entry, fmt::join(counts, ", ")));
   }
-  return remarks.empty() ? "" : fmt::format("{}: a range contains its start and its doubles", fmt::join(remarks, "; "));
+  return remarks.empty() ? "" : fmt::format("{}: a range doubles its start repeatedly", fmt::join(remarks, "; "));
 }
 
 std::vector<double> parse_node_times(std::string_view text) {

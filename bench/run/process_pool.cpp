@@ -63,7 +63,7 @@ std::pair<Worker, std::string> wait_for_one(std::map<pid_t, Worker>& running) {
     ::close(child.mapped().complaint);
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return {child.mapped(), ""};
     return {child.mapped(), size > 0             ? std::string(sentence.data(), static_cast<std::size_t>(size))
-                            : WIFSIGNALED(state) ? fmt::format("it was ended by signal {}", WTERMSIG(state))
+                            : WIFSIGNALED(state) ? fmt::format("it was terminated by signal {}", WTERMSIG(state))
                                                  : "it reported no reason"};
   }
 }

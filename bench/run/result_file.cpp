@@ -131,7 +131,7 @@ void require_name_of_table(const std::string& name) {
         name));
   }
   if (name.size() > longest) {
-    throw Error(fmt::format("--name takes at most {} letters, not {}", longest, name.size()));
+    throw Error(fmt::format("--name takes at most {} characters, not {}", longest, name.size()));
   }
 }
 
@@ -206,8 +206,8 @@ ResultLock::ResultLock(const std::filesystem::path& prefix)
     if (descriptor_ < 0) throw Error(fmt::format("cannot write {}: {}", file_.string(), reason()));
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) continue;
     ::close(descriptor_);
-    throw Error(
-        fmt::format("another run is writing {} now; wait for it, or choose another --name or --out", prefix.string()));
+    throw Error(fmt::format("another run is writing {} now; wait until it ends, or choose another --name or --out",
+                            prefix.string()));
   }
 }
 

@@ -267,8 +267,8 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
                                        : fmt::format("--problem {} --intervals {}", card.options.problems.front(),
                                                      card.options.intervals));
     const bool wants_motions = card.rows == RowUse::motions;
-    line.exit_code_1(wants_motions ? "a row is not solved, or its grid is too coarse"
-                                   : "a curve has no usable row (its rows have the reasons)");
+    line.exit_code_1(wants_motions ? "a case is not solved, or its grid is too coarse"
+                                   : "a curve has no usable row (the rows state the reasons)");
     add_options(line, experiment.options());
     line.ignored_unless(
         "--start-seconds",

@@ -132,20 +132,20 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   if (found.relative_jump <= largest_jump_of_a_motion &&
       found.accumulated_jump <= largest_accumulated_jump_of_a_motion) {
     const bool misses_cost = found.cost_error > largest_cost_error_of_a_motion;
-    solved.solution.message = fmt::format(
-        "{} {}", sentence_of(Status::too_coarse),
-        misses_cost ? fmt::format("The quadrature of the program misses {:.2g} of the running cost along its own "
-                                  "trajectory: the cost varies too fast within the intervals.",
-                                  found.cost_error)
-                    : fmt::format("Its intervals, integrated alone, change the cost by {:.2g} of its value: the forces "
-                                  "vary too fast within the intervals.",
-                                  found.cost_miss));
+    solved.solution.message =
+        fmt::format("{} {}", sentence_of(Status::too_coarse),
+                    misses_cost ? fmt::format("The quadrature of the program misses {:.2g} of the running cost along "
+                                              "the computed trajectory: the cost varies too fast within the intervals.",
+                                              found.cost_error)
+                                : fmt::format("Integrating each interval alone changes the cost by {:.2g} of its "
+                                              "value: the forces vary too fast within the intervals.",
+                                              found.cost_miss));
     return;
   }
   if (found.relative_jump <= largest_jump_of_a_motion) {
     solved.solution.message = fmt::format(
-        "{} Its intervals, integrated alone, miss the next nodes on the same side: by {:.2g} of the range in total, at "
-        "most {:.2g} in one interval.{}",
+        "{} Intervals that are integrated alone miss the next nodes on the same side: by {:.2g} of the range in total, "
+        "and by at most {:.2g} in one interval.{}",
         sentence_of(Status::too_coarse), found.accumulated_jump, found.relative_jump,
         estimate_in_words(solved, motion));
     return;
@@ -155,11 +155,11 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   const auto undefined = undefined_point(*solved.the_case.problem, motion, k);
   if (undefined || std::isinf(found.relative_jump)) {
     solved.solution.message = fmt::format(
-        "The discrete program is solved, but interval {} ({}) does not lead to the next node: {} "
-        "More intervals do not help. Keep the formula finite along the trajectory: bound the coordinates away from a "
-        "singularity, or use a force as control and limit its power by a path constraint.",
+        "The discrete program is solved, but interval {} ({}) does not lead to the next node: {} More intervals do not "
+        "help. Keep the formula finite along the trajectory: bound the coordinates away from a singularity, or use a "
+        "force as control and limit its power with a path constraint.",
         k, times,
-        undefined ? undefined->quantity + " is not a finite number there." : "its formulas are singular there.");
+        undefined ? undefined->quantity + " is not a finite number there." : "the formulas are singular there.");
     return;
   }
   solved.solution.message =
@@ -196,7 +196,8 @@ void note_variable_sizes(SolvedCase& solved, const Trajectory& motion) {
   look("", motion.q, problem.configuration_names());
   look("the rate of ", motion.v, problem.configuration_names());
   look("", motion.stage_u, problem.control_names());
-  if (!found.empty()) solved.note(fmt::format("Sizes far from 1: {}; consider other units.", fmt::join(found, ", ")));
+  if (!found.empty())
+    solved.note(fmt::format("Sizes are far from 1: {}. Consider other units.", fmt::join(found, ", ")));
 }
 
 /// Judges a solved case as far as the time goes; one whose time is up is not solved.
@@ -232,7 +233,7 @@ void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& ti
       solved.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
     } catch (const Error& error) {
       if (is_solved(solution.status)) solution.status = Status::not_confirmed;  // whether it is a motion is unknown
-      solved.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
+      solved.note(std::string("The trajectory cannot be read: ") + error.what() + ".");
     }
   }
   if (solved.trajectory && is_solved(solution.status)) judge_in_time(solved, *solved.trajectory, time);
@@ -322,7 +323,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
   } catch (const Stopped&) {
     result.solution.status = time.reason();
     result.solution.message =
-        "The set-up reached the time limit: tracing and differentiating the formulas takes longer.";
+        "The time limit was reached during the set-up: tracing and differentiating the formulas takes longer.";
     return result;
   }
   Transcription& program = *result.program;
@@ -418,7 +419,7 @@ std::optional<ReplayError> replay(SolvedCase& solved) {
   try {
     return replay_error(*solved.the_case.problem, *solved.trajectory);
   } catch (const Stopped&) {
-    note_stop(solved, "Its replay is missing");
+    note_stop(solved, "The replay is missing");
     return std::nullopt;
   } catch (const Error& error) {
     solved.note(error.what());
@@ -460,7 +461,7 @@ IndependentChecks check_independently(SolvedCase& solved) {
   try {
     checks.interval_cost = cost_by_intervals(problem, trajectory);
   } catch (const Stopped&) {
-    note_stop(solved, "The cost of its intervals is missing");
+    note_stop(solved, "The cost of the intervals is missing");
   } catch (const Error&) {  // an interval cannot be replayed: the motion is judged by its jumps
   }
   if (!solved.between_stages) {

@@ -204,7 +204,7 @@ void note_stop(SolvedCase& solved, const std::string& left_out);
 /// The column of the distance between the end of a replay and the final state.
 template <class Record>
 [[nodiscard]] Column<Record> replay_error_column(std::optional<ReplayError> Record::*replay) {
-  return {"replay_error", "", "distance from the final state when the controls are replayed",
+  return {"replay_error", "", "distance between the end of the replay and the final state",
           from(replay, &ReplayError::norm)};
 }
 

@@ -201,7 +201,7 @@ class StartProvider::Search {
     const double seconds = seconds_since(begin_);
     if (!is_told_ && seconds > seconds_of_silence && provider_.on_long_search) {
       is_told_ = true;
-      provider_.on_long_search(fmt::format("searching for the common start of {}, at most {:g} s (--start-seconds)",
+      provider_.on_long_search(fmt::format("searching for the common start of {} for at most {:g} s (--start-seconds)",
                                            case_.problem->name(), provider_.rules_.most_seconds));
     }
     return is_interrupted() || seconds >= provider_.rules_.most_seconds;
@@ -211,12 +211,12 @@ class StartProvider::Search {
     const std::string& name = case_.problem->name();
     if (seconds_since(begin_) >= provider_.rules_.most_seconds) {
       return fmt::format(
-          "It started at the guess: no common start of {} was found within {:g} s; allow more with --start-seconds.",
+          "The solve started at the guess: no common start of {} was found within {:g} s; increase --start-seconds.",
           name, provider_.rules_.most_seconds);
     }
     return fmt::format(
-        "It started at the guess: {} has no common start, because no method found a solution from the guess that "
-        "follows the continuous dynamics on {} or {} intervals.",
+        "The solve started at the guess: {} has no common start, because no method found a solution from the guess "
+        "that follows the continuous dynamics on {} or {} intervals.",
         name, final_intervals, 2 * final_intervals);
   }
 
@@ -328,7 +328,7 @@ Start StartProvider::start_in_file(const Case& the_case) {
   if (origin_ == identity_of(the_case.problem->name(), the_case.problem->settings(), the_case.method, the_case.tableau,
                              the_case.stages, the_case.intervals())) {
     throw NoStart(
-        fmt::format("--start {} is already the solution of {}; counts and times from there would be meaningless",
+        fmt::format("--start {} is already the solution of {}; counts and times from this start would be meaningless",
                     rules_.start, the_case.label()));
   }
   const Motion motion = smooth_motion(tables);
@@ -348,7 +348,7 @@ Trajectory StartProvider::solve(const Case& the_case) {
   }
   throw Error(fmt::format("{} is solved, but possibly on a different branch from the other methods: {}",
                           the_case.label(),
-                          start.note.empty() ? "its solution is far from its common start." : start.note));
+                          start.note.empty() ? "the solution is far from the common start." : start.note));
 }
 
 const StartProvider::FoundStart& StartProvider::common_start(const Case& the_case) {
@@ -402,7 +402,7 @@ std::string varied_in_words(const Problem& problem) {
   std::string words = "starts vary q and v";
   if (!varied.empty()) words += fmt::format(" and the controls {}", fmt::join(varied, ", "));
   if (!left.empty()) {
-    words += fmt::format("; not the controls {}, because neither bounds nor guess determine their size",
+    words += fmt::format("; the controls {} do not vary, because neither bounds nor guess determine their size",
                          fmt::join(left, ", "));
   }
   return words;

@@ -106,11 +106,11 @@ class AdaptiveRun {
     }
     if (!between_.is_motion()) {
       return end(AdaptiveOutcome::not_solved,
-                 fmt::format("After {} the trajectory still violates constraints between stages:{}",
+                 fmt::format("After {}, the trajectory still violates constraints between stages:{}",
                              counted(options_.most_grids, "grid"), between_.words(*task_.problem, answer_.trajectory)));
     }
     return end(AdaptiveOutcome::too_many,
-               fmt::format("After {} the estimated error is still {:.1e}, above the requested {:g}.",
+               fmt::format("After {}, the estimated error is still {:.1e}, larger than the requested accuracy {:g}.",
                            counted(options_.most_grids, "grid"), answer_.estimate.relative, options_.accuracy));
   }
 
@@ -125,9 +125,8 @@ class AdaptiveRun {
     std::string words = "The first grid was not solved.";
     if (is_solved(solution.status)) {
       const double error = is_estimated_ ? answer_.estimate.relative : std::numeric_limits<double>::infinity();
-      words =
-          fmt::format("The result is the solution on {} intervals, whose {}.", answer_.program->grid().intervals(),
-                      std::isfinite(error) ? fmt::format("estimated error is {:.1e}", error) : "error is not known");
+      words = fmt::format("The result is the solution on {} intervals. Its {}.", answer_.program->grid().intervals(),
+                          std::isfinite(error) ? fmt::format("estimated error is {:.1e}", error) : "error is unknown");
     }
     solution.status = stop_is_requested() ? Status::interrupted : Status::time_limit;
     return end(AdaptiveOutcome::stopped, fmt::format("{} {}", sentence_of(solution.status), words));
@@ -213,8 +212,8 @@ class AdaptiveRun {
 
   [[nodiscard]] std::string failure() const {
     const GridAttempt& last = answer_.grids.back();
-    return fmt::format("Grid {}, {} intervals: {}: {}", answer_.grids.size(), last.intervals, name_of(last.status),
-                       last.message);
+    return fmt::format("Grid {} with {} intervals has the status {}. {}", answer_.grids.size(), last.intervals,
+                       name_of(last.status), last.message);
   }
 
   bool has_ended() {
@@ -234,8 +233,8 @@ class AdaptiveRun {
     if (floor <= options_.accuracy) return false;
     answer_.outcome = AdaptiveOutcome::rounding;
     answer_.message = fmt::format(
-        "Double precision cannot reach an accuracy of {:g}: with the step sizes needed, round-off limits the momenta "
-        "to {:.0e}; the estimated error is {:.1e}.",
+        "Double precision cannot reach an accuracy of {:g}: at the required step sizes, the round-off of the momenta "
+        "is {:.0e}. The estimated error is {:.1e}.",
         options_.accuracy, floor, answer_.estimate.relative);
     return true;
   }
@@ -291,8 +290,8 @@ class AdaptiveRun {
     if (2 * intervals > options_.most_intervals || slow_grids_ >= most_slow_grids) {
       answer_.outcome = AdaptiveOutcome::too_many;
       answer_.message = fmt::format(
-          "An accuracy of {:g} needs too many intervals; on {} the estimated error is {:.1e}. Use more stages, which "
-          "need fewer intervals.",
+          "An accuracy of {:g} needs too many intervals. On {} intervals, the estimated error is {:.1e}. Use more "
+          "stages, which need fewer intervals.",
           options_.accuracy, intervals, now);
       return false;
     }
@@ -319,7 +318,7 @@ class AdaptiveRun {
     const Grid next = graded_grid(grid_, even.widths, options_.largest_ratio);
     if (static_cast<Eigen::Index>(next.intervals()) > options_.most_intervals) {
       answer_.outcome = AdaptiveOutcome::too_many;
-      answer_.message = fmt::format("An accuracy of {:g} needs more than {} intervals; the estimated error is {:.1e}.",
+      answer_.message = fmt::format("An accuracy of {:g} needs more than {} intervals. The estimated error is {:.1e}.",
                                     options_.accuracy, options_.most_intervals, estimate.relative);
       return false;
     }
@@ -361,17 +360,17 @@ double AdaptiveOptions::solver_tolerance(double tolerance) const {
 void AdaptiveOptions::validate() const {
   const bool is_allowed = accuracy >= finest && accuracy <= coarsest;
   if (!is_allowed) {
-    throw Error(fmt::format("the accuracy must lie between {:g} and {:g}, got {:g}: doubles have 16 digits", finest,
-                            coarsest, accuracy));
+    throw Error(fmt::format("the accuracy must lie between {:g} and {:g}, got {:g}; double precision has 16 digits",
+                            finest, coarsest, accuracy));
   }
-  if (!(largest_ratio > 1.0)) throw Error("the largest ratio of neighbouring steps must be above 1");
+  if (!(largest_ratio > 1.0)) throw Error("the largest ratio of neighbouring step sizes must be greater than 1");
 }
 
 AdaptiveAnswer solve_adaptively(const AdaptiveTask& task, const AdaptiveOptions& options,
                                 const std::function<void(const GridAttempt&)>& on_grid) {
   options.validate();
   if (family_of(task.method).is_condensed) {
-    throw Error("single shooting has no nodes to refine between; choose multiple_shooting");
+    throw Error("grids cannot be refined with single shooting, which has no nodes; choose multiple_shooting");
   }
   return AdaptiveRun(task, options).run(on_grid);
 }

@@ -224,7 +224,7 @@ double second_order_of_cost(const ExtremalCoordinates::Canonical& misses,
 /// The program, unless its horizon is free or its ends are tied.
 const Transcription& with_fixed_ends(const Transcription& program) {
   if (program.has_free_horizon()) throw Error("the error cannot be estimated for a free horizon; set a fixed horizon");
-  program.traced_problem().require_no_constraints("the estimate of the error");
+  program.traced_problem().require_no_constraints("error estimation");
   if (program.traced_problem().boundary_condition_count() > 0) {
     throw Error("the error cannot be estimated for a problem with boundary conditions; state the ends with " +
                 member_name("initial_state") + ", " + member_name("final_state") + " and bounds");
@@ -272,12 +272,12 @@ ErrorEstimator::ErrorEstimator(const Transcription& program)
 ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::VectorXd& primal,
                                        const Eigen::VectorXd& multipliers, const Trajectory& motion) {
   const TracedProblem& traced = program.traced_problem();
-  if (program.functions().mayer) throw Error("the error can only be estimated in Bolza form (--form bolza)");
+  if (program.functions().mayer) throw Error("the error can be estimated only in Bolza form; use --form bolza");
   if (traced.integral_count() > 0 || traced.unknown_count() > 0 || traced.first_order_size() > 0) {
     throw Error("the error cannot be estimated with integral constraints, unknown parameters or first-order states");
   }
   if (!program.bounds().interior.empty()) {
-    throw Error("the error cannot be estimated with bounds between the ends, where costates jump");
+    throw Error("the error cannot be estimated with bounds between the ends, because costates jump there");
   }
   const LinearisedConditions at(program, primal, multipliers);
   require_smooth_optimum(program, at);

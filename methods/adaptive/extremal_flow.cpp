@@ -52,11 +52,11 @@ struct TracedFlow {
 
   [[nodiscard]] ExpressionMatrix curvature() const { return hessian(hamiltonian, at.u); }
   [[nodiscard]] Schedule control_step() const {
-    return Schedule(
-        ExpressionVector(at.u - solve_symmetric(curvature(), gradient(hamiltonian, at.u),
-                                                "the error cannot be estimated: H_u = 0 does not give the "
-                                                "control from the costate, since H_uu vanishes; the running "
-                                                "cost must be strictly convex in the control")));
+    return Schedule(ExpressionVector(
+        at.u -
+        solve_symmetric(curvature(), gradient(hamiltonian, at.u),
+                        "the error cannot be estimated: H_u = 0 does not determine the control from the costate, "
+                        "because H_uu vanishes; the running cost must be strictly convex in the control")));
   }
   /// True if H is quadratic in u: one step of Newton's method finds the control.
   [[nodiscard]] bool is_quadratic() const {
@@ -174,7 +174,7 @@ Eigen::MatrixXd ExtremalCoordinates::matrix(Eigen::Index row, Eigen::Index which
 }
 
 ExtremalStates ExtremalCoordinates::of_nodes(const Trajectory& motion) {
-  if (!motion.has_costates()) throw Error("an optimal trajectory can only be replayed with its costates");
+  if (!motion.has_costates()) throw Error("an optimal trajectory can be replayed only with its costates");
   evaluate(motion.q, motion.v, motion.node_times);
   ExtremalStates states{motion.q, motion.v, cost_scale_ * motion.psi_q, cost_scale_ * motion.psi_p};
   for (Eigen::Index k = 0; k < motion.q.rows(); ++k) {

@@ -78,7 +78,7 @@ Grid graded_grid(const Grid& grid, const Eigen::VectorXd& wished, double largest
   const Eigen::VectorXd numbers = node_numbers(width);
   const double all = numbers[numbers.size() - 1];
   if (!(all <= static_cast<double>(Grid::most_intervals))) {
-    throw Error(fmt::format("the widths need {:g} intervals, more than a grid may have", all));
+    throw Error(fmt::format("the interval widths need {:g} intervals, more than a grid can have", all));
   }
   const auto intervals = std::max<Eigen::Index>(static_cast<Eigen::Index>(std::ceil(all - 1e-9)), 1);
   Eigen::VectorXd nodes(intervals + 1);

@@ -258,8 +258,8 @@ std::string lost_distance(const ProblemBounds& bounds, const Trajectory& motion,
     const double range = std::max(distances[i], values.maxCoeff() - values.minCoeff());
     if (distances[i] == 0.0 || missed[i] < most_missed * range) continue;
     return fmt::format(
-        "The given states are {:.1e} apart in an entry, so close that a trajectory at rest satisfies the program to "
-        "the tolerance. State the problem in units in which this distance is about 1.",
+        "Two given states differ by only {:.1e} in an entry, so that a trajectory at rest satisfies the program to the "
+        "tolerance. State the problem in units in which this difference is about 1.",
         distances[i]);
   }
   return {};

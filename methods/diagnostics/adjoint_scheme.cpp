@@ -120,8 +120,8 @@ AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& traje
                                  const AdjointCoefficients& coefficients) {
   if (!trajectory.has_costates() || !trajectory.has_stage_costates()) {
     throw Error(
-        "the adjoint scheme needs costates at the stages: use a solution with multipliers, of a problem without path "
-        "constraints or bounds on velocities");
+        "the adjoint scheme needs costates at the stages: use a solution with multipliers; the problem cannot have "
+        "path constraints or bounds on velocities");
   }
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   AdjointEquations equations{TracedProblem(problem), trajectory.integral_prices};

@@ -112,7 +112,7 @@ ControlLagrangianResidual control_lagrangian_residual(const Problem& problem, co
                                                       ControlLagrangianForm form) {
   if (!trajectory.has_costates()) throw Error("the control Lagrangian needs costates: use a solver with multipliers");
   if (trajectory.stages() != 1 || trajectory.intervals() < 2) {
-    throw Error("the control Lagrangian is defined for one stage and at least two intervals");
+    throw Error("the control Lagrangian is defined only for one stage and at least two intervals");
   }
   const TracedProblem traced(problem);
   ControlLagrangian lagrangian(traced, form);

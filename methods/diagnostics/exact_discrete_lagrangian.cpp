@@ -112,7 +112,7 @@ ExactInterval ExactDiscreteLagrangian::along(const LongVector& q_0, const LongVe
   interval.objects.left_momentum = momentum(0.0L);
   const auto equations = [this](const PhaseVector& at, PhaseVector& rate, long double t) { derivative(at, rate, t); };
   if (!integrate(equations, state, 0.0L, h, h / 4.0L, tolerance))
-    throw Error("the step size of the exact trajectory vanished");
+    throw Error("the step size vanished during the integration of the exact trajectory");
   interval.q_1 = x.q;
   interval.v_1 = x.v;
   interval.derivative.resize(2 * n_, 2 * n_);

@@ -83,8 +83,8 @@ BoundaryState SwitchMap::after(const BoundaryState& before, double time, const B
     const Eigen::Index n = start.q.size();
     return {.q = x.head(n), .v = x.segment(n, n), .y = x.segment(2 * n, start.y.size())};
   }
-  throw Error(fmt::format("Newton's method found no state after a switch that satisfies its conditions within {} steps",
-                          most_steps));
+  throw Error(fmt::format(
+      "Newton's method did not solve the conditions of a switch for the state after it within {} steps", most_steps));
 }
 
 }  // namespace dmocbench

@@ -9,7 +9,7 @@
 namespace dmocbench {
 
 std::string UndefinedPoint::words() const {
-  return fmt::format("The trajectory leaves the domain of its formulas: {} is not a number in interval {} (t = {:g}).",
+  return fmt::format("The trajectory leaves the domain of the formulas: {} is not a number in interval {} (t = {:g}).",
                      quantity, interval, time);
 }
 

@@ -569,13 +569,13 @@ std::string ViolationBetweenStages::words(const Problem& problem, const Trajecto
   }
   if (!keeps_controls()) {
     add(control,
-        fmt::format("; with controls clipped to their bounds the final state moves by {:.1e} of its range", missed));
+        fmt::format("; clipping the controls to their bounds moves the final state by {:.1e} of its range", missed));
   }
   // At a switch of a control more intervals hardly help.
   if (keeps_state()) {
     return text +
-           " Use --method galerkin --control-nodes 1 or --stages 1, whose controls are constant in each interval, or "
-           "--accuracy, which shortens the intervals in which controls switch.";
+           " Use --method galerkin --control-nodes 1 or --stages 1, with which controls are constant in each interval, "
+           "or --accuracy, which shortens the intervals in which controls switch.";
   }
   const Eigen::VectorXd& c = trajectory.tableau.c;
   const bool are_stages_inside = c.minCoeff() > 0.0 || c.maxCoeff() < 1.0;

@@ -72,7 +72,7 @@ Expression adjoint_of_operand(const Expression& adjoint, Node* node, std::size_t
     case Operation::divide:
       break;
   }
-  throw Error("no derivative rule for this operation");
+  throw Error("this operation has no derivative rule");
 }
 
 /// Reverse mode on the common graph of some formulas, one formula after the other.
@@ -90,7 +90,7 @@ class ReverseMode {
     first_dependence_.assign(nodes_.size(), x.size());
     for (Eigen::Index j = x.size() - 1; j >= 0; --j) {
       if (x[j].node()->operation() != Operation::input) {
-        throw Error("derivatives are taken with respect to inputs, not to formulas");
+        throw Error("derivatives can be taken only with respect to inputs, not to formulas");
       }
       first_dependence_[x[j].node()->number()] = j;
     }

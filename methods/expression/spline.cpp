@@ -20,7 +20,7 @@ void require_table(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() < 2) throw Error(fmt::format("the table of a spline needs at least two points, got {}", x.size()));
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (std::isfinite(x[i]) && std::isfinite(y[i]) && (i == 0 || x[i] > x[i - 1])) continue;
-    throw Error(fmt::format("x in the table of a spline must be finite and increasing, but point {} is ({:g}, {:g})",
+    throw Error(fmt::format("the x values of a spline must be finite and increasing, but point {} is ({:g}, {:g})",
                             i + 1, x[i], y[i]));
   }
 }

@@ -202,7 +202,7 @@ Tape::Tape(const Schedule& schedule, InstructionSet set)
       set_(set) {
   const auto available = available_instruction_sets();
   if (std::find(available.begin(), available.end(), set) == available.end()) {
-    throw Error("this processor lacks the instruction set " + std::string(name_of(set)));
+    throw Error("this processor does not support the instruction set " + std::string(name_of(set)));
   }
   const std::vector<CompoundStep> compounds = compound_steps(schedule);
   const std::vector<std::uint32_t> places = place_values(schedule, compounds);
@@ -265,11 +265,11 @@ Tape::Workspace::Workspace(const Tape& tape)
 void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                     Workspace& workspace) const {
   if (inputs.size() < input_count_ || outputs.size() < output_count_) {
-    throw Error(fmt::format("a tape with {} inputs and {} outputs got {} and {}", input_count_, output_count_,
-                            inputs.size(), outputs.size()));
+    throw Error(fmt::format("a tape with {} inputs and {} outputs got {} inputs and {} outputs", input_count_,
+                            output_count_, inputs.size(), outputs.size()));
   }
   if (workspace.serial_ != serial_) {
-    throw Error("this workspace was made for another tape");
+    throw Error("this workspace was created for another tape");
   }
   if (begin >= end) return;
   // An input that is the same for all intervals fills a series of the workspace once.

@@ -10,8 +10,8 @@ namespace dmocbench::detail {
 void require_factors(Eigen::Index rows, Eigen::Index columns, Eigen::Index other_rows, Eigen::Index other_columns) {
   if (columns == other_rows) return;
   throw Error(
-      fmt::format("a product of a {} x {} and a {} x {} matrix: the number of columns of the left factor must equal "
-                  "the number of rows of the right one",
+      fmt::format("cannot multiply a {} x {} matrix by a {} x {} matrix: the number of columns of the left factor must "
+                  "equal the number of rows of the right factor",
                   rows, columns, other_rows, other_columns));
 }
 

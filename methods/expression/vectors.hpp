@@ -166,6 +166,6 @@ inline void append(std::vector<Expression>& outputs, const ExpressionMatrix& ent
 /// positive. Throws `Error` with the sentence `singular` if a pivot is a structural zero.
 [[nodiscard]] ExpressionVector solve_symmetric(
     const ExpressionMatrix& a, const ExpressionVector& b,
-    const char* singular = "a system of linear equations has a pivot that is zero for all values");
+    const char* singular = "a system of linear equations has a pivot that is zero for all values of the inputs");
 
 }  // namespace dmocbench

@@ -59,7 +59,7 @@ class NewtonOnGrid {
     matrix.setFromTriplets(entries.begin(), entries.end());
     Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(matrix);
     if (factors.info() != Eigen::Success) {
-      throw Error("the boundary value problem is singular at the start; start from a finer direct solution");
+      throw Error("the boundary value problem is singular at the initial guess; start from a finer direct solution");
     }
     const Eigen::VectorXd solution = factors.solve(right_hand_side);
     return correct(solution.reshaped(size_, intervals + 1));
@@ -75,8 +75,8 @@ class NewtonOnGrid {
         if (function_.control_size() == 0) continue;
         if (!is_positive_definite(values.control_hessian)) {
           throw Error(
-              "H_u = 0 is not a minimum of the Hamiltonian: H_uu is not positive definite along the solution; the "
-              "indirect method needs a running cost strictly convex in the control");
+              "H_u = 0 does not minimise the Hamiltonian: H_uu is not positive definite along the solution; the "
+              "indirect method needs a running cost that is strictly convex in the control");
         }
       }
     }

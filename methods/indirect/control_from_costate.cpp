@@ -40,7 +40,7 @@ Eigen::VectorXd ControlFromCostate::control(const Eigen::VectorXd& q, const Eige
   constexpr double last_step = 1e-10;
   if (q.size() != n_ || v.size() != n_ || psi_p.size() != n_ || start.size() != m_ || y.size() != l_ ||
       psi_y.size() != l_) {
-    throw Error("the control from the costate cannot be computed: a vector has the wrong size");
+    throw Error("the control cannot be computed from the costate: a vector has the wrong size");
   }
   std::vector<double> inputs(static_cast<std::size_t>(3 * n_ + m_ + 1 + 2 * l_));
   Eigen::Map<Eigen::VectorXd> point(inputs.data(), std::ssize(inputs));
@@ -53,18 +53,18 @@ Eigen::VectorXd ControlFromCostate::control(const Eigen::VectorXd& q, const Eige
     const std::optional<Eigen::VectorXd> correction = solve_if_positive_definite(curvature, hamiltonian_by_control);
     if (!correction) {
       throw Error(
-          "H_u = 0 does not give the control: H_uu is not positive definite; the running cost must be strictly convex "
-          "in the control");
+          "H_u = 0 does not determine the control: H_uu is not positive definite; the running cost must be strictly "
+          "convex in the control");
     }
     u -= *correction;
     if (correction->norm() <= last_step * (1e-3 + u.norm())) return u;
   }
-  throw Error("Newton's method for the control from H_u = 0 did not converge");
+  throw Error("Newton's method did not solve H_u = 0 for the control");
 }
 
 Eigen::MatrixXd ControlFromCostate::at_nodes(const Trajectory& trajectory) const {
   if (!trajectory.has_costates()) {
-    throw Error("the control from the costate needs costates: use the solution of a solver with multipliers");
+    throw Error("controls can be computed only from costates: use the solution of a solver with multipliers");
   }
   const Eigen::Index nodes = trajectory.node_times.size();
   Eigen::MatrixXd controls(nodes, m_);

@@ -41,7 +41,7 @@ Eigen::VectorXd joined(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 void require_rows_and_columns(const Eigen::MatrixXd& table, Eigen::Index rows, Eigen::Index columns) {
   if (table.rows() == rows && table.cols() == columns && table.allFinite()) return;
-  throw Error("the indirect solution has a wrong size or an entry that is not finite; solve it again");
+  throw Error("the indirect solution has a matrix of the wrong size or an entry that is not finite; solve it again");
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ PontryaginFunction::Values PontryaginFunction::evaluate(const Eigen::VectorXd& y
       if (!correction.allFinite()) {
         throw Error(
             "H_u = 0 has no solution u(x, psi): H_uu or L_vv is singular; the indirect method needs a regular "
-            "Lagrangian and a running cost strictly convex in the control");
+            "Lagrangian and a running cost that is strictly convex in the control");
       }
       z -= correction;
       converged = correction.lpNorm<Eigen::Infinity>() <= last_step * (1.0 + z.lpNorm<Eigen::Infinity>());
@@ -82,7 +82,7 @@ PontryaginFunction::Values PontryaginFunction::evaluate(const Eigen::VectorXd& y
     values.hamiltonian_terms = std::abs(outputs[0]) + values.rate.head(half).cwiseAbs().dot(y.tail(half).cwiseAbs());
     return values;
   }
-  throw Error("Newton's method for the control from H_u = 0 did not converge; start from a finer direct solution");
+  throw Error("Newton's method did not solve H_u = 0 for the control; start from a finer direct solution");
 }
 
 }  // namespace dmocbench

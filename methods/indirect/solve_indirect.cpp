@@ -71,7 +71,7 @@ void require_indirect(const Problem& problem) {
   const TracedProblem traced(problem);
   const auto refuse = [&](const std::string& feature) {
     throw Error("the indirect method does not support " + feature + ", which " + problem.name() +
-                " has; measure against a finer grid instead");
+                " has; compare with a finer grid instead");
   };
   const ProblemBounds bounds = problem.bounds();
   if (!bounds.first.all_fixed() || !bounds.last.all_fixed()) refuse("free or bounded ends");
@@ -131,7 +131,7 @@ double boundary_value_residual(const Problem& problem, const IndirectSolution& s
   const Eigen::Index half = function.state_size() / 2;
   const double horizon = problem.horizon();
   if (extremal.nodes.rows() != 2 * half || extremal.algebraic.rows() != function.algebraic_size()) {
-    throw Error("the indirect solution belongs to a problem other than " + problem.name());
+    throw Error("the indirect solution does not belong to the problem " + problem.name());
   }
   LegendreTransform legendre{TracedProblem(problem)};
   const Eigen::Index intervals = extremal.intervals();

@@ -110,8 +110,8 @@ bool Confirmation::refuse_hidden_violation(Solution& solution) {
   if (!hidden) return false;
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
-      "The violation of {0} {2} is below the tolerance, but it is {3:.1g} times the size of this {1}, {4:.1g}. State "
-      "it in units in which its size is about 1.",
+      "The violation of {0} {2} is below the tolerance, but it is {3:.1g} times the size of this {1} ({4:.1g}). State "
+      "this {1} in units in which its size is about 1.",
       hidden->is_of_bound ? "a bound of unknown" : "constraint", hidden->is_of_bound ? "unknown" : "constraint",
       hidden->number, hidden->share, hidden->size);
   return true;
@@ -136,8 +136,8 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
   if (std::numeric_limits<double>::epsilon() * term > ConstraintSizes::largest_share * std::max(gradient, tolerance)) {
     solution.status = Status::not_confirmed;
     solution.message = fmt::format(
-        "The multipliers are so large, {:.1g}, that round-off hides the residual of stationarity: constraints depend "
-        "on each other. State each condition once.",
+        "The multipliers are so large ({:.1g}) that round-off hides the stationarity residual: constraints depend on "
+        "each other. State each condition once.",
         multipliers.lpNorm<Eigen::Infinity>());
     return;
   }
@@ -146,7 +146,7 @@ void Confirmation::require_visible(double tolerance, Solution& solution) {
   needs_factors_of_rows_ = true;
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
-      "The residual of stationarity, {:.1g}, is within the round-off of large constraints, but it is {:.1g} times the "
+      "The stationarity residual {:.1g} is within the round-off of large constraints, but it is {:.1g} times the "
       "gradient of the cost. State the constraints in units in which their sizes are about 1.",
       residual, gradient > 0.0 ? residual / gradient : unbounded);
 }
@@ -172,15 +172,15 @@ void Confirmation::require_settled(double tolerance, Solution& solution) {
   if (step->of_state <= settled) {
     solution.status = Status::control_not_determined;
     solution.message = fmt::format(
-        "{} A Newton step would move a control by {:.1g} of its size, but neither the state nor the cost: the control "
-        "is singular, or near a bound that the solver has not reached; a smaller tolerance distinguishes the two.",
+        "{} A Newton step would move a control by {:.1g} of its size without changing the state or the cost. The "
+        "control is singular or near a bound that the solver has not reached; a smaller tolerance shows which.",
         sentence_of(solution.status), length);
     return;
   }
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
-      "The residuals are below the tolerance, but a Newton step would move the solution by {:.1g} of its size. Scaling "
-      "the cost to about 1 or a smaller tolerance may help, unless the cost hardly depends on the unknowns that move.",
+      "The residuals are below the tolerance, but a Newton step would move the solution by {:.1g} of its size. Scale "
+      "the cost to about 1, or reduce the tolerance; neither helps if the cost hardly depends on the moving unknowns.",
       length);
 }
 

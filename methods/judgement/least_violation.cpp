@@ -211,7 +211,7 @@ constexpr int most_steps = 200;
 /// A descent that is cut short has shown nothing.
 void require_time(const CountedProgram& program, const SolverOptions& options) {
   if ((options.stop_requested && options.stop_requested()) || program.is_out_of_time()) {
-    throw Stopped("the descent on the violation was stopped, or reached the time limit");
+    throw Stopped("the descent on the constraint violation was stopped or reached the time limit");
   }
 }
 
@@ -325,17 +325,17 @@ void judge_infeasibility(const CountedProgram& program, const SolverOptions& opt
   if (is_least && !is_certain && feasible_point(program, options, start).size() > 0) {
     solution.status = Status::step_failed;
     solution.message =
-        "The last point is a local minimum of the constraint violation, but descent on the violation from other points "
-        "satisfies the constraints: the program is feasible and the solver failed; start from another trajectory.";
+        "The last point is a local minimum of the constraint violation, but descent on the violation from another "
+        "point reached a feasible point. The solver failed; start from another trajectory.";
     return;
   }
   if (!is_least && !claims) return;
   solution.status = is_least ? Status::infeasible : Status::step_failed;
-  solution.message = is_certain ? "Infeasible: the constraints are affine and no point satisfies them; the last point "
-                                  "has the smallest violation."
-                     : is_least
-                         ? ""
-                         : "The solver reports infeasibility, but its last point does not minimise the violation.";
+  solution.message =
+      is_certain ? "The program is infeasible: its constraints are affine and no point satisfies them. The last point "
+                   "has the smallest violation."
+      : is_least ? ""
+                 : "The solver reports infeasibility, but its last point does not minimise the constraint violation.";
 }
 
 }  // namespace dmocbench

@@ -136,7 +136,7 @@ int steps_to_confirmation(NonlinearProgram& program, double tolerance, Solution&
     if (next.curvature) return 0;  // Newton's method leads to saddles too
     // If the cost is so small that any residual passes, an answer whose residuals were large remains unchecked.
     if (!was_unsettled && confirmation.scaling(tolerance, next.primal, next).of_cost != 1.0) return 0;
-    next.message += fmt::format(" {} after the solver confirmed the solution.", counted(steps, "Newton step"));
+    next.message += fmt::format(" {} after the last iteration confirmed the solution.", counted(steps, "Newton step"));
     if (solution.status != Status::not_confirmed && !is_solved(solution.status)) {
       next.message += fmt::format(" The solver itself reported \"{}\".", name_of(solution.status));
     }
@@ -175,9 +175,9 @@ void tell_of_equal_neighbours(NonlinearProgram& program, double tolerance, Solut
   }
   solution.status = Status::solved;
   solution.message = fmt::format(
-      "{} The tolerance does not determine the trajectory: trajectories at a distance of {:.0e} of its size, on both "
-      "sides, satisfy all conditions at the same cost. A small term in the cost, such as the square of a control, "
-      "would select one.",
+      "{} The tolerance does not determine the trajectory: neighbours on both sides, at a distance of {:.0e} of its "
+      "size, satisfy all conditions at the same cost. A small term in the cost, such as the square of a control, would "
+      "select one trajectory.",
       sentence_of(solution.status), share * correction->length);
 }
 

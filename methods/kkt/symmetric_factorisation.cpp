@@ -97,7 +97,7 @@ struct SymmetricFactorisation::Mumps {
       if (is_singular(code) || (lacks_workspace(code) && is_enough)) return false;
       if (lacks_memory(code)) throw std::bad_alloc();
       if (!lacks_workspace(code))
-        throw Error(fmt::format("MUMPS failed with code {}; its manual lists the codes", code));
+        throw Error(fmt::format("MUMPS failed with code {}; the MUMPS manual lists the codes", code));
       stop_if_requested();
       if (positions.empty() || data.icntl[control(14)] == more_workspace_percent) {
         data.icntl[control(14)] *= 4;

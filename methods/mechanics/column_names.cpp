@@ -18,7 +18,7 @@ namespace {
 /// Columns of one table by their names, and whose each is.
 class TakenColumns {
  public:
-  /// `subject` begins the sentences, "spring: among configuration_names and control_names".
+  /// `subject` begins the sentences, "spring: in configuration_names and control_names".
   TakenColumns(std::string subject, const std::string& time) : subject_(std::move(subject)), owners_{{time, ""}} {}
 
   /// Throws `Error` if the column has no name that a table can have, or one that another has.
@@ -26,17 +26,17 @@ class TakenColumns {
     const bool has_blank = name.starts_with(' ') || name.ends_with(' ');
     if (name.empty() || has_blank || name.find_first_of(",\"") != std::string::npos || has_control_character(name)) {
       throw Error(
-          fmt::format("{} \"{}\" cannot name a column: it is empty, or has a comma, a quotation mark, a control "
+          fmt::format("{}, \"{}\" cannot name a column: it is empty, or has a comma, a quotation mark, a control "
                       "character, or a leading or trailing blank",
                       subject_, shown(name)));
     }
     const auto [other, is_new] = owners_.try_emplace(column, name);
     if (is_new) return;
     const std::string& owner = other->second;
-    std::string fault = fmt::format("and \"{}\" would both have the column {}", owner, column);
-    if (owner.empty()) fault = "is the name of the time";
+    std::string fault = fmt::format("and \"{}\" would both name the column {}", owner, column);
+    if (owner.empty()) fault = "is the name of the time column";
     if (owner == name) fault = "is used twice";
-    throw Error(fmt::format("{} \"{}\" {}; rename one", subject_, name, fault));
+    throw Error(fmt::format("{}, \"{}\" {}; rename one", subject_, name, fault));
   }
 
  private:
@@ -80,7 +80,7 @@ std::pair<std::string, std::string> name_and_unit(const std::string& column) {
 
 void require_names(const Problem& problem) {
   TakenColumns columns(
-      problem.name() + ": among " + member_name("configuration_names") + " and " + member_name("control_names"), "t");
+      problem.name() + ": in " + member_name("configuration_names") + " and " + member_name("control_names"), "t");
   const auto names_of = [&](const char* function, const auto& call) { return call_formula(problem, function, call); };
   const auto configurations = names_of("configuration_names", [&] { return problem.configuration_names(); });
   const auto controls = names_of("control_names", [&] { return problem.control_names(); });

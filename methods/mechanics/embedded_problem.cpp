@@ -187,13 +187,13 @@ BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::V
                                       const EndBounds& bounds, const char* end) const {
   const auto require_whole = [&](const Bounds& of, const char* what) {
     if (of.all_fixed() || !of.any()) return;
-    throw Error(fmt::format("{}: {} gives or bounds {} in part, which an embedding does not support; use multipliers",
+    throw Error(fmt::format("{}: {} fixes or bounds a part of {}, which an embedding does not support; use multipliers",
                             redundant_->name(), member_name(end), what));
   };
   require_whole(bounds.q, "q");
-  require_whole(bounds.v, "its rates");
+  require_whole(bounds.v, "v");
   if (bounds.v.all_fixed() && !bounds.q.all_fixed()) {
-    throw Error(fmt::format("{}: {} gives only the rates of q, which an embedding does not support; use multipliers",
+    throw Error(fmt::format("{}: {} fixes v but not q, which an embedding does not support; use multipliers",
                             redundant_->name(), member_name(end)));
   }
   BoundaryState result{.q = theta, .v = rate_of(state.v, theta, t), .y = state.y};
@@ -201,11 +201,11 @@ BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::V
   const auto require_near = [&](const Eigen::VectorXd& from, const Eigen::VectorXd& to, const char* what) {
     const double distance = (from - to).norm();
     if (distance <= 1e-9 * (1.0 + to.norm())) return;  // not where it is not a number
-    throw Error(fmt::format("{}: embedding(theta) misses {}: {} by {:.3g}", redundant_->name(), member_name(end), what,
-                            distance));
+    throw Error(fmt::format("{}: embedding(theta) does not reach {}: the distance in {} is {:.3g}", redundant_->name(),
+                            member_name(end), what, distance));
   };
   if (bounds.q.all_fixed()) require_near(reached.q, state.q, "q");
-  if (bounds.v.all_fixed()) require_near(reached.v, state.v, "its rates");
+  if (bounds.v.all_fixed()) require_near(reached.v, state.v, "v");
   return result;
 }
 

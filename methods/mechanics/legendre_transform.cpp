@@ -83,7 +83,7 @@ Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eige
     v += *correction;
     if (is_rounding || correction->norm() <= tolerance * (1.0 + v.norm())) return v;
   }
-  throw Error("the inverse Legendre transform did not converge; is the Lagrangian convex in the velocity?");
+  throw Error("the inverse Legendre transform did not converge; the Lagrangian must be convex in the velocity");
 }
 
 }  // namespace dmocbench

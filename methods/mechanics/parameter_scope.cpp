@@ -122,7 +122,7 @@ void ParameterTrace::read_as_number(std::size_t parameter) {
   const auto& [name, is_unknown] =
       std::pair(problem_.parameters()[parameter].name, problem_.parameters()[parameter].is_unknown);
   if (is_unknown) {
-    throw Error(fmt::format("{}: a formula reads the unknown {} with {}, as a number; use {}", problem_.name(), name,
+    throw Error(fmt::format("{}: a formula reads the unknown {} as a number, with {}; use {}", problem_.name(), name,
                             member_name("parameter()"), member_name("varying()")));
   }
   throw Error(fmt::format("{}: the parameter {} cannot be kept open, because a formula reads it with {}; use {}",

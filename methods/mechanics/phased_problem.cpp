@@ -71,8 +71,8 @@ void add_shared(std::vector<Parameter>& parameters, const Parameter& added, cons
   } else if (same->value != added.value || same->lower != added.lower || same->upper != added.upper ||
              same->whole != added.whole || same->is_unknown != added.is_unknown) {
     throw Error(
-        fmt::format("phase {}: the value, range or kind of its parameter {} differs from an earlier phase; phases "
-                    "share parameters of the same name, so make them equal or rename one",
+        fmt::format("phase {}: the parameter {} has another value, range or kind in an earlier phase; phases share "
+                    "parameters of the same name, so make them equal or rename one",
                     phase, added.name));
   }
 }
@@ -118,7 +118,7 @@ std::vector<Parameter> parameters_of(const std::vector<PhasedProblem::Phase>& ph
     parameters.push_back({.name = name_of_duration(phase),
                           .value = phase.problem->horizon(),
                           .unit = unit.factor == 1.0 ? unit.name : "",
-                          .meaning = "of the phase " + phase.name,
+                          .meaning = "duration of the phase " + phase.name,
                           .lower = bounds.horizon.lower,
                           .upper = bounds.horizon.upper,
                           .is_unknown = true});
@@ -156,7 +156,7 @@ void PhasedProblem::add_phase(Phase phase) {
   const std::vector<std::string> coordinates = phase.problem->configuration_names();
   if (std::ranges::count(coordinates, "phase") > 0) {
     throw Error(fmt::format(
-        "phase {} has a coordinate named phase, which is the name of the column of the phases; rename it", phase.name));
+        "phase {} has a coordinate named phase, like the column of the phases; rename the coordinate", phase.name));
   }
   const Part before = parts_.empty() ? Part{} : parts_.back();
   const Problem& problem = *phase.problem;
@@ -368,7 +368,7 @@ ExpressionVector PhasedProblem::checked_link(std::size_t i, const PhaseEnd& befo
   const Eigen::Index most = open + open_entries(phase_bounds(preceding(next)).last) + unknown_count;
   const std::string subject = name_of_link(i) + " has " + counted(entries.size(), "entry", "entries");
   if (entries.size() < open - held) {
-    throw Error(fmt::format("{}, but {} not given at the start of {}; state an entry for each", subject,
+    throw Error(fmt::format("{}, but {} not given at the start of {}; state an entry for each number", subject,
                             counted(open - held, "number is", "numbers are"), phases_[next].name));
   }
   if (entries.size() > most) {
@@ -457,8 +457,8 @@ void PhasedProblem::require_stated_range(std::size_t i, const HorizonBounds& now
   const Parameter& stated = parameters()[parameter_number(*this, name_of_duration(i))];
   if (stated.lower == now.lower && stated.upper == now.upper) return;
   throw Error(
-      fmt::format("phase {}: the range of its duration was {:g} to {:g} and is {:g} to {:g} with these parameters; it "
-                  "must not depend on parameters",
+      fmt::format("phase {}: the range of its duration was {:g} to {:g}, but is {:g} to {:g} with these parameters; "
+                  "the range must not depend on parameters",
                   phases_[i].name, stated.lower, stated.upper, now.lower, now.upper));
 }
 
@@ -521,7 +521,7 @@ ProblemCard PhasedProblem::card() const {
     return result;
   }();
   all.description = fmt::format("the phases {}", fmt::join(names, ", "));
-  all.guess = "the guesses of all phases, side by side";
+  all.guess = "the guesses of all phases";
   for (std::size_t i = 0; i < phases_.size(); ++i) {
     const ProblemCard own = in_phase(i, [](const Problem& phase) { return phase.card(); });
     if (i == 0) all.time_unit = own.time_unit;

@@ -64,7 +64,7 @@ Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string
     const std::string entry = fmt::format("{}: entry {}", subject, i);
     if (std::isnan(bounds.lower[i]) || std::isnan(bounds.upper[i])) throw Error(entry + " is not a number");
     if (bounds.lower[i] == infinite || bounds.upper[i] == -infinite)
-      throw Error(entry + " is infinite on the wrong side");
+      throw Error(entry + " is infinite with the wrong sign");
     if (bounds.lower[i] > bounds.upper[i]) {
       throw Error(fmt::format("{} has the lower bound {:g} above the upper bound {:g}", entry, bounds.lower[i],
                               bounds.upper[i]));
@@ -79,7 +79,7 @@ void narrow(Bounds& end, const Bounds& everywhere, const std::string& subject, c
     const double lower = std::max(end.lower[i], everywhere.lower[i]);
     const double upper = std::min(end.upper[i], everywhere.upper[i]);
     if (lower > upper) {
-      throw Error(fmt::format("{} and {}{} leave no value for {}[{}]: {:g} to {:g} there, {:g} to {:g} at the end",
+      throw Error(fmt::format("{} and {}{} leave no value for {}[{}]: {:g} to {:g} always, {:g} to {:g} at this time",
                               subject, member_name("bounds()."), part, part, i, everywhere.lower[i],
                               everywhere.upper[i], end.lower[i], end.upper[i]));
     }
@@ -106,8 +106,8 @@ void require_velocity_left(const Bounds& v, const Bounds& everywhere, const std:
     const double upper = std::min(v.upper[i], everywhere.upper[i]);
     const double slack = 1e-12 * std::max(1.0, std::abs(upper));
     if (lower <= upper + slack) continue;
-    throw Error(fmt::format("{} and {} leave no value for v[{}]: {:g} lies above {:g}", subject,
-                            member_name("bounds().v"), i, lower, upper));
+    throw Error(fmt::format("{} and {} leave no value for v[{}]: the lower bound {:g} lies above the upper bound {:g}",
+                            subject, member_name("bounds().v"), i, lower, upper));
   }
 }
 

@@ -65,7 +65,7 @@ struct ProblemCard {
   AxisUnits axis_units = {};     ///< of figures
   std::string source = {};       ///< where the problem comes from
   /// `Problem::guess` in words.
-  std::string guess = "q on the straight line from q(0) to q(T), v its slope, u = 0";
+  std::string guess = "q on the straight line from q(0) to q(T) with slope v, u = 0";
   /// The unit of time that tables use for the step and figures for the time axis.
   Unit time_unit = {"s", 1.0};
   /// The units of q_1 .. q_n, "m" or "rad"; empty where none are stated. Figures show quantities of one unit in one

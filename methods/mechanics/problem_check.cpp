@@ -74,7 +74,7 @@ void check_units(const Problem& problem, const char* of, const std::vector<std::
   const std::string owner = fmt::format("card().{}", of);
   for (const std::string& unit : units) require_one_line(problem, owner, unit);
   if (units.empty() || std::ssize(units) == entries) return;
-  throw Error(fmt::format("{}: {} has {}, expected {}, or none", problem.name(), owner,
+  throw Error(fmt::format("{}: {} has {}, expected {} or none", problem.name(), owner,
                           counted(units.size(), "entry", "entries"), entries));
 }
 

@@ -128,7 +128,7 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   for (Eigen::Index i = 0; i < n_ && constraint_count_ == 0; ++i) {
     const auto row = mass.row(i);
     if (std::all_of(row.begin(), row.end(), is_zero)) {
-      throw Error(problem.name() + ": the Lagrangian is not regular, L_vv has a zero row for " +
+      throw Error(problem.name() + ": the Lagrangian is not regular: L_vv has a zero row for " +
                   problem.configuration_names()[static_cast<std::size_t>(i)]);
     }
   }
@@ -295,7 +295,7 @@ ExpressionVector TracedProblem::parameters() const {
 void TracedProblem::require_first_order(Eigen::Index given) const {
   if (given == l_) return;
   throw Error(
-      fmt::format("this method does not support first-order states ({}); dmoc, hamiltonian, tangent and galerkin do",
+      fmt::format("this method does not support first-order states ({}); choose dmoc, hamiltonian, tangent or galerkin",
                   member_name("Problem::first_order_names")));
 }
 

@@ -13,10 +13,10 @@ void SolverOptions::validate() const {
     throw Error(fmt::format("the tolerance must lie between 0 and 1, got {}", tolerance));
   }
   if (most_iterations < 1) {
-    throw Error(fmt::format("the largest number of iterations must be at least 1, got {}", most_iterations));
+    throw Error(fmt::format("the maximum number of iterations must be at least 1, got {}", most_iterations));
   }
   if (!(most_seconds >= 0.0) || std::isinf(most_seconds)) {
-    throw Error(fmt::format("the time limit must be a number of seconds, or 0 for none, got {}", most_seconds));
+    throw Error(fmt::format("the time limit must be a number of seconds, or 0 for no limit, got {}", most_seconds));
   }
 }
 

@@ -176,7 +176,7 @@ std::size_t thread_count() {
 
 void set_thread_count(std::size_t count) {
   if (count < 1 || count > most_threads) {
-    throw Error(fmt::format("the number of threads must be from 1 to {}, not {}", most_threads, count));
+    throw Error(fmt::format("the number of threads must lie between 1 and {}, got {}", most_threads, count));
   }
   count_that_was_set = count;
 }

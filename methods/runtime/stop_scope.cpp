@@ -46,7 +46,7 @@ double seconds_left() {
 }
 
 void stop_if_requested() {
-  if (must_stop()) throw Stopped("it was stopped, or reached the time limit");
+  if (must_stop()) throw Stopped("the solve was stopped or reached the time limit");
 }
 
 }  // namespace dmocbench

@@ -111,7 +111,7 @@ Sensitivities::Sensitivities(NonlinearProgram& program, const Eigen::VectorXd& p
                             program.variable_count(), program.constraint_count(), primal.size(), multipliers.size()));
   }
   optimum_ = std::make_unique<Optimum>(program, primal, multipliers);
-  if (!optimum_->at.is_finite()) throw Error("the optimum has no sensitivities: a derivative is not finite there");
+  if (!optimum_->at.is_finite()) throw Error("the optimum has no sensitivities: a derivative is not finite");
 }
 
 Sensitivities::~Sensitivities() = default;

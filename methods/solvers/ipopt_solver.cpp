@@ -292,7 +292,7 @@ void pass_on(Ipopt::OptionsList& list, const std::string& name, const std::strin
   const auto number = parsed<double>(value);
   if (number && list.SetNumericValue(name, *number)) return;
   if (list.SetStringValue(name, value)) return;
-  throw Error(fmt::format("Ipopt rejects the option {}={}", name, value));
+  throw Error(fmt::format("Ipopt rejects the option {}={}; the Ipopt manual lists the options", name, value));
 }
 
 void set_options(Ipopt::IpoptApplication& application, const SolverOptions& options, const NamedOptions& named) {
@@ -315,7 +315,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& o
   application->RethrowNonIpoptException(true);
   set_options(*application, options, named);
   if (application->Initialize("") != Ipopt::Solve_Succeeded) {
-    throw Error("Ipopt rejects one of the options passed on to it");
+    throw Error("Ipopt rejects one of the options passed to it");
   }
   return application;
 }

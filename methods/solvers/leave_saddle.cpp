@@ -115,21 +115,21 @@ void leave_saddle(NonlinearProgram& program, double tolerance, const Confirmatio
   solution = std::move(at.solution);
   if (solution.objective < before) {
     solution.message += fmt::format(
-        " The solver first stopped at a saddle point, whose cost is {:.3g} % higher, and continued from there along a "
-        "direction of negative curvature.",
+        " The solver first stopped at a saddle point with a cost {:.3g} % higher, and continued along a direction of "
+        "negative curvature.",
         decrease(before, solution.objective));
   }
   if (!at.curvature) return;
   if (const auto cost = descent.lowest_cost(); cost && is_lower(*cost, solution, tolerance)) {
     solution.status = Status::stationary;
     solution.message = fmt::format(
-        "{} A point whose cost is {:.3g} % lower satisfies the constraints, but no solve from there converged.",
+        "{} A point with a cost {:.3g} % lower satisfies the constraints, but no solve from this point converged.",
         sentence_of(solution.status), decrease(solution.objective, *cost));
     return;
   }
   solution.message +=
-      " The curvature is negative along a direction that satisfies the linearised constraints. This may be a saddle "
-      "point, although no solve from either side of it reached a lower cost.";
+      " The curvature is negative along a direction that satisfies the linearised constraints. The solution may be a "
+      "saddle point, although no solve from either side of it reached a lower cost.";
 }
 
 }  // namespace dmocbench

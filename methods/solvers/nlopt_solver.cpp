@@ -286,7 +286,7 @@ std::string NloptSolver::description() const {
   int patch = 0;
   nlopt_version(&major, &minor, &patch);
   return fmt::format(
-      "SLSQP, a dense quasi-Newton method of sequential quadratic programming (NLopt {}.{}.{}), at most {} free "
+      "SLSQP, a dense quasi-Newton method of sequential quadratic programming (NLopt {}.{}.{}) for at most {} free "
       "variables",
       major, minor, patch, most_free_variables);
 }

@@ -104,15 +104,14 @@ void state_without_scaling(NonlinearProgram& program, const Scaling& scaling, co
                            Solution& solution) {
   if (scaling.of_cost != 1.0) {
     solution.message += fmt::format(
-        " The cost was too small for the tolerance and was multiplied by {:.0e} for the solver, as `cost_scale` of a "
-        "problem would do.",
+        " The cost was too small for the tolerance and was multiplied by {:.0e} for the solver, as with `cost_scale`.",
         scaling.of_cost);
   }
   if (scaling.of_rows.size() > 0) {
     solution.message +=
         fmt::format(" {} multiplied by powers of two for the solver.",
-                    counted((scaling.of_rows.array() != 1.0).count(), "constraint, whose size is far from 1, was",
-                            "constraints, whose sizes are far from 1, were"));
+                    counted((scaling.of_rows.array() != 1.0).count(), "constraint with a size far from 1 was",
+                            "constraints with sizes far from 1 were"));
   }
   if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would ignore the factors
   if (solution.barrier_parameter) *solution.barrier_parameter /= scaling.of_cost;
@@ -168,9 +167,9 @@ class RelaxedProgram final : public ForwardingProgram {
     if (judged.status != Status::solved) return false;
     solution.kkt_residual = judged.kkt_residual;
     solution.constraint_violation = judged.constraint_violation;
-    solution.message += fmt::format(
-        " Constraint {} {} others and {} left out for the solver: state each condition once.",
-        fmt::join(relaxed_, ", "), relaxed_.size() == 1 ? "repeats" : "repeat", relaxed_.size() == 1 ? "was" : "were");
+    solution.message +=
+        fmt::format(" These constraints repeat others and were left out for the solver: {}. State each condition once.",
+                    fmt::join(relaxed_, ", "));
     return true;
   }
 

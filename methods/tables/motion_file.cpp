@@ -175,12 +175,12 @@ PointFunction path_function(const Problem& problem) {
 Series priced(const std::string& prefix, const std::vector<std::string>& names, const Eigen::MatrixXd& prices,
               const std::string& of) {
   return {prefix, prices.size() > 0 ? names : std::vector<std::string>(), prices,
-          "increase of the optimal cost per unit of the bound of " + of};
+          "increase of the optimal cost per unit of the bound on " + of};
 }
 
 /// λ at the stages, whatever the method; without columns where there are none, or the equations of motion are singular.
 Series multipliers_at_stages(const Problem& problem, const Trajectory& trajectory) {
-  Series series{"lambda_", {}, {}, "multiplier of a constraint g(q) = 0, energy per unit of g, or A(q) v = 0"};
+  Series series{"lambda_", {}, {}, "multiplier of a constraint g(q) = 0 (energy per unit of g) or A(q) v = 0"};
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   if (traced.constraint_count() == 0) return series;
@@ -334,7 +334,7 @@ Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const 
     if (own.q.rows() != all.node_times.size() || own.stage_u.rows() != all.stage_times.size()) {
       throw Error(fmt::format(
           "{}: the phase {} has {} nodes and {} controls, but the first phase has {} and {}; all phases need the same "
-          "numbers",
+          "numbers of nodes and controls",
           file.string(), name, own.q.rows(), own.stage_u.rows(), all.node_times.size(), all.stage_times.size()));
     }
     append_columns(all.q, own.q);
@@ -398,14 +398,14 @@ Table node_table(const Problem& problem, const Trajectory& trajectory) {
   }
   const std::vector<std::string> names = problem.configuration_names();
   std::vector<Series> all{{"", names, trajectory.q, "configuration q"},
-                          {"v_", names, trajectory.v, "its velocity"},
-                          {"p_", names, trajectory.p, "its momentum p = L_v"},
+                          {"v_", names, trajectory.v, "velocity v"},
+                          {"p_", names, trajectory.p, "momentum p = L_v"},
                           {"psi_q_", names, trajectory.psi_q, "costate of q"},
                           {"psi_p_", names, trajectory.psi_p, "costate of p"},
                           {"", problem.first_order_names(), trajectory.y, "first-order state"},
                           {"psi_", problem.first_order_names(), trajectory.psi_y, "costate of a first-order state"},
                           priced("price_", names, trajectory.prices.q, "q"),
-                          priced("price_v_", names, trajectory.prices.v, "its velocity"),
+                          priced("price_v_", names, trajectory.prices.v, "velocity v"),
                           priced("price_", problem.first_order_names(), trajectory.prices.y, "a first-order state")};
   std::ranges::move(constants(problem, trajectory), std::back_inserter(all));
   return series_table("t", trajectory.node_times, all);
@@ -482,14 +482,14 @@ Table quantity_table(const Problem& problem) {
   Table table({"kind", "quantity", "unit", "lower", "upper", "time"});
   constexpr FieldType text{FieldKind::text, true};
   constexpr FieldType number{FieldKind::number, true};
-  table.describe({{"kind", {"", "t, q, u, or h for a path constraint", text}},
-                  {"quantity", {"", "the column with this name in the tables of the trajectory", text}},
-                  {"unit", {"", "unit that the problem states; empty if it states none", text}},
-                  {"lower", {"", "its lower bound; empty for none", number}},
-                  {"upper", {"", "its upper bound; empty for none", number}},
-                  {"time",
-                   {"", "time at which these bounds hold, as a share of T; empty for bounds along the whole trajectory",
-                    number}}});
+  table.describe(
+      {{"kind", {"", "t, q, u, or h (path constraint)", text}},
+       {"quantity", {"", "name of the column in the tables of the trajectory", text}},
+       {"unit", {"", "unit that the problem states; empty if it states none", text}},
+       {"lower", {"", "lower bound; empty if there is none", number}},
+       {"upper", {"", "upper bound; empty if there is none", number}},
+       {"time",
+        {"", "time at which the bounds hold, as a share of T; empty for bounds along the whole trajectory", number}}});
   table.set_key({"kind", "quantity", "time"});
   Row time;
   time.set("kind", "t");
@@ -535,7 +535,7 @@ std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {
   constexpr std::string_view ending = "_nodes.csv";
   const std::string name = nodes_file.string();
   if (name.size() <= ending.size() || !name.ends_with(ending)) {
-    throw Error(fmt::format("the name of a node table must end with {}, unlike {}", ending, name));
+    throw Error(fmt::format("the name of a node table must end with {}, but is {}", ending, name));
   }
   return name.substr(0, name.size() - ending.size()) + "_stages.csv";
 }

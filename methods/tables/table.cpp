@@ -143,7 +143,7 @@ Table Table::from_csv(std::string_view text) {
     const std::vector<std::string> fields = take_record(text);
     if (fields.size() != table.columns_.size()) {
       throw Error(
-          fmt::format("record {} has {} fields, the header has {}", line, fields.size(), table.columns_.size()));
+          fmt::format("record {} has {} fields, but the header has {}", line, fields.size(), table.columns_.size()));
     }
     Row row;
     for (std::size_t i = 0; i < fields.size(); ++i) {

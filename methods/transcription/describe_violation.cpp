@@ -121,7 +121,7 @@ class ConstraintWords {
   }
   [[nodiscard]] std::string end_momentum(const char* state, const char* bounds, const EndBounds& end,
                                          const RowBlock& block, std::size_t row) const {
-    return fmt::format("{}: the momentum (p = L_v of its velocity) of {}",
+    return fmt::format("{}: the momentum (p = L_v at its velocity) of {}",
                        member_name(end.v.is_fixed(number_in(block, row)) ? state : bounds), component_of(block, row));
   }
 
@@ -168,7 +168,7 @@ std::string held_controls(const Problem& problem, const Transcription& transcrip
       }
     }
     if (2 * held <= stages * intervals) continue;
-    text += fmt::format(" {} holds {} at {} of {} stages.", member_name("bounds().u"),
+    text += fmt::format(" {} is active for {} at {} of {} stages.", member_name("bounds().u"),
                         named('u', i, problem.control_names()), held, stages * intervals);
   }
   return text;
@@ -314,8 +314,8 @@ std::string no_freedom(const Transcription& transcription) {
   }
   if (equations < unknowns) return "";
   return fmt::format(
-      " The problem has no freedom: {} for {}, whatever the cost. It is a boundary value problem, whose solution "
-      "depends on the guess.",
+      " The problem has no degree of freedom: {} for {}. It is a boundary value problem, whose solution depends on the "
+      "guess but not on the cost.",
       counted(equations, "equation"), counted(unknowns, "unknown"));
 }
 
@@ -323,8 +323,8 @@ std::string held_horizon(const Problem& problem, const Transcription& transcript
   if (!transcription.has_free_horizon()) return "";
   const HorizonBounds bounds = problem.bounds().horizon;
   const double horizon = transcription.horizon(x);
-  if (is_held(horizon, bounds.lower)) return " " + member_name("bounds().horizon") + " holds T at its lower bound.";
-  if (is_held(horizon, bounds.upper)) return " " + member_name("bounds().horizon") + " holds T at its upper bound.";
+  if (is_held(horizon, bounds.lower)) return " " + member_name("bounds().horizon") + ": T is at its lower bound.";
+  if (is_held(horizon, bounds.upper)) return " " + member_name("bounds().horizon") + ": T is at its upper bound.";
   return "";
 }
 
@@ -356,7 +356,7 @@ std::string idle_controls(const Problem& problem) {
     }
   }
   if (std::any_of(acts.begin(), acts.begin() + m, std::identity{})) return "";
-  return fmt::format(" The force does not depend on a control{}, so no control can steer the system.",
+  return fmt::format(" The force does not depend on any control{}, so no control can steer the system.",
                      l > 0 ? ", directly or through a first-order state" : "");
 }
 
@@ -365,7 +365,7 @@ std::string endless_descent(Transcription& transcription, const Eigen::VectorXd&
   constexpr double far_below = -1e6;
   const double cost = transcription.objective(x);
   if (!(cost < far_below)) return "";
-  return fmt::format(" The scaled cost is {:.2g} there: running_cost or final_cost may have no lower bound.", cost);
+  return fmt::format(" The scaled cost is {:.2g}: running_cost or final_cost may have no lower bound.", cost);
 }
 
 /// True if an end is bounded by more than the bounds that hold for q all along.
@@ -386,7 +386,7 @@ std::string contradiction(const Transcription& transcription) {
   if (transcription.traced_problem().holonomic_count() > 0) parts.emplace_back("constraints");
   if (transcription.traced_problem().velocity_constraint_count() > 0) parts.emplace_back("velocity_constraints");
   if (parts.empty()) return "";
-  std::string text = " The solver found no trajectory near this one that satisfies " + parts.front();
+  std::string text = " The solver found no trajectory near its last point that satisfies " + parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
   return text + " within the bounds and the horizon.";
 }
@@ -417,8 +417,8 @@ std::string describe_flat_constraint(const Problem& problem, Transcription& tran
   const FlatRow& worst = *std::ranges::max_element(flat, {}, violation);
   const ConstraintWords words(problem, transcription, guess);
   return fmt::format(
-      "The guess violates {}, whose derivative with respect to {} vanishes there, so it does not determine on which "
-      "side to pass; guess a trajectory on one side of it.",
+      "The guess violates {}. The derivative of this constraint with respect to {} vanishes at the guess and does not "
+      "determine on which side to pass; guess a trajectory on one side.",
       words.row(worst.row), words.component(worst.unknown));
 }
 
@@ -459,7 +459,7 @@ std::string undefined_formula(const Problem& problem, Transcription& transcripti
   if (!solution.primal.allFinite() || (!has_failed_there && !has_wandered)) return "";
   const auto up_to = has_failed_there ? FormulaCheck::Derivatives::second : FormulaCheck::Derivatives::first;
   const std::string undefined = undefined_stage(problem, transcription, solution.primal, up_to);
-  return undefined.empty() ? "" : "At its last point " + undefined + ".";
+  return undefined.empty() ? "" : "At the last point, " + undefined + ".";
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ void require_quadratic(const Problem& problem, const TracedProblem& traced) {
     const double change = (mass_at(share * speed.cwiseProduct(order)) - at_rest).lpNorm<Eigen::Infinity>();
     if (change <= 1e-9 * at_rest.lpNorm<Eigen::Infinity>()) continue;
     throw Error(problem.name() +
-                ": hamiltonian supports constraints g(q) = 0 only if L is quadratic in the velocity, but L_vv depends "
-                "on it; use dmoc or tangent");
+                ": hamiltonian supports constraints g(q) = 0 only if L is quadratic in v, but L_vv depends on v; use "
+                "dmoc or tangent");
   }
 }
 
@@ -245,8 +245,8 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
     const double excess = is_below ? path.lower[entry] - value : value - path.upper[entry];
     if (!(excess > uncertainty(h, x, values))) continue;  // a NaN at an end may be a number inside
     throw Error(
-        fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} there (t = "
-                    "{:g}), but must be at {} {:g}",
+        fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} at t = {:g}, "
+                    "but must be at {} {:g}",
                     problem.name(), member_name(point.name), i, names.empty() ? "" : " (" + names[i] + ")", value,
                     point.time, is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]));
   }
@@ -278,7 +278,7 @@ void require_motion_constraints_at_ends(const Problem& problem, const TracedProb
       if (std::abs(values[i]) <= known_digits * (1.0 + terms[i])) continue;
       const Eigen::Index of_velocity = i - traced.holonomic_count();
       const bool is_holonomic = of_velocity < 0;
-      throw Error(fmt::format("{}: {} violates {}constraints[{}]: {} = {:.3g} there, but must be 0", problem.name(),
+      throw Error(fmt::format("{}: {} violates {}constraints[{}]: {} = {:.3g}, but must be 0", problem.name(),
                               member_name(name), is_holonomic ? "" : "velocity_", is_holonomic ? i : of_velocity,
                               is_holonomic ? what : "A v", values[i]));
     }

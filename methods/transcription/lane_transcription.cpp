@@ -82,9 +82,9 @@ LaneTranscription::LaneTranscription(const Transcription& program)
   if (program.traced_problem().first_order_size() > 0 || program.traced_problem().integral_count() > 0) {
     throw Error("a batch supports neither first-order states nor integral constraints");
   }
-  if (program.traced_problem().unknown_count() > 0) throw Error("a batch needs given parameters; some are unknown");
+  if (program.traced_problem().unknown_count() > 0) throw Error("a batch does not support unknown parameters");
   if (!program.bounds().interior.empty()) throw Error("a batch does not support bounds between the ends");
-  if (program.has_free_horizon()) throw Error("a batch needs a given horizon, but this problem's is free");
+  if (program.has_free_horizon()) throw Error("a batch does not support a free horizon");
   const ProgramBlocks& blocks = program.blocks();
   const auto add = [&](const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
                        const std::vector<SeriesPlace>& rows, bool has_ends_only) {
@@ -147,7 +147,7 @@ double LaneTranscription::checked_horizon(const Eigen::VectorXd& parameters) con
   };
   if (!are_same(usual.q, now.q) || !are_same(usual.v, now.v) || !are_same(usual.u, now.u) ||
       !are_same(usual.path, now.path) || !are_same(usual.integrals, now.integrals)) {
-    throw Error("the parameters of an instance change bounds, which are the same for a whole batch");
+    throw Error("the parameters of an instance change bounds, but all instances of a batch have the same bounds");
   }
   return horizon;
 }

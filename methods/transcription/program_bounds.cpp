@@ -102,8 +102,8 @@ void require_same_structure(const Problem& problem, const ProgramBounds& before,
   };
   if (same(before.variables, now.variables) && same(before.constraints, now.constraints)) return;
   throw Error(problem.name() +
-              ": with these values a bound becomes finite or infinite, or starts or ceases to equal the opposite "
-              "bound; create a new transcription");
+              ": these values change whether a bound is finite, or whether it equals the opposite bound; create a new "
+              "transcription");
 }
 
 ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,

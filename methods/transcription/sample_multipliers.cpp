@@ -181,9 +181,9 @@ void write_shooting(const SampledCostates& sampled, PointDerivatives& at_point, 
 
 Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& trajectory) {
   if (!trajectory.has_costates() || trajectory.psi_y.cols() != program.traced_problem().first_order_size()) {
-    throw Error("multipliers can only be sampled from a trajectory with costates");
+    throw Error("multipliers can be sampled only from a trajectory with costates");
   }
-  program.traced_problem().require_no_constraints("the start from costates");
+  program.traced_problem().require_no_constraints("starting from costates");
   const NodeState family = program.node_state();
   const Motion motion = smooth_motion(trajectory);
   const double horizon = horizon_of(program, motion.horizon);

@@ -176,7 +176,7 @@ void require_same_grid(const Transcription& transcription, const Trajectory& tra
   const Eigen::VectorXd& relative = transcription.grid().relative_times();
   const bool same_size = times.size() == relative.size() && trajectory.stages() == transcription.tableau().stages();
   if (!same_size || times != horizon * relative) {
-    throw Error("a trajectory can only be embedded in a transcription with the same grid and tableau");
+    throw Error("a trajectory can be embedded only in a transcription with the same grid and tableau");
   }
 }
 

@@ -50,7 +50,7 @@ void require_equalities_fit(const Problem& problem, const TracedProblem& traced,
                     problem.name(), member_name("bounds().path"), i));
   }
   if (equalities <= traced.control_size()) return;
-  throw Error(fmt::format("{}: {} makes {} path constraints equalities; there can be at most as many as controls, {}",
+  throw Error(fmt::format("{}: {} makes {} path constraints equalities; at most {}, one per control, are possible",
                           problem.name(), member_name("bounds().path"), equalities, traced.control_size()));
 }
 
@@ -94,15 +94,15 @@ void require_changeable(const Problem& problem, const TracedProblem& traced, con
     const auto number = static_cast<std::size_t>(i);
     if (now[i] == before[i] || !traced.are_constants()[number]) continue;
     throw Error(
-        fmt::format("{}: formulas of this transcription contain the parameter {} as {:g}; to change it, keep it open "
-                    "when the transcription is created",
+        fmt::format("{}: formulas of this transcription contain the parameter {} with the value {:g}; to change it, "
+                    "keep it open when the transcription is created",
                     problem.name(), problem.parameters()[number].name, before[i]));
   }
 }
 
 void require_same_velocities(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
   if (before.bounded_velocities() == now.bounded_velocities()) return;
-  throw Error(problem.name() + ": different velocities have bounds than before; create a new transcription");
+  throw Error(problem.name() + ": the velocities with bounds have changed; create a new transcription");
 }
 
 void require_same_times(const Problem& problem, const ProblemBounds& before, const ProblemBounds& now) {
@@ -111,7 +111,7 @@ void require_same_times(const Problem& problem, const ProblemBounds& before, con
   };
   if (std::ranges::equal(before.interior, now.interior, is_same)) return;
   throw Error(problem.name() + ": " + member_name("bounds().interior") +
-              " has different times than before, or bounds on different velocities; create a new transcription");
+              " has changed its times or its velocities with bounds; create a new transcription");
 }
 
 }  // namespace
@@ -240,7 +240,7 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
         fmt::format("{} has no free control, so no number of intervals can satisfy both end states", problem.name()));
   }
   const auto smallest = static_cast<long long>(intervals) + (-surplus + gain - 1) / gain;
-  throw Error(fmt::format("{} with {} has fewer free variables than equations on {} intervals; it needs at least {}",
+  throw Error(fmt::format("{} with {} has fewer free variables than equations on {} intervals; use at least {}",
                           problem.name(), element.name(), intervals, smallest));
 }
 
@@ -375,11 +375,11 @@ void Transcription::require_readable_ends(const Values& values) const {
   const ProblemBounds& now = values.bounds;
   if (gives_velocities && end_rules_.first_clamped && traced_.ends_read_first_velocity() &&
       now.first.v.lower != before.first.v.lower) {
-    refuse("the velocity of the first end");
+    refuse("the velocity at the first end");
   }
   if (gives_velocities && end_rules_.last_clamped && traced_.ends_read_last_velocity() &&
       now.last.v.lower != before.last.v.lower) {
-    refuse("the velocity of the last end");
+    refuse("the velocity at the last end");
   }
   const bool reads_horizon =
       traced_.ends_read_horizon() || (end_rules_.last_has_velocity() && traced_.momentum_depends_on_time());
@@ -395,7 +395,7 @@ void Transcription::use(Values values) {
   }
   if (horizon.is_free() != end_rules_.free_horizon) {
     throw Error(problem_->name() +
-                ": a fixed horizon cannot become free, nor a free one fixed; create a new transcription");
+                ": a fixed horizon cannot become free, nor a free horizon fixed; create a new transcription");
   }
   require_same_velocities(*problem_, problem_bounds_, values.bounds);
   require_same_times(*problem_, problem_bounds_, values.bounds);

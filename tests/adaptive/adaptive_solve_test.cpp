@@ -177,7 +177,7 @@ TEST(AdaptiveSolve, EndsWhereAGridIsNotSolvedAndSaysWhich) {
   options.solver_options.most_iterations = 1;
   const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 16), options);
   EXPECT_EQ(answer.outcome, AdaptiveOutcome::not_solved);
-  EXPECT_NE(answer.message.find("Grid 1, 16 intervals"), std::string::npos) << answer.message;
+  EXPECT_NE(answer.message.find("Grid 1 with 16 intervals"), std::string::npos) << answer.message;
 }
 
 TEST(AdaptiveSolve, KeepsTheLastAnswerWhereItIsStopped) {

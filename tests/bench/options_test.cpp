@@ -34,9 +34,8 @@ TEST(Intervals, ARangeDoublesUpToItsEnd) {
 TEST(Intervals, ARangeThatDoublingDoesNotEndIsStatedWithTheNumbersThatItTakes) {
   for (const char* text : {"8:1024", "7:7", "3:12,48", "16,48,64"})
     EXPECT_EQ(remark_on_ranges("--intervals", text), "");
-  EXPECT_EQ(
-      remark_on_ranges("--intervals", "5,16:100,8:17"),
-      "--intervals 16:100 takes 16, 32, 64; --intervals 8:17 takes 8, 16: a range contains its start and its doubles");
+  EXPECT_EQ(remark_on_ranges("--intervals", "5,16:100,8:17"),
+            "--intervals 16:100 takes 16, 32, 64; --intervals 8:17 takes 8, 16: a range doubles its start repeatedly");
 }
 
 TEST(Intervals, AListIsSortedAndEachEntryOccursOnce) {
@@ -153,8 +152,8 @@ TEST(GalerkinOptions, RefuseANumberThatIsInNoCombination) {
     change(options);
     expect_error_naming({because}, [&] { static_cast<void>(expand_cases(options)); });
   };
-  refuses("degree 2 needs 2 quadrature points", [](ExperimentOptions& options) { options.points = {1}; });
-  refuses("3 control nodes needs 3", [](ExperimentOptions& options) {
+  refuses("degree 2 needs at least 2 quadrature points", [](ExperimentOptions& options) { options.points = {1}; });
+  refuses("3 control nodes needs at least 3", [](ExperimentOptions& options) {
     options.points = {2};
     options.control_nodes = {1, 3};
   });

@@ -158,10 +158,10 @@ TEST(SolveCase, NamesWhatIsFarFromOne) {
         .problem = problem, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(16)};
     return solve_case(the_case, {guessed_motion(*problem)}, *make_solver("ipopt"), 1e-6, 1).solution.message;
   };
-  EXPECT_NE(message_over(4e3).find("Sizes far from 1: u1 (2e+04)"), std::string::npos) << message_over(4e3);
-  EXPECT_NE(message_over(2e-5).find("Sizes far from 1: q1 (2e-05), the rate of q1 (3e-05); "), std::string::npos)
+  EXPECT_NE(message_over(4e3).find("Sizes are far from 1: u1 (2e+04)"), std::string::npos) << message_over(4e3);
+  EXPECT_NE(message_over(2e-5).find("Sizes are far from 1: q1 (2e-05), the rate of q1 (3e-05). "), std::string::npos)
       << message_over(2e-5);
-  EXPECT_EQ(message_over(1.0).find("Sizes far"), std::string::npos) << message_over(1.0);
+  EXPECT_EQ(message_over(1.0).find("Sizes are far"), std::string::npos) << message_over(1.0);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST_F(TracedVectors, AProductIntoItsOwnFactorReadsTheFactorAsItWas) {
 
 TEST_F(TracedVectors, FactorsThatDoNotFitAreAnErrorThatTellsTheirSizes) {
   const ExpressionVector two = input_vector(0, 2);
-  tests::expect_error_naming({"a 3 x 3 and a 2 x 1 matrix"}, [&] { static_cast<void>(M * two); });
+  tests::expect_error_naming({"a 3 x 3 matrix by a 2 x 1 matrix"}, [&] { static_cast<void>(M * two); });
 }
 
 TEST_F(TracedVectors, AMissingEntryIsAnErrorThatNamesTheVectorItsSizeAndTheLastEntry) {

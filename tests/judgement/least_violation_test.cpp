@@ -240,7 +240,7 @@ TEST_P(UnreachableProblems, EndWithoutAMotionAndWithTheRowNamedWhateverTheSolver
       const Solution solution = make_solver(solver)->solve(program, sample(program, guessed_motion(*problem)));
       EXPECT_EQ(solution.status, Status::infeasible) << solution.message;
       EXPECT_TRUE(is_point_of_least_violation(program, solution.primal));
-      EXPECT_EQ(solution.message.find(GetParam().has_affine_constraints ? "Infeasible: " : "No trajectory found: "), 0U)
+      EXPECT_EQ(solution.message.find(GetParam().has_affine_constraints ? "The program " : "No trajectory was "), 0U)
           << solution.message;
       const std::string words = describe_violation(*problem, program, solution);
       EXPECT_NE(words.find("The largest violation is "), std::string::npos) << words;

@@ -86,7 +86,7 @@ class Hovercraft(db.Problem):
 
 
 class SphericalPendulum(db.Problem):
-    """spherical pendulum from one steady cone to a wider one"""
+    """transfer of a spherical pendulum from a steady cone to a wider cone"""
 
     q = db.coordinates("theta", "phi")
     u = db.controls("u_theta", "u_phi")
@@ -274,7 +274,7 @@ class PushedInABand(db.Problem):
 
 
 class TwoLinkWithMotors(TwoLinkManipulator):
-    """swing-up of a planar two-link arm by motors with inductance, least heat"""
+    """swing-up of a planar two-link arm driven by motors with inductance, with least heat"""
 
     u = db.controls("voltage_1", "voltage_2", unit="V")
     y = db.first_order_states("current_1", "current_2", unit="A")
@@ -293,7 +293,7 @@ class TwoLinkWithMotors(TwoLinkManipulator):
 
 
 class OrbitalTransferWithMass(db.Problem):
-    """low thrust transfer of a satellite that burns mass, least control effort"""
+    """low-thrust transfer of a satellite that burns mass, with least control effort"""
 
     q = db.coordinates("r", "phi")
     u = db.controls("u")
@@ -353,7 +353,7 @@ class CannonballOfUnknownRadius(db.Problem):
 
 
 class ChainOfGivenLength(db.Problem):
-    """chain of given length between two points, least potential energy"""
+    """chain of given length between two points, with least potential energy"""
 
     name = "hanging_chain"
     q = db.coordinates("height")
@@ -383,7 +383,7 @@ class ChainOfGivenLength(db.Problem):
 
 
 class PointsAtGivenTimes(db.Problem):
-    """hovercraft through given points at given times, least control effort"""
+    """hovercraft that passes given points at given times, with least control effort"""
 
     name = "waypoints"
     q = db.coordinates("x", "y", unit="m")
@@ -404,7 +404,7 @@ class PointsAtGivenTimes(db.Problem):
 
 
 class RollingDisk(db.Problem):
-    """upright disk rolls to a position ahead and to the side, least control effort"""
+    """upright disk that rolls to a position ahead and to the side, with least control effort"""
 
     name = "rolling_disk"
     q = db.coordinates("x", "y", "theta", "phi")

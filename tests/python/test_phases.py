@@ -160,7 +160,7 @@ class Mistakes(unittest.TestCase):
             pass
 
         self.refused("nothing has no phases", Nothing)
-        self.refused("phase rise: the value, range or kind of its parameter gravity differs", variant(rise=rise(gravity=1.6)))
+        self.refused("phase rise: the parameter gravity has another value, range or kind", variant(rise=rise(gravity=1.6)))
         self.refused("has 1 entry,", variant(fall_to_rise=lambda self, before, after: after.q - before.q))
         self.refused("fall_to_moon does not join two phases", variant(fall_to_moon=lambda self, before, after: []))
         self.refused("follows refers to moon", variant(follows={"rise": "moon"}))

@@ -341,7 +341,7 @@ TEST(HolonomicConstraintsRefused, ThatLeaveNoFreedom) {
 }
 
 TEST(HolonomicConstraintsRefused, WhereAnEndIsOffTheManifold) {
-  EXPECT_EQ(refusal(on_diagonal, 1.5), "misstated: final_state violates constraints[0]: g = 0.5 there, but must be 0");
+  EXPECT_EQ(refusal(on_diagonal, 1.5), "misstated: final_state violates constraints[0]: g = 0.5, but must be 0");
 }
 
 TEST(HolonomicConstraintsRefused, WithGradientsThatVanish) {
@@ -388,8 +388,8 @@ TEST(HolonomicConstraintsRefused, ByHamiltonianCollocationWhereInertiaDependsOnT
   for (const Scheme& scheme : {Scheme{"hamiltonian", 1}, Scheme{"hamiltonian", 2, "lobatto"}}) {
     EXPECT_EQ(
         tests::sentence_of_error([&] { static_cast<void>(tests::transcribe(problem, scheme, Grid::uniform(8))); }),
-        "faster_is_heavier: hamiltonian supports constraints g(q) = 0 only if L is quadratic in the velocity, but "
-        "L_vv depends on it; use dmoc or tangent");
+        "faster_is_heavier: hamiltonian supports constraints g(q) = 0 only if L is quadratic in v, but "
+        "L_vv depends on v; use dmoc or tangent");
   }
   for (const Scheme& scheme : {Scheme{"dmoc", 1}, Scheme{"tangent", 1}}) {
     solved(problem, scheme, 16, guessed_motion(problem));  // fails where it is not confirmed

@@ -381,7 +381,7 @@ TEST(VelocityConstraintsRefused, ThatLeaveNoFreedomOrAreDependent) {
 
 TEST(VelocityConstraintsRefused, WhereAGivenVelocityViolatesThem) {
   EXPECT_EQ(refusal(on_diagonal, {"dmoc", 1}, 0.5),
-            "misstated: final_state violates velocity_constraints[0]: A v = 0.5 there, but must be 0");
+            "misstated: final_state violates velocity_constraints[0]: A v = 0.5, but must be 0");
 }
 
 TEST(VelocityConstraintsRefused, ByTableausThatAreNotOffered) {

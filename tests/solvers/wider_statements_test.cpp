@@ -204,7 +204,7 @@ TEST_F(WiderStatementsRefused, UnknownThatAFormulaReadsAsANumber) {
       return parameter("a") * x.u[0] * x.u[0];
     }
   };
-  EXPECT_EQ(sentence(Number()), "number: a formula reads the unknown a with parameter(), as a number; use varying()");
+  EXPECT_EQ(sentence(Number()), "number: a formula reads the unknown a as a number, with parameter(); use varying()");
 }
 
 TEST_F(WiderStatementsRefused, BoundsOfAnotherSize) {
@@ -231,8 +231,8 @@ TEST_F(WiderStatementsRefused, MoreEqualitiesThanControls) {
               };
               s.path = Bounds::all(2, 0.0, 0.0);
             }),
-            "double_integrator: bounds().path makes 2 path constraints equalities; there can be at most as many as "
-            "controls, 1");
+            "double_integrator: bounds().path makes 2 path constraints equalities; at most 1, one per control, "
+            "are possible");
 }
 
 TEST_F(WiderStatementsRefused, EqualitiesThatLeaveNothingFree) {

@@ -75,10 +75,9 @@ TEST_P(ViolationInWords, UnreachableFinalStateIsNamedWithTheBoundsThatHold) {
   EXPECT_PRED2(says, words, "The largest violation is ");
   EXPECT_PRED2(says, words, " of q[0] (q1) ");
   EXPECT_PRED2(says, words, "(t = ");
-  EXPECT_PRED2(says, words, "bounds().u holds u[0] (u1) at ");
-  EXPECT_PRED2(
-      says, words,
-      "The solver found no trajectory near this one that satisfies final_state within the bounds and the horizon.");
+  EXPECT_PRED2(says, words, "bounds().u is active for u[0] (u1) at ");
+  EXPECT_PRED2(says, words,
+               "The solver found no trajectory near its last point that satisfies final_state within the bounds");
   const std::string before = "The largest violation is ";
   const double amount = std::stod(words.substr(words.find(before) + before.size()));
   EXPECT_NEAR(amount, constraint_violation(*ended.transcription, ended.solution.primal), 0.01 * amount);
@@ -159,7 +158,7 @@ TEST_P(ViolationInWords, NamesTheFormulaThatIsNotANumberAndTheInterval) {
   ended.control(0, 7) = -1.0;
   EXPECT_PRED2(says, ended.words(), "a second derivative of running_cost is not a number in interval 7 (t = 0.");
   ended.control(0, 3) = -2.0;
-  EXPECT_PRED2(says, ended.words(), "At its last point running_cost is not a number in interval 3 (t = 0.");
+  EXPECT_PRED2(says, ended.words(), "At the last point, running_cost is not a number in interval 3 (t = 0.");
 }
 
 /// Below q = -1/2 the Lagrangian has slopes, but no value.
@@ -181,7 +180,7 @@ TEST_P(ViolationInWords, NamesALagrangianThatIsNotANumberWhereverASolveEnds) {
     EXPECT_FALSE(says(ended.words(), "not a number")) << ended.words();
     const auto q = ended.transcription->blocks().unknown(Quantity::configuration).index(0);
     ended.solution.primal.segment(q + 4, 3).setConstant(-2.0);
-    EXPECT_PRED2(says, ended.words(), "At its last point lagrangian is not a number in interval ");
+    EXPECT_PRED2(says, ended.words(), "At the last point, lagrangian is not a number in interval ");
     EXPECT_PRED2(says, ended.words(), "The largest violation is ");
   }
 }
@@ -208,7 +207,7 @@ TEST_P(ViolationInWords, TellsTheNamesOfConstraintsAndThatNoForceReadsAControl) 
   const Idle problem;
   Ended ended(problem, GetParam());
   EXPECT_PRED2(says, ended.words(), "path_constraints[1] (ceiling) in interval ");
-  EXPECT_PRED2(says, ended.words(), "The force does not depend on a control");
+  EXPECT_PRED2(says, ended.words(), "The force does not depend on any control");
   const auto last = static_cast<std::size_t>(ended.transcription->constraint_count()) - 1;
   EXPECT_EQ(describe_constraint(problem, *ended.transcription, ended.solution.primal, last),
             "boundary_conditions[0] (gate)");
@@ -261,9 +260,9 @@ class WithoutControl final : public tests::SmallProblem {
 
 TEST_P(ViolationInWords, SaysWhereAProblemHasNoFreedom) {
   const WithoutControl problem;
-  EXPECT_PRED2(says, Ended(problem, GetParam()).words(), "The problem has no freedom: ");
+  EXPECT_PRED2(says, Ended(problem, GetParam()).words(), "The problem has no degree of freedom: ");
   const tests::Pendulum pendulum;
-  EXPECT_FALSE(says(Ended(pendulum, GetParam()).words(), "no freedom"));
+  EXPECT_FALSE(says(Ended(pendulum, GetParam()).words(), "no degree of freedom"));
 }
 
 /// Its cost falls without end as the control grows.

@@ -275,8 +275,8 @@ class EndsAgainstPathConstraints : public testing::Test {
 };
 
 TEST_F(EndsAgainstPathConstraints, AreRefusedWithTheEndAndTheAmount) {
-  expect_refusal(said([](const ControlledState& x) { return x.q[0] - 0.25; }), "initial_state", "-0.25 there (t = 0)");
-  expect_refusal(said([](const ControlledState& x) { return 0.75 - x.q[0]; }), "final_state", "-0.25 there (t = 1)");
+  expect_refusal(said([](const ControlledState& x) { return x.q[0] - 0.25; }), "initial_state", "-0.25 at t = 0,");
+  expect_refusal(said([](const ControlledState& x) { return 0.75 - x.q[0]; }), "final_state", "-0.25 at t = 1,");
   expect_refusal(said([](const ControlledState& x) { return x.v[0] - 0.5; }), "initial_state", "-0.5");
   expect_refusal(said([](const ControlledState& x) { return 0.5 - x.q[0] * x.t; }), "final_state", "-0.5");
 }
@@ -329,7 +329,7 @@ TEST(ProblemClassRefusals, NameEndsThatMoveFasterThanTheBounds) {
     return refusal([&] { tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(8)); });
   };
   EXPECT_EQ(sentence(-3.0), "");
-  EXPECT_NE(sentence(3.0).find("bounds().first and bounds().v leave no value for v[0]: 3 lies above 2"),
+  EXPECT_NE(sentence(3.0).find("bounds().first and bounds().v leave no value for v[0]: the lower bound 3 lies"),
             std::string::npos)
       << sentence(3.0);
 }
@@ -359,12 +359,12 @@ TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
   // The guess is q = t: sqrt(q - 0.6) is not a number before t = 0.6.
   EXPECT_NE(sentence([](Statement& s) {
               s.running_cost = [](const ControlledState& x) { return sqrt(x.q[0] - 0.6) + x.u[0] * x.u[0]; };
-            }).find("at its guess in interval 0 (t = 0.0078125) running_cost is not a number; give a guess that"),
+            }).find("at its guess in interval 0 (t = 0.0078125), running_cost is not a number; give a guess that"),
             std::string::npos);
   // u = 0 at the guess, where u^1.5 and its slope are 0.
   EXPECT_NE(sentence([](Statement& s) {
               s.running_cost = [](const ControlledState& x) { return pow(x.u[0], 1.5); };
-            }).find("at its guess in interval 0 (t = 0.0078125) a second derivative of running_cost is not a number"),
+            }).find("at its guess in interval 0 (t = 0.0078125), a second derivative of running_cost is not a number"),
             std::string::npos);
   EXPECT_NE(sentence([](Statement& s) {
               s.path_constraints = [](const ControlledState& x) {
@@ -372,7 +372,7 @@ TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
                 h << x.q[0], 2.0 + log(0.5 - x.q[0]);
                 return h;
               };
-            }).find("in interval 4 (t = 0.507812) path_constraints[1] is not a number"),
+            }).find("in interval 4 (t = 0.507812), path_constraints[1] is not a number"),
             std::string::npos);
 }
 

@@ -19,7 +19,7 @@ namespace dmocbench {
   }
   if (family_of(cases.front().method).is_condensed) {
     throw Error(
-        "single_shooting simulates and cannot be written as formulas; use multiple_shooting, the same program with the "
+        "single_shooting simulates the system and cannot be written as formulas; use multiple_shooting, which has the "
         "nodes as unknowns");
   }
   return cases.front();

@@ -23,11 +23,11 @@ class ReadSol final : public ExperimentOf<IndependentChecks> {
                       .rows = RowUse::motions}) {}
   [[nodiscard]] Columns<IndependentChecks> columns() const override { return check_columns(); }
   void add_options(CommandLine& line) override {
-    line.option("--sol", file_, "FILE.sol, the solution; only its sizes are compared with the program");
+    line.option("--sol", file_, "FILE.sol with the solution; only the sizes are compared with the program");
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const Case& the_case = exchanged_case(chosen);
-    if (file_.empty()) throw Error("--sol names no file");
+    if (file_.empty()) throw Error("--sol: no file is named");
     try {
       answer_ = read_ampl_solution(read_file(file_));
       AmplAnswer(*answer_).require_fit(*the_case.transcribe());
@@ -43,7 +43,7 @@ class ReadSol final : public ExperimentOf<IndependentChecks> {
     return task.by(AmplAnswer(*answer_, task.options));
   }
   void measure(SolvedCase& solved, IndependentChecks& checks) override {
-    if (!answer_->message.empty()) solved.note(fmt::format("Its solver reports: {}", answer_->message));
+    if (!answer_->message.empty()) solved.note(fmt::format("The solver reports: {}", answer_->message));
     checks = check_independently(solved);
     solved_ = solved;
   }

@@ -37,8 +37,8 @@ int write(CommandLine& line) {
   std::string file;
   add_options(line, options);
   line.option("--to", file,
-              "FILE.nl, the program of one case and its start; FILE.row and FILE.col get the names of constraints and "
-              "unknowns");
+              "FILE.nl for the program of one case and its start; FILE.row and FILE.col get the names of constraints "
+              "and unknowns");
   parse_with_libraries(line);
   const Case the_case = exchanged_case(expand_cases(options));
   check(file);

@@ -61,7 +61,7 @@ Trajectory first_motion(const Problem& problem, const PrimitiveOptions& options)
   stop_if_requested();
   if (!is_solved(solution.status)) {
     throw Error(
-        fmt::format("{}: a lattice of states needs a first trajectory, which DMOC does not find from the guess with N "
+        fmt::format("{}: a lattice of states needs a first trajectory, but DMOC did not find one from the guess with N "
                     "= {}: {}; improve the guess",
                     problem.name(), intervals, solution.message));
   }

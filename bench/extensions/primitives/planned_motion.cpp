@@ -184,11 +184,11 @@ void add_motion(const Trajectory& motion, const std::string& part, double time_u
 
 Columns<PicturePoint> picture_columns() {
   return {{"problem", "", "name of the problem", &PicturePoint::problem},
-          {"part", "", "node of the roadmap, joint of the path, or the trajectory before or after the full solve",
+          {"part", "", "node of the roadmap, joint of the path, or trajectory before or after the full solve",
            &PicturePoint::part},
           {"t", "", "time in the problem's unit; empty for nodes", &PicturePoint::t},
-          {"x", "", "first quantity of the problem's picture, or q_1 where states lie on a lattice", &PicturePoint::x},
-          {"y", "", "second quantity, or q_2, or the velocity of a single q", &PicturePoint::y},
+          {"x", "", "first quantity of the problem's picture, or q_1 for a lattice of states", &PicturePoint::x},
+          {"y", "", "second quantity of the picture, q_2, or the velocity of a single q", &PicturePoint::y},
           {"u", "", "first control; empty for nodes", &PicturePoint::u}};
 }
 

@@ -38,8 +38,8 @@ std::optional<double> cost_of(const std::optional<Trajectory>& motion) {
 const Columns<PlannedMotion> columns{
     {"problem", "", "name of the problem", [](const PlannedMotion& p) { return p.problem->name(); }, in_key},
     {"states", "", "kind of the nodes", [](const PlannedMotion& p) { return p.system->nodes; }},
-    {"horizontal", "", "x of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).x; }},
-    {"vertical", "", "y of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).y; }},
+    {"horizontal", "", "quantity x of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).x; }},
+    {"vertical", "", "quantity y of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).y; }},
     {"primitives", "", "number of primitives in the library",
      [](const PlannedMotion& p) { return stored_of(p).library.primitives.size(); }},
     {"nodes", "", "number of nodes of the roadmap",
@@ -51,26 +51,26 @@ const Columns<PlannedMotion> columns{
      [](const PlannedMotion& p) { return p.roadmap.seconds; }},
     {"plan_milliseconds", "ms", "median time of a search on the roadmap",
      from(&PlannedMotion::milliseconds, &RatioInterval::ratio)},
-    {"plan_lower", "ms", "lower limit of its 99 % interval", from(&PlannedMotion::milliseconds, &RatioInterval::lower)},
-    {"plan_upper", "ms", "upper limit of this interval", from(&PlannedMotion::milliseconds, &RatioInterval::upper)},
+    {"plan_lower", "ms", "lower 99 % confidence limit", from(&PlannedMotion::milliseconds, &RatioInterval::lower)},
+    {"plan_upper", "ms", "upper 99 % confidence limit", from(&PlannedMotion::milliseconds, &RatioInterval::upper)},
     {"rounds", "", "number of timed searches", from(&PlannedMotion::milliseconds, &RatioInterval::rounds)},
-    {"path_edges", "", "edges of the path",
+    {"path_edges", "", "number of edges of the path",
      [](const PlannedMotion& p) { return p.path ? std::optional(p.path->edges.size()) : std::nullopt; }},
-    {"cost_before", "cost", "cost of the concatenation", [](const PlannedMotion& p) { return cost_of(p.before); }},
-    {"status", "", "status of the full solve from there", &PlannedMotion::status},
-    {"cost_after", "cost", "cost of its solution", [](const PlannedMotion& p) { return cost_of(p.after); }},
+    {"cost_before", "cost", "cost of the joined primitives", [](const PlannedMotion& p) { return cost_of(p.before); }},
+    {"status", "", "status of the full solve that starts from them", &PlannedMotion::status},
+    {"cost_after", "cost", "cost of the full solve", [](const PlannedMotion& p) { return cost_of(p.after); }},
     {"reference_cost", "cost", "cost of the optimum that the problem states", reference_cost},
     {"excess_before", "", "cost_before / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, cost_of(p.before)); }},
     {"excess_after", "", "cost_after / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, cost_of(p.after)); }},
-    {"total_seconds", "s", "roadmap, search, concatenation and full solve", &PlannedMotion::seconds},
+    {"total_seconds", "s", "time of roadmap, search and full solve", &PlannedMotion::seconds},
     {"starts", "", "number of multi-start solves in the same time",
      from(&PlannedMotion::multi_start, &MultiStart::starts)},
-    {"solved_starts", "", "number of these that were solved", from(&PlannedMotion::multi_start, &MultiStart::solved)},
+    {"solved_starts", "", "number of solved starts", from(&PlannedMotion::multi_start, &MultiStart::solved)},
     {"start_motions", "", "1 if the cheapest solution is confirmed, 0 otherwise",
      [](const PlannedMotion& p) { return p.multi_start.best ? 1 : 0; }},
-    {"best_of_starts", "cost", "least cost of the starts whose solutions are confirmed",
+    {"best_of_starts", "cost", "least cost of the confirmed solutions of these solves",
      from(&PlannedMotion::multi_start, &MultiStart::best)},
     {"excess_of_starts", "", "best_of_starts / reference_cost - 1",
      [](const PlannedMotion& p) { return excess(p, p.multi_start.best); }}};
@@ -116,8 +116,8 @@ TimedRoadmap roadmap_for(const PrimitivesOptions& options, const Problem& proble
 void print(const PlannedMotion& planned) {
   const auto shown = [](const std::optional<double>& number) { return number ? fmt::format("{:.6g}", *number) : "-"; };
   fmt::print(
-      "{}: {} nodes, {} edges in {:.2f} s; plan in {} ms; cost {} before, {} after, reference {}; best of {} starts "
-      "{}\n",
+      "{}: {} nodes, {} edges in {:.2f} s; search in {} ms; cost {} before and {} after the full solve, reference {}; "
+      "best of {} starts {}\n",
       planned.problem->name(), stored_of(planned).roadmap.nodes().size(), stored_of(planned).roadmap.edges().size(),
       planned.roadmap.seconds, shown(planned.milliseconds ? std::optional(planned.milliseconds->ratio) : std::nullopt),
       shown(cost_of(planned.before)), shown(cost_of(planned.after)), shown(reference_cost(planned)),
@@ -154,9 +154,9 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "primitives",
-      "Builds roadmaps of short DMOC solves between trims or states and measures nodes, edges and time to build, the "
-      "time of a search, and the cost of the path found, before and after a full solve that starts there, compared "
-      "with the optimum that the problem states and the best of many perturbed guesses in the same total time "
+      "Builds roadmaps of short DMOC solves between trims or states. Measures nodes, edges, the times to build and to "
+      "search, and the cost of the path before and after a full solve that starts from it. Compares this cost with the "
+      "optimum that the problem states and with the best of many perturbed guesses in the same total time "
       "(primitives.csv; trajectories and nodes in primitives_picture.csv).",
       argc, argv, measure_all);
 }

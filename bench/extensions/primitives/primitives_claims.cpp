@@ -50,14 +50,14 @@ Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*
     if (!is_best(row)) others.push_back(row.text("problem"));
   }
   return found(ClaimVerdict::measured,
-               "on {} of {} problems the full solve from the path ends within {:g} % of the best known cost, and "
+               "on {} of {} problems, the full solve from the path ends within {:g} % of the best known cost, and "
                "multi-start reaches no lower cost in the same time",
                best, rows.size(), Measurement{"bound on the excess of the cost", 100.0 * same_cost, "", "", "%"})
       .also(worded("the path itself exceeds this cost by {}", shares_of(rows, "excess_before")))
-      .also(worded("the slowest plan takes {:.2g} to {:.2g} ms",
+      .also(worded("the slowest search takes {:.2g} to {:.2g} ms",
                    Measurement{"lower confidence limit of this time", slowest.needed("plan_lower"), "", "", "ms"},
                    Measurement{"upper confidence limit of this time", slowest.needed("plan_upper"), "", "", "ms"}))
-      .because(others.empty() ? Words() : worded("not on {}", fmt::join(others, ", ")))
+      .because(others.empty() ? Words() : worded("exceptions: {}", fmt::join(others, ", ")))
       .as_sure_as("99 % of the times of searches");
 }
 

@@ -113,7 +113,7 @@ std::vector<RoadmapNode> nodes_from(const JsonPlace& content, const PrimitiveLib
     const Displacement& moved = nodes.back().moved;
     const Eigen::Index n = library.states.empty() ? 0 : library.states.front().q.size();
     if (moved.linear.rows() != n || moved.linear.cols() != n || moved.shift.size() != n) {
-      throw Error("it is damaged: sizes of nodes do not fit");
+      throw Error("it is damaged: a node has the wrong size");
     }
   }
   return nodes;
@@ -125,7 +125,7 @@ RoadmapJson checked_content(std::string_view text) {
   const JsonPlace place(json, "its JSON");
   if (!place.has("format") || json["format"] != roadmap_format) throw Error("it is not a roadmap");
   if (const JsonPlace version = place.at("version"); version.json() != roadmap_version) {
-    throw Error(fmt::format("it has version {}, this program reads version {}", version.number(), roadmap_version));
+    throw Error(fmt::format("it has version {}, but this program reads version {}", version.number(), roadmap_version));
   }
   const RoadmapJson& content = place.at("content").json();
   if (place.at("crc32").text() != checksum_of(content.dump())) {
@@ -140,7 +140,7 @@ StoredRoadmap roadmap_from(const JsonPlace& content, const Problem& problem) {
   std::vector<RoadmapEdge> edges;
   for (const JsonPlace& each : content.at("edges").entries()) {
     const std::vector<JsonPlace> ends = each.entries();
-    if (ends.size() != 3) throw Error("it is damaged: an edge has three numbers");
+    if (ends.size() != 3) throw Error("it is damaged: an edge does not have three numbers");
     edges.push_back({.from = number_from(ends[0]), .to = number_from(ends[1]), .primitive = number_from(ends[2])});
   }
   Roadmap roadmap(library, nodes_from(content, library), std::move(edges));
@@ -149,7 +149,7 @@ StoredRoadmap roadmap_from(const JsonPlace& content, const Problem& problem) {
                        .start = number_from(content.at("start")),
                        .goal = number_from(content.at("goal"))};
   if (std::max(stored.start, stored.goal) >= stored.roadmap.nodes().size()) {
-    throw Error("it is damaged: start or goal is not a node");
+    throw Error("it is damaged: the start or the goal is not a node");
   }
   return stored;
 }

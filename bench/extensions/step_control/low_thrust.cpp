@@ -51,14 +51,14 @@ const Columns<Measured> columns =
         {"revolutions", "", "number of revolutions d", &Measured::revolutions, in_key},
         {"steps_per_revolution", "", "N/d", &Measured::steps, in_key},
         {"intervals", "", "number of intervals N", [](const Measured& m) { return m.revolutions * m.steps; }},
-        {"h", "", "step", &Measured::h},
+        {"h", "", "step size", &Measured::h},
         {"status", "", "status of the solve", &Measured::status},
-        {"branch", "", "same as the reference's, or other", &Measured::branch},
-        {"iterations", "", "iterations of interior_point", &Measured::iterations},
+        {"branch", "", "same (as the reference) or other", &Measured::branch},
+        {"iterations", "", "number of iterations of interior_point", &Measured::iterations},
         {"objective", "", "cost J", &Measured::objective},
         {"reference", "", "reference of the errors: the indirect solution, or a fine grid on which two methods agree",
          &Measured::reference},
-        {"reference_digits", "", "digits on which two routes to the reference agree", &Measured::digits},
+        {"reference_digits", "", "number of digits on which two routes to the reference agree", &Measured::digits},
         {"cost_error", "", "|J - J_ref| / J_ref", from(errors, &TransferErrors::cost)},
         {"state_error", "", "max over the nodes of |q - q_ref|", from(errors, &TransferErrors::state)},
         {"control_error", "", "max over the stages of |u - u_ref|", from(errors, &TransferErrors::control)},
@@ -67,7 +67,7 @@ const Columns<Measured> columns =
          from(errors, &TransferErrors::momentum)},
         {"momentum_balance", "", "change of angular momentum minus the work of the thrust, over the horizon",
          from(errors, &TransferErrors::balance)},
-        {"replay_error", "", "distance from the final state when the control is replayed", &Measured::replay_error}};
+        {"replay_error", "", "distance between the end of the replay and the final state", &Measured::replay_error}};
 
 struct Reference {
   std::string problem;
@@ -80,7 +80,7 @@ const Columns<Reference> reference_columns{
     {"problem", "", "name of the problem", &Reference::problem, in_key},
     {"revolutions", "", "number of revolutions d", &Reference::revolutions, in_key},
     {"reference", "", "indirect solution, or a fine grid on which two methods agree", &Reference::kind},
-    {"digits", "", "digits on which two routes agree", &Reference::digits},
+    {"digits", "", "number of digits on which two routes agree", &Reference::digits},
     {"cost", "cost", "J", &Reference::cost}};
 
 std::vector<std::string> families() {
@@ -168,9 +168,9 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "low_thrust",
-      "Solves the orbital transfer with many revolutions and few steps in each: errors of cost, state and control "
-      "against a certified optimum, momentum against the work of the thrust, and the replay of the controls, over the "
-      "steps per revolution, by one Gauss stage (low_thrust.csv; the optima in low_thrust_reference.csv).",
+      "Solves the orbital transfer with many revolutions, few steps per revolution and one Gauss stage. Measures the "
+      "errors of cost, state and control compared with a certified optimum, the momentum compared with the work of the "
+      "thrust, and the replay of the controls (low_thrust.csv; optima in low_thrust_reference.csv).",
       argc, argv, measure_all);
 }
 

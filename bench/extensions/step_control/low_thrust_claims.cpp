@@ -74,16 +74,16 @@ Finding pays_in_momentum_alone(const ResultTables& tables, const std::string& pr
   }
   require(compared >= 3, "low_thrust.csv has {} grids with usable rows of dmoc and tangent; three are needed",
           compared);
-  return found(ClaimVerdict::measured, "on {} grids cost and replay errors differ by a factor of at most {:.2f}",
+  return found(ClaimVerdict::measured, "on {} grids, cost and replay errors differ by a factor of at most {:.2f}",
                compared, Measurement{"largest factor between cost or replay errors", farthest, "tangent"})
-      .also(worded("change of angular momentum minus work over the whole horizon: tangent-space collocation at least "
-                   "{:.1f} times DMOC",
+      .also(worded("the change of angular momentum minus the work over the horizon is at least {:.1f} times as large "
+                   "with tangent-space collocation as with DMOC",
                    Measurement{"least ratio of the momentum balance", least, "tangent"}));
 }
 
 Finding pays_beside_explicit(const ResultTables& tables, const std::string& problem) {
   const ErrorRatios ratios = ratios_of(tables, problem, "dmoc", explicit_midpoint, "state_error", 0.0);
-  return found(ratios.least > 1.0, "ratio of state errors, {} to DMOC, on {} grids: {:.2f} to {:.2f}",
+  return found(ratios.least > 1.0, "the ratio of state errors of {} and DMOC on {} grids is {:.2f} to {:.2f}",
                explicit_midpoint, ratios.count,
                Measurement{"least ratio of state errors", ratios.least, explicit_midpoint},
                Measurement{"largest ratio of state errors", ratios.most, explicit_midpoint});
@@ -92,11 +92,12 @@ Finding pays_beside_explicit(const ResultTables& tables, const std::string& prob
 Finding order_pays_more(const ResultTables& tables, const std::string& problem) {
   constexpr double from = 12.0;
   const ErrorRatios ratios = ratios_of(tables, problem, runge_kutta_4, "dmoc", "cost_error", from);
-  return found(ratios.least > 1.0,
-               "ratio of cost errors, DMOC to {}, on {} grids from {:g} steps per revolution on: {:.1f} to {:.1f}",
-               runge_kutta_4, ratios.count, Measurement{"fewest steps per revolution", from},
-               Measurement{"least ratio of cost errors", ratios.least, "dmoc"},
-               Measurement{"largest ratio of cost errors", ratios.most, "dmoc"});
+  return found(
+      ratios.least > 1.0,
+      "the ratio of cost errors of DMOC and {} on {} grids with at least {:g} steps per revolution is {:.1f} to {:.1f}",
+      runge_kutta_4, ratios.count, Measurement{"fewest steps per revolution", from},
+      Measurement{"least ratio of cost errors", ratios.least, "dmoc"},
+      Measurement{"largest ratio of cost errors", ratios.most, "dmoc"});
 }
 
 }  // namespace
@@ -107,8 +108,8 @@ Claims low_thrust_claims() {
            .problems = only_orbit,
            .where = "section 4.2.1, with many revolutions",
            .whose = Whose::extension,
-           .states = "in polar coordinates, with 8 to 32 steps per revolution: differences between tangent-space "
-                     "collocation and DMOC in the errors of cost and replay and in the balance of momentum",
+           .states = "differences between tangent-space collocation and DMOC in the errors of cost and replay and in "
+                     "the balance of momentum, in polar coordinates with 8 to 32 steps per revolution",
            .judge = pays_in_momentum_alone,
            .evidence = evidence,
            .has_verdict = false},
@@ -116,8 +117,8 @@ Claims low_thrust_claims() {
            .problems = only_orbit,
            .where = "section 4.2.1, with many revolutions",
            .whose = Whose::extension,
-           .states = "compared with shooting with the explicit midpoint rule, of the same order, DMOC has the smaller "
-                     "state error with 8 to 32 steps per revolution",
+           .states = "with 8 to 32 steps per revolution, DMOC has a smaller state error than shooting with the "
+                     "explicit midpoint rule, which has the same order",
            .judge = pays_beside_explicit,
            .evidence = evidence},
           {.id = "low_thrust_order_pays_more",
@@ -125,7 +126,7 @@ Claims low_thrust_claims() {
            .where = "section 4.2.1, with many revolutions",
            .whose = Whose::extension,
            .states = "from 12 steps per revolution on, the order matters more than the structure: shooting with rk4 "
-                     "has the smaller cost error",
+                     "has a smaller cost error than DMOC",
            .judge = order_pays_more,
            .condition = "coordinates in which a circular orbit is a straight line",
            .evidence = evidence}};

@@ -46,29 +46,29 @@ Columns<Record> choice_columns() {
   return {{"problem", "", "name of the problem", [](const Record& /*row*/) { return "kepler"; }, in_key},
           {"eccentricity", "", "eccentricity of the ellipse", eccentricity_of<Record>(), in_key},
           {"rule", "",
-           "uniform; h = pace * sigma as part of the principle (variational) or imposed on plain DMOC (imposed); h = "
-           "pace * sigma(q_k), computed before the step (from_left)",
+           "step sizes: uniform; h = pace * sigma, as part of the principle (variational) or imposed on plain DMOC "
+           "(imposed); or h = pace * sigma(q_k), computed before the step (from_left)",
            from(&Record::choice, &StepChoice::rule_name), in_key},
           {"sigma", "", "quantity on which the step function depends", from(&Record::choice, &StepChoice::sigma_name),
            in_key},
-          {"stages", "", "Gauss stages", from(&Record::choice, &StepChoice::stages), in_key}};
+          {"stages", "", "number of Gauss stages", from(&Record::choice, &StepChoice::stages), in_key}};
 }
 template <class Record>
 Column<Record> steps_per_period(bool is_key = false) {
-  return {"steps_per_period", "", "steps in a period of the unforced trajectory", &Record::steps, is_key};
+  return {"steps_per_period", "", "number of steps in a period of the unforced trajectory", &Record::steps, is_key};
 }
 
 const Columns<Symplecticity> symplecticity_columns =
     choice_columns<Symplecticity>() +
     Columns<Symplecticity>{steps_per_period<Symplecticity>(),
-                           {"defect", "", "largest entry of D^T Omega D - Omega, D of (q, t, p, -E), over a period",
+                           {"defect", "", "largest entry of D^T Omega D - Omega for D of (q, t, p, -E) over a period",
                             from(&Symplecticity::result, &ControlledSteps::Symplecticity::defect)},
                            {"rounding", "", "machine epsilon times the largest square of an entry of D",
                             from(&Symplecticity::result, &ControlledSteps::Symplecticity::rounding)}};
 
 const Columns<Momentum> momentum_columns =
     choice_columns<Momentum>() +
-    Columns<Momentum>{{"number_of_steps", "", "steps of the trajectory under an arbitrary thrust", &Momentum::steps},
+    Columns<Momentum>{{"number_of_steps", "", "number of steps under an arbitrary thrust", &Momentum::steps},
                       {"momentum_change", "", "J_N - J_0", from(&Momentum::result, &ControlledSteps::Momentum::change)},
                       {"work", "", "sum of h b_i f·xi", from(&Momentum::result, &ControlledSteps::Momentum::work)},
                       {"defect", "", "max over k of |J_k - J_0 - work|",
@@ -89,9 +89,9 @@ const Columns<PeriodError> error_columns =
     choice_columns<PeriodError>() +
     Columns<PeriodError>{
         steps_per_period<PeriodError>(in_key),
-        {"status", "", "solved, or step failed: the equations of a step that is too large have no solution",
+        {"status", "", "solved, or step failed if a step is so large that its equations have no solution",
          [](const PeriodError& row) { return row.result ? "solved" : "step failed"; }},
-        {"state_error", "", "max over a period of |(q, v) - exact|, each node at its own time",
+        {"state_error", "", "max over a period of |(q, v) - exact|, with each node at its own time",
          from(period_error, &ControlledSteps::PeriodError::state)},
         {"energy_error", "", "max over a period of |E - E_0|",
          from(period_error, &ControlledSteps::PeriodError::energy)},
@@ -104,7 +104,7 @@ const Columns<ErrorOrder> order_columns =
                          [](const ErrorOrder& row) { return row.result.fit.order; }},
                         {"standard_error", "", "standard error of the order",
                          [](const ErrorOrder& row) { return row.result.fit.standard_error; }},
-                        {"operations", "", "operations of one Newton pass over a step: equations and derivatives",
+                        {"operations", "", "number of operations of one Newton pass over a step",
                          [](const ErrorOrder& row) { return static_cast<long long>(row.result.operations); }}};
 
 /// One solve of the eccentric transfer.
@@ -120,23 +120,23 @@ constexpr auto transfer_errors = &OptimalSteps::errors;
 const Columns<Transfer> transfer_columns{
     {"problem", "", "name of the problem", [](const Transfer& /*row*/) { return "ellipse_transfer"; }, in_key},
     {"eccentricity", "", "eccentricity of both ellipses", eccentricity_of<Transfer>(), in_key},
-    {"rule", "", "uniform; proportional to sigma along the optimum (imposed); part of the principle (variational)",
+    {"rule", "", "uniform; proportional to sigma along the optimum (imposed); or part of the principle (variational)",
      from(&Transfer::choice, &StepChoice::rule_name), in_key},
     {"sigma", "", "quantity on which the step function depends", from(&Transfer::choice, &StepChoice::sigma_name),
      in_key},
-    {"stages", "", "Gauss stages", from(&Transfer::choice, &StepChoice::stages), in_key},
+    {"stages", "", "number of Gauss stages", from(&Transfer::choice, &StepChoice::stages), in_key},
     {"intervals", "", "number of intervals N", &Transfer::intervals, in_key},
-    {"variables", "", "variables of the program", from(solved, &OptimalSteps::variables)},
+    {"variables", "", "number of variables of the program", from(solved, &OptimalSteps::variables)},
     {"status", "", "status of the solve", from(solved, &OptimalSteps::status)},
-    {"reference_digits", "", "certified digits of the indirect solution", &Transfer::digits},
+    {"reference_digits", "", "number of certified digits of the indirect solution", &Transfer::digits},
     {"cost_error", "", "|J - J*| / J*", from(solved, transfer_errors, &StepsErrors::cost)},
-    {"state_error", "", "max over the nodes of |q - q*|, each at its own time",
+    {"state_error", "", "max over the nodes of |q - q*|, with each node at its own time",
      from(solved, transfer_errors, &StepsErrors::state)},
     {"control_error", "", "max over the stages of |u - u*|", from(solved, transfer_errors, &StepsErrors::control)},
     {"momentum_defect", "",
      "largest difference between the change of angular momentum and the work of the thrust over an interval",
      from(solved, transfer_errors, &StepsErrors::momentum)},
-    {"replay_error", "", "distance from the final state when the control is replayed",
+    {"replay_error", "", "distance between the end of the replay and the final state",
      from(solved, transfer_errors, &StepsErrors::replay)}};
 
 /// Uniform steps, and every rule with each of some functions.
@@ -246,9 +246,9 @@ int measure_all(CommandLine& line) {
   int steps_per_period = 128;
   int steps = 400;
   long long periods = 200;
-  line.number("--steps", steps, 1, 1000000, "steps under an arbitrary thrust");
-  line.number("--steps-per-period", steps_per_period, 32, 100000, "steps per period of the energies");
-  line.number("--periods", periods, 3, 10000000, "periods of the energies");
+  line.number("--steps", steps, 1, 1000000, "number of steps under an arbitrary thrust");
+  line.number("--steps-per-period", steps_per_period, 32, 100000, "number of steps per period for the energies");
+  line.number("--periods", periods, 3, 10000000, "number of periods for the energies");
   TableRun run("step_control", line);
   Measurement measurement(run, exponent);
   measurement.structure(steps);

@@ -30,8 +30,8 @@ Finding symplectic_by_principle(const ResultTables& tables, const std::string& /
   const double imposed = by_rule(rows, "imposed", table).max(defect);
   const double from_left = by_rule(rows, "from_left", table).max(defect);
   return found(variational < within_rounding && std::min(imposed, from_left) > within_rounding,
-               "D'ΩD - Ω of (q, t, p, -E) in units of round-off: variational at most {:.1f}, imposed up to {:.1e}, "
-               "computed before the step up to {:.1e}",
+               "D'ΩD - Ω of (q, t, p, -E), in units of round-off, is at most {:.1f} with variational steps, up to "
+               "{:.1e} with imposed steps, and up to {:.1e} with steps computed beforehand",
                Measurement{"largest defect in units of round-off", variational, "", "variational"},
                Measurement{"largest defect in units of round-off", imposed, "", "imposed"},
                Measurement{"largest defect in units of round-off", from_left, "", "from_left"});
@@ -46,10 +46,10 @@ Finding momentum_by_every_route(const ResultTables& tables, const std::string& /
   static_cast<void>(by_rule(rows, "imposed", table));
   const double least_work = -rows.max([](const Row& row) { return -std::abs(row.needed("work")); });
   return found(rows.max("defect") < rounding && least_work > some_work,
-               "{} trajectories of 400 steps under arbitrary thrust, with step sizes from distance, acceleration and "
-               "thrust: change in momentum minus work at most {:.1e}",
+               "on {} trajectories of 400 steps under arbitrary thrust, with step sizes from distance, acceleration "
+               "and thrust, the change in momentum minus the work is at most {:.1e}",
                rows.size(), Measurement{"largest defect", rows.max("defect")})
-      .also(worded("work at least {:.1e}", Measurement{"least work", least_work}));
+      .also(worded("the work is at least {:.1e}", Measurement{"least work", least_work}));
 }
 
 Finding energy_by_principle(const ResultTables& tables, const std::string& /*problem*/) {
@@ -65,8 +65,8 @@ Finding energy_by_principle(const ResultTables& tables, const std::string& /*pro
   };
   const auto words = [](const Row& row) {
     const std::string at = fmt::format("e = {}, {}", row.text("eccentricity"), row.text("rule"));
-    return worded("e = {}: {} oscillates by {:.1e}, changes by {:.1e}", row.text("eccentricity"), row.text("rule"),
-                  Measurement{"oscillation of the energy", row.needed("oscillation"), "", at},
+    return worded("e = {}, {}: the energy oscillates by {:.1e} and changes by {:.1e}", row.text("eccentricity"),
+                  row.text("rule"), Measurement{"oscillation of the energy", row.needed("oscillation"), "", at},
                   Measurement{"change of the energy", std::abs(row.needed("change")), "", at});
   };
   return found(std::ranges::all_of(variational, stays) && std::ranges::all_of(from_left, leaves), "{}",
@@ -119,7 +119,7 @@ Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*p
   };
   return found(state.least > 1.0 && cost.least > 1.0,
                "with the same number of steps, the state error with imposed steps is {:.0f} to {:.0f} times the error "
-               "with variational steps ({} pairs), and the error of the optimal cost {:.0f} to {:.0f} times ({} pairs)",
+               "with variational steps ({} pairs), and the cost error is {:.0f} to {:.0f} times as large ({} pairs)",
                least("state errors", state), largest("state errors", state), state.count, least("cost errors", cost),
                largest("cost errors", cost), cost.count)
       .also(worded("variational steps take {:.1f} to {:.1f} times the operations of a Newton pass and {:.2f} to {:.2f} "
@@ -151,7 +151,7 @@ Claims step_control_claims() {
            .problems = simulated,
            .where = in_outlook,
            .whose = Whose::extension,
-           .states = "with variational steps the energy oscillates; with steps computed beforehand it drifts",
+           .states = "with variational steps, the energy oscillates; with steps computed beforehand, the energy drifts",
            .judge = energy_by_principle,
            .evidence = {"step_control_energy_behaviour.csv", "figures/step_control.svg"}},
           {.id = "variational_steps_accuracy",
@@ -161,8 +161,8 @@ Claims step_control_claims() {
            .states = "step sizes that depend on the trajectory give smaller errors as part of the variational "
                      "principle than as an imposed constraint with the same number of steps",
            .judge = accuracy_by_principle,
-           .condition = "along Kepler ellipses of eccentricity 0.3 to 0.8, step sizes by distance or acceleration; E_0 "
-                        "is the initial energy",
+           .condition = "along Kepler ellipses of eccentricity 0.3 to 0.8, with step sizes from distance or "
+                        "acceleration; E_0 is the initial energy",
            .evidence = {"step_control.csv", "step_control_slopes.csv", "step_control_transfer.csv",
                         "figures/step_control.svg"}}};
 }

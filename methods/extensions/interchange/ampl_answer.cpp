@@ -32,7 +32,7 @@ class SolutionLines {
     const std::size_t end = rest_.find('\n');
     if (end == std::string_view::npos) {
       throw Error(
-          fmt::format("the file ends at line {} before {}; it is truncated or not a .sol file", number_ + 1, wanted));
+          fmt::format("the file ends at line {}, before {}; it is truncated or not a .sol file", number_ + 1, wanted));
     }
     const std::string_view line = trimmed(rest_.substr(0, end));
     rest_.remove_prefix(end + 1);
@@ -95,7 +95,7 @@ void skip_options(SolutionLines& lines) {
 
 Eigen::VectorXd values(SolutionLines& lines, Eigen::Index count, std::string_view wanted) {
   if (std::cmp_greater(count, lines.characters_left())) {  // a line each
-    throw Error(fmt::format("the file ends at line {} before {}; it is truncated", lines.line_number(), wanted));
+    throw Error(fmt::format("the file ends at line {}, before {}; it is truncated", lines.line_number(), wanted));
   }
   Eigen::VectorXd result(count);
   for (double& value : result) value = lines.number<double>(wanted);
@@ -106,7 +106,7 @@ Eigen::VectorXd values(SolutionLines& lines, Eigen::Index count, std::string_vie
 Eigen::Index all_or_none(SolutionLines& lines, Eigen::Index size, std::string_view wanted) {
   const Eigen::Index count = lines.count(wanted);
   if (count == 0 || count == size) return count;
-  throw Error(fmt::format("line {}: {} is {}, neither 0 nor {}", lines.line_number(), wanted, count, size));
+  throw Error(fmt::format("line {}: {} is {}, but must be 0 or {}", lines.line_number(), wanted, count, size));
 }
 
 /// "objno 0 CODE".
@@ -115,8 +115,7 @@ int code_of(std::string_view line) {
   const std::size_t last = line.rfind(' ');
   const auto code = parsed<int>(line.substr(last == std::string_view::npos ? 0 : last + 1));
   if (!line.starts_with(begin) || last < begin.size() || !code) {
-    throw Error(
-        fmt::format(R"(its last line should be "objno 0 CODE", but reads "{}")", SolutionLines::shortened(line)));
+    throw Error(fmt::format(R"(the last line must be "objno 0 CODE", but reads "{}")", SolutionLines::shortened(line)));
   }
   return *code;
 }
@@ -143,7 +142,7 @@ Status AmplSolution::status() const noexcept {
 
 AmplSolution read_ampl_solution(std::string_view text) {
   if (text.find('\0') != std::string_view::npos) {
-    throw Error("it is not a text file; write the .nl file in text form so that the solver writes text");
+    throw Error("the file is not a text file; write the .nl file in text form so that the solver writes text");
   }
   SolutionLines lines(text);
   AmplSolution solution;
@@ -167,9 +166,9 @@ void AmplAnswer::require_fit(const NonlinearProgram& program) const {
       std::cmp_equal(answer_.constraint_count, program.constraint_count())) {
     return;
   }
-  throw Error(fmt::format("it solves a program with {} variables and {} constraints, but this one has {} and {}",
-                          answer_.variable_count, answer_.constraint_count, program.variable_count(),
-                          program.constraint_count()));
+  throw Error(fmt::format(
+      "the solution belongs to a program with {} variables and {} constraints, but this program has {} and {}",
+      answer_.variable_count, answer_.constraint_count, program.variable_count(), program.constraint_count()));
 }
 
 Solution AmplAnswer::run(CountedProgram& program, const Eigen::VectorXd& /*start*/) const {

@@ -122,14 +122,14 @@ void check(const Problem& problem, const LatticeOptions& options) {
                             problem.name(), problem.control_size(), 2 * n));
   }
   if (options.connection < 1 || options.connection > options.time_steps || options.intervals_per_step < 1) {
-    throw Error(
-        fmt::format("connections of {} time steps do not fit a horizon of {}", options.connection, options.time_steps));
+    throw Error(fmt::format("connections of {} time steps do not fit into a horizon of {} time steps",
+                            options.connection, options.time_steps));
   }
   const auto intervals = static_cast<Eigen::Index>(options.connection) * options.intervals_per_step;
   if (intervals * problem.control_size() < 2 * n) {
     throw Error(fmt::format(
-        "connections of {} intervals have fewer controls than a state of {} has entries; use more intervals", intervals,
-        problem.name()));
+        "connections of {} intervals have fewer control values than a state of {} has entries; use more intervals",
+        intervals, problem.name()));
   }
 }
 

@@ -52,7 +52,8 @@ void require_true_costs(const PrimitiveLibrary& library, const Problem& problem)
     }
     if (std::abs(each.cost - sum) <= digits * size + share_of_largest * largest) continue;
     throw Error(
-        fmt::format("the primitives of {} are damaged: the stated cost of one is {:g}, but its trajectory costs {:g}",
+        fmt::format("the primitives of {} are damaged: the stated cost of a primitive is {:g}, but the cost of its "
+                    "trajectory is {:g}",
                     problem.name(), each.cost, sum));
   }
 }

@@ -27,7 +27,7 @@ void require_in_place(const PrimitiveLibrary& library, const std::vector<Roadmap
     }
   }
   throw Error(
-      fmt::format("an edge of the roadmap from node {} to node {} does not begin and end where its primitive {} does",
+      fmt::format("the edge of the roadmap from node {} to node {} does not have the same ends as its primitive {}",
                   edge.from, edge.to, edge.primitive));
 }
 
@@ -102,7 +102,7 @@ Roadmap::Roadmap(const PrimitiveLibrary& library, std::vector<RoadmapNode> nodes
 std::optional<RoadmapPath> cheapest_path(const Roadmap& roadmap, std::size_t from, std::size_t to, int duration,
                                          Arrival arrival) {
   if (std::max(from, to) >= roadmap.nodes().size()) {
-    throw Error(fmt::format("the roadmap has {} nodes, numbered from 0: there is no path from {} to {}",
+    throw Error(fmt::format("the roadmap has {} nodes, numbered from 0: there is no path from node {} to node {}",
                             roadmap.nodes().size(), from, to));
   }
   if (duration < 0)

@@ -126,9 +126,9 @@ void require_primitives(const Transcription& program) {
     return;
   }
   throw Error(
-      fmt::format("{} has no primitives: both ends and the horizon must be fixed, without a final cost, boundary "
-                  "conditions, integral constraints, unknown parameters, first-order states, constraints g(q) = 0 or "
-                  "bounds between the ends",
+      fmt::format("{} has no primitives: both ends and the horizon must be fixed, and a final cost, boundary "
+                  "conditions, integral constraints, unknown parameters, first-order states, constraints g(q) = 0 and "
+                  "bounds between the ends are not supported",
                   program.problem().name()));
 }
 

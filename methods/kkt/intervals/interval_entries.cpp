@@ -107,7 +107,7 @@ class EntryTable {
       made_.is_fixed.push_back(fixed_ones > 0);
       return append(run, 1, made_.interval_unknowns);
     }
-    if (!is_of_an_end(run)) refuse("an unknown between the ends belongs to no group of its kind");
+    if (!is_of_an_end(run)) refuse("an unknown exists in only some of the intervals or nodes");
     append(run, run.count, made_.end_unknowns[run.index == 0 ? 0 : 1]);
     return -1;
   }
@@ -126,7 +126,7 @@ class EntryTable {
       return {append(run, 1, is_inequality ? made_.inequality_rows : own_rows_), is_inequality};
     }
     if (run.kind != Place::Kind::border && !is_of_an_end(run)) {
-      refuse("a constraint between the ends belongs to no group of its kind");
+      refuse("a constraint exists in only some of the intervals or nodes");
     }
     append(run, run.count, made_.end_rows);
     return {};
@@ -218,7 +218,7 @@ class EntryTable {
     }
     const int column = column_in(row.index, of);
     if (column < 0) {
-      if (!is_of_node) refuse("a constraint of an interval reads unknowns of another one");
+      if (!is_of_node) refuse("a constraint of an interval reads unknowns of another interval");
       return std::nullopt;
     }
     if (row.is_inequality) return Target{{Block::inequality, row.number, column}, row.index};

@@ -24,8 +24,8 @@ const char* refusal_of_ends(const NonlinearProgram& program, const IntervalEntri
   if (!entries.end_unknowns[0].empty() || !entries.end_unknowns[1].empty()) return "an end has unknowns of its own";
   if (!entries.end_rows.empty()) return "there are boundary conditions";
   for (const Eigen::Index first : entries.node_unknowns) {
-    if (!is_fixed(program, first)) return "the state at the start is not given";
-    if (!is_fixed(program, first + entries.intervals)) return "the state at the end is not given";
+    if (!is_fixed(program, first)) return "the initial state is not fixed";
+    if (!is_fixed(program, first + entries.intervals)) return "the final state is not fixed";
   }
   return nullptr;
 }
@@ -44,7 +44,7 @@ LaneKkt::Made LaneKkt::make(const NonlinearProgram& program, const KktMatrix& us
   entries->copy_padded(arrays, 1, padded);
   auto plan = elimination_plan(*entries, arrays, {entries->intervals / 2});
   if (!plan)
-    return tl::unexpected(std::string("the equalities of an interval depend on each other at the usual point"));
+    return tl::unexpected(std::string("the equalities of an interval depend on each other at the default start"));
   return std::unique_ptr<LaneKkt>(new LaneKkt(std::move(*entries), std::move(*plan), choose));
 }
 

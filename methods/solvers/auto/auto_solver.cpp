@@ -43,14 +43,14 @@ class AutoRun final : public PreparedRun {
     if (!leaves_hope(solution.status)) return;
     const bool has_point = solution.primal.size() == start.size() && solution.primal.allFinite();
     continue_with(1, has_point ? Eigen::VectorXd(solution.primal) : start, solution);
-    solution.failed_before = "interior_point failed; ipopt continued from its last point.";
+    solution.failed_before = "interior_point failed; ipopt continued from the last point.";
     if (!has_point || !leaves_hope(solution.status)) return;
     const Eigen::VectorXd moved = moved_off_flat_rows(program_.uncounted(), start);
     if (moved.size() > 0) {
       continue_with(0, moved, solution);
       solution.failed_before =
-          "interior_point and ipopt failed; interior_point restarted near the guess, at which derivatives of a "
-          "violated path constraint vanish.";
+          "interior_point and ipopt failed; interior_point restarted near the guess, where derivatives of a violated "
+          "path constraint vanish.";
       if (!leaves_hope(solution.status)) return;
     }
     const Eigen::VectorXd feasible = feasible_point(program_, options_, start);
@@ -88,7 +88,7 @@ AutoSolver::AutoSolver(const SolverOptions& options, AutoOptions choices)
     : Solver(options), first_(options, std::move(choices.interior_point)), second_(options, std::move(choices.ipopt)) {}
 
 std::string AutoSolver::description() const {
-  return "interior_point, then ipopt from its last point, then interior_point from a feasible trajectory";
+  return "interior_point, then ipopt from the last point, then interior_point from a feasible trajectory";
 }
 
 std::unique_ptr<PreparedRun> AutoSolver::prepare(CountedProgram& program) const {

@@ -184,7 +184,7 @@ Solution BatchQueue::check(const BatchInstance& instance) const {
   const auto require_size = [&](const char* what, const Eigen::VectorXd& vector, std::size_t wanted, bool may_lack) {
     if (static_cast<std::size_t>(vector.size()) == wanted || (may_lack && vector.size() == 0)) return;
     refused.status = Status::invalid_program;
-    refused.message = fmt::format("the {} of the instance has {} entries instead of {}", what, vector.size(), wanted);
+    refused.message = fmt::format("The {} of the instance has {} entries, expected {}.", what, vector.size(), wanted);
   };
   require_size("start", instance.start, program.variable_count(), false);
   require_size("vector of constraint values", instance.equality_values, program.constraint_count(), true);

@@ -258,7 +258,7 @@ class InteriorPointRun final : public PreparedRun {
       if (line_search_.may_return_to(values_, enough)) return std::nullopt;
       if (const auto reason = reason_to_stop()) return reason;
     }
-    message_ = "Neither the Newton step nor descent on the violation improves the iterate.";
+    message_ = "Neither the Newton step nor descent on the constraint violation improves the iterate.";
     return Status::step_failed;
   }
 
@@ -374,14 +374,14 @@ InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOpt
     : Solver(std::move(options)), choices_(std::move(choices)) {}
 
 std::string InteriorPointSolver::description() const {
-  return "interior-point method that eliminates its linear systems interval by interval; exact Hessian";
+  return "interior-point method with exact Hessian; eliminates its linear systems interval by interval";
 }
 
 std::unique_ptr<PreparedRun> InteriorPointSolver::prepare(CountedProgram& program) const {
   auto kkt = interior_point::make_kkt(program, choices_);
   if (kkt) return std::make_unique<interior_point::InteriorPointRun>(program, std::move(*kkt), options());
   return std::make_unique<interior_point::RefusedRun>(
-      fmt::format("interior_point cannot eliminate this program interval by interval: {}; choose ipopt, or the option "
+      fmt::format("interior_point cannot eliminate this program interval by interval: {}; choose ipopt or the option "
                   "factorisation=sparse.",
                   kkt.error()));
 }

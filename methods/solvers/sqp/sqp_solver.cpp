@@ -253,7 +253,7 @@ SqpSolver::SqpSolver(SolverOptions options, SequentialOptions choices)
     : SolverWithoutMemory(std::move(options)), choices_(std::move(choices)) {}
 
 std::string SqpSolver::description() const {
-  return "sequential quadratic programming by an active-set method that counts every minor iteration; exact Hessian";
+  return "sequential quadratic programming with an active-set method and exact Hessian; counts every minor iteration";
 }
 
 Solution SqpSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {

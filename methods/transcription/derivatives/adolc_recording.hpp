@@ -24,8 +24,8 @@ class AdolcTag {
     const std::lock_guard lock(mutex());
     if (is_swept_in_reverse_ && swept_in_reverse() == most) {
       throw Error(
-          "ADOL-C differentiates 32 recordings in reverse, two or three per program: use fewer programs at a time, or "
-          "another derivative back end");
+          "ADOL-C can differentiate at most 32 recordings in reverse mode, and a program needs two or three; use fewer "
+          "programs at a time or another derivative back end");
     }
     swept_in_reverse() += is_swept_in_reverse_ ? 1 : 0;
     while (used().contains(number_)) ++number_;

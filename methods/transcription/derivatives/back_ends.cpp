@@ -53,18 +53,18 @@ BackEndPtr make_differences(const LocalFunctions& functions, const DerivativePla
 
 // One line per back end, the default first.
 constexpr auto back_ends = std::to_array<Entry>({
-    {"tape", "exact: the formulas of one interval differentiated symbolically, evaluated for all intervals at once",
+    {"tape", "exact: symbolic derivatives of the formulas of one interval, evaluated for all intervals at once",
      make_tape},
 #ifdef DMOCBENCH_WITH_ADOLC
     {"adolc", "exact: ADOL-C's drivers on the formulas of one interval, interval by interval", make_adolc_derivatives},
-    {"adolc_whole", "exact: ADOL-C's drivers on the whole program recorded once, columns compressed by colouring",
+    {"adolc_whole", "exact: ADOL-C's drivers on the whole program, recorded once; colouring compresses the columns",
      make_adolc_whole_derivatives},
 #endif
-    {"finite_differences", "central differences of values, perturbing a local unknown of all intervals at once",
+    {"finite_differences", "central differences of values; perturbs a local unknown of all intervals at once",
      make_differences<DifferenceKind::central>},
     {"forward_differences", "one-sided differences of values, with half the evaluations and half the digits",
      make_differences<DifferenceKind::forward>},
-    {"dense_differences", "one-sided differences of the values of the whole program, perturbing one unknown at a time",
+    {"dense_differences", "one-sided differences of the values of the whole program; perturbs one unknown at a time",
      make_dense_differences},
 });
 

@@ -25,7 +25,7 @@ SeriesAssembly::SeriesAssembly(AssemblyPlan plan) : plan_(std::move(plan)), colu
   for (const std::size_t column : order) {
     const SeriesPlace& place = plan_.places[column];
     const std::size_t end = place.at(plan_.intervals - 1) + 1;
-    if (end > plan_.size) throw Error("a column leaves the array that it is assembled to");
+    if (end > plan_.size) throw Error("a column exceeds the array into which it is assembled");
     if (plan_.mode == AssemblyMode::part || place.is_global || place.first < covered) {
       additions_.push_back({column, additions_.size() * plan_.intervals});
       zero_until(end);
@@ -40,7 +40,7 @@ SeriesAssembly::SeriesAssembly(AssemblyPlan plan) : plan_(std::move(plan)), colu
 
 std::span<double* const> SeriesAssembly::open(VectorOut& result) {
   if (static_cast<std::size_t>(result.size()) != plan_.size) {
-    throw Error("columns are assembled to an array of wrong length");
+    throw Error("columns are assembled into an array of the wrong length");
   }
   for (std::size_t column = 0; column < columns_.size(); ++column) {
     columns_[column] = result.data() + plan_.places[column].first;

@@ -69,7 +69,7 @@ std::size_t WholePart::row(std::size_t local, std::size_t interval) const {
 
 void begin_whole(const AssemblyPlan& plan, VectorOut& result) {
   if (static_cast<std::size_t>(result.size()) != plan.size) {
-    throw Error("derivatives are written to an array of wrong length");
+    throw Error("derivatives are written to an array of the wrong length");
   }
   if (plan.mode == AssemblyMode::whole) result.setZero();
 }

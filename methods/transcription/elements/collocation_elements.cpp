@@ -31,7 +31,7 @@ IntervalTrace with_momenta(IntervalTrace trace, const IntervalUnknowns& unknowns
 }  // namespace
 
 std::string HamiltonianElement::description() const {
-  return "collocation of Hamilton's equations on (q, p) by the symplectic partitioned Runge-Kutta method";
+  return "collocation of Hamilton's equations in (q, p) with the symplectic partitioned Runge-Kutta method";
 }
 
 Eigen::Index HamiltonianElement::multipliers(const Tableau& tableau) const {
@@ -98,7 +98,7 @@ IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tabl
   return trace;
 }
 
-std::string TangentElement::description() const { return "collocation of the Euler-Lagrange equations on (q, v)"; }
+std::string TangentElement::description() const { return "collocation of the Euler-Lagrange equations in (q, v)"; }
 
 Eigen::Index TangentElement::multipliers(const Tableau& tableau) const {
   const Eigen::Index s = tableau.stages();

@@ -5,7 +5,7 @@
 namespace dmocbench {
 
 std::string DmocElement::description() const {
-  return "Discrete Mechanics and Optimal Control: the discrete Lagrange-d'Alembert principle on q";
+  return "Discrete Mechanics and Optimal Control: the discrete Lagrange-d'Alembert principle for q";
 }
 
 Eigen::Index DmocElement::multipliers(const Tableau& tableau) const {

@@ -25,7 +25,7 @@ Tableau tableau_of_space(std::string_view family, int stages, std::string_view w
 /// `space` if the quadrature has enough points for it; `what` names its size, such as "degree 3".
 const Tableau& fit_for(const Tableau& quadrature, const Tableau& space, const std::string& what) {
   if (space.stages() <= quadrature.stages()) return space;
-  throw Error(fmt::format("galerkin with {} needs {} quadrature points or more, got {}", what, space.stages(),
+  throw Error(fmt::format("galerkin with {} needs at least {} quadrature points, got {}", what, space.stages(),
                           quadrature.stages()));
 }
 
@@ -43,7 +43,7 @@ std::string GalerkinElement::name() const {
 }
 
 std::string GalerkinElement::description() const {
-  return fmt::format("Galerkin variational integrator: q of degree {}, {} controls of degree {}, any quadrature",
+  return fmt::format("Galerkin variational integrator with q of degree {}, {} controls of degree {} and any quadrature",
                      rates_.stages(), controls_.shares_controls ? "continuous" : "discontinuous",
                      controls_.stages() - 1);
 }
@@ -80,8 +80,8 @@ std::unique_ptr<Element> make_galerkin_element(std::string_view spaces) {
   const auto degree = parsed<int>(numbers.substr(0, bar));
   const auto nodes = bar == std::string_view::npos ? std::nullopt : parsed<int>(numbers.substr(bar + 1));
   if (!degree || !nodes) {
-    throw Error(fmt::format(R"("{}_{}" names no degree and number of control nodes; "{}" does)", galerkin_family,
-                            spaces, galerkin_name(2, 1, is_continuous)));
+    throw Error(fmt::format(R"("{}_{}" does not name a degree and a number of control nodes, as "{}" does)",
+                            galerkin_family, spaces, galerkin_name(2, 1, is_continuous)));
   }
   return std::make_unique<GalerkinElement>(*degree, *nodes, is_continuous);
 }

@@ -7,7 +7,7 @@
 namespace dmocbench {
 
 std::string SecondOrderElement::description() const {
-  return "collocation of the Euler-Lagrange equations as equations of second order on q";
+  return "collocation of the Euler-Lagrange equations as second-order equations in q";
 }
 
 Tableau SecondOrderElement::rates(const Tableau& tableau) const {

@@ -24,14 +24,14 @@ Grid Grid::uniform(long long intervals) {
 
 Grid Grid::from_nodes(Eigen::VectorXd relative_times) {
   const Eigen::Index count = relative_times.size() - 1;
-  if (count < 1 || count > most_intervals) throw Error("a grid needs at least two node times, the first 0, the last 1");
+  if (count < 1 || count > most_intervals) throw Error("a grid needs at least two node times, from 0 to 1");
   if (relative_times[0] != 0.0 || relative_times[count] != 1.0) {
     throw Error("relative node times must begin with 0 and end with 1");
   }
   Eigen::VectorXd widths = relative_times.tail(count) - relative_times.head(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!(widths[k] > 0.0)) {
-      throw Error(fmt::format("relative node times must ascend: entry {} is not above entry {}", k + 1, k));
+      throw Error(fmt::format("relative node times must ascend: entry {} is not greater than entry {}", k + 1, k));
     }
     if (widths[k] < narrowest) {
       throw Error(

@@ -24,7 +24,7 @@ std::string place_of(double t, const Problem& problem, const Grid& grid) {
   const Eigen::VectorXd& nodes = grid.relative_times();
   const auto above = std::upper_bound(nodes.begin(), nodes.end(), t / problem.horizon());
   const auto interval = std::clamp<std::ptrdiff_t>(above - nodes.begin() - 1, 0, nodes.size() - 2);
-  return fmt::format("{}: at its guess in interval {} (t = {:g}) ", problem.name(), interval, t);
+  return fmt::format("{}: at its guess in interval {} (t = {:g}), ", problem.name(), interval, t);
 }
 
 /// The fault of a point of the guess, or empty.
@@ -100,7 +100,7 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
       if (!is_invertible(saddle_matrix(mass, constraints->jacobian()))) {
         throw Error(
             place_of(times[i], problem, grid) +
-            "(L_vv, G'; G, 0) is singular: constraints, G = dg/dq or A, are dependent there, or L is not regular");
+            "the matrix (L_vv, G'; G, 0) is singular: constraints (G = dg/dq or A) are dependent, or L is not regular");
       }
       if (!needs_mass) continue;
     }
@@ -182,8 +182,8 @@ class WindowSearch {
     const std::vector<std::string> names = problem_.card().path_constraint_names;
     const auto number = static_cast<std::size_t>(i);
     throw Error(fmt::format(
-        "{}: path_constraints[{}]{} acts on the guess only from t = {:.4g} to {:.4g}, between the stages at t = {:.4g} "
-        "and {:.4g}, where no stage imposes it; use more intervals, or a grid with a stage there",
+        "{}: path_constraints[{}]{} is active on the guess only from t = {:.4g} to {:.4g}, between the stages at t = "
+        "{:.4g} and {:.4g}, so no stage imposes it; use more intervals, or a grid with a stage there",
         problem_.name(), i, number < names.size() ? " (" + names[number] + ")" : "", times_[first], times_[end - 1],
         *(after - 1), *after));
   }

@@ -60,7 +60,7 @@ TEST(AmplSolution, IsRefusedIfItIsSomethingElse) {
   expect_named("Options", "t,q\n0,1\n");
   expect_named("truncated", "\nOptions\n0\n1000000000000\n1000000000000\n0\n0\n");
   expect_named("much", "\nOptions\n0\n1\n0\n1\n1\nmuch\nobjno 0 0\n");
-  expect_named("neither 0 nor 3", "\nOptions\n0\n1\n0\n3\n2\n1\n2\nobjno 0 0\n");
+  expect_named("must be 0 or 3", "\nOptions\n0\n1\n0\n3\n2\n1\n2\nobjno 0 0\n");
 }
 
 /// A particle in a force that AMPL cannot write.

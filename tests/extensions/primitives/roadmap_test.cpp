@@ -116,10 +116,10 @@ TEST(Roadmap, RefusesAnEdgeThatEndsElsewhereThanItsPrimitive) {
   BareGraph graph(2);
   graph.connect(0, 1, 1, 1.0);
   graph.nodes[1].moved.shift[0] = 0.5;
-  tests::expect_error_naming({"begin and end"}, [&] { static_cast<void>(graph.roadmap()); });
+  tests::expect_error_naming({"same ends"}, [&] { static_cast<void>(graph.roadmap()); });
   graph.nodes[1].moved.shift[0] = 0.0;
   graph.edges.front().to = 0;
-  tests::expect_error_naming({"begin and end"}, [&] { static_cast<void>(graph.roadmap()); });
+  tests::expect_error_naming({"same ends"}, [&] { static_cast<void>(graph.roadmap()); });
 }
 
 }  // namespace
