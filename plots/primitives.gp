@@ -17,7 +17,7 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
     eval begin_figure(kind, problem."_primitives", 580)
     figure_title = title_text(\
         problem_label(problem).": a roadmap of DMOC primitives",\
-        paper_note(problem, "section 5").entry(told_of, "nodes")." nodes, ".entry(told_of, "edges")." edges; a plan takes "\
+        paper_note(problem, "section 5").entry(told_of, "nodes")." nodes, ".entry(told_of, "edges")." edges; a search takes "\
         .sprintf("%.2g", number(entry(told_of, "plan_milliseconds")))." ms.",\
         "Best of ".entry(told_of, "starts")." starts in the same total time: "\
         .number_text(entry(told_of, "best_of_starts"), "none")."; best known cost: "\
