@@ -37,7 +37,7 @@ do for [problem_word in problems_of("consistency_order", "error")] {
       figure_title = title_text(problem_label(problem)\
           .": errors of DMOC’s discrete objects; r is the order of the tableau",\
           paper_note(problem, "section 2.3, th:ordercalculation: hʳ⁺¹ for all errors"),\
-          "Legends show fitted slopes. Grey guides: C hʳ dashed, C hʳ⁺¹ dotted. No solves: end points are given.")
+          "Legends show fitted slopes. Grey guides: C hʳ dashed, C hʳ⁺¹ dotted. Nothing is solved: end points are given.")
       eval panels(3, 1, 105, 205, 84, 0, 40)
       do for [quantity in of_figure(figure)] {
         where = problem_word.",quantity=".quantity

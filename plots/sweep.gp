@@ -7,7 +7,7 @@ eval require("sweep", "problem,method,intervals,status,objective,major_iteration
 # The columns after `instance` are the quantities.
 quantities = system("awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if (found) print $i; if ($i == \"instance\") found = 1 } }' '"\
     .table("sweep")."'")
-if (words(quantities) < 2) { print "a sweep of one quantity has no map"; exit status 0 }
+if (words(quantities) < 2) { print "only a sweep of two quantities has a map"; exit status 0 }
 x = word(quantities, 1)
 y = word(quantities, 2)
 tried(where) = "< ".rows_awk("-v take=all -v branches=any -v where='".where."'", "sweep")

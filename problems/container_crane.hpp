@@ -87,8 +87,8 @@ class ContainerCrane : public Problem {
       return ReferenceOptimum{.objective = 0.03751946138,
                               .digits = 10,
                               .certificate =
-                                  "Gauss with 3 stages and Lobatto with 4 on 512 intervals, tolerance 1e-13, and the "
-                                  "replays of both controls agree"};
+                                  "Gauss with 3 stages and Lobatto with 4 stages, on 512 intervals with the tolerance "
+                                  "1e-13, agree, as do the replays of both controls"};
     }
     if (weight != 0.0) return std::nullopt;
     return ReferenceOptimum{

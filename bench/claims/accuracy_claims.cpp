@@ -116,7 +116,7 @@ Claims accuracy_claims() {
        .has_verdict = false},
       {.id = "interior_point_beside_ipopt",
        .where = "section 4.1, SQP Method",
-       .states = "interior_point, the solver of experiments that do not compare solvers, finds the minima of Ipopt",
+       .states = "interior_point, the solver where none are compared, finds the same minima as Ipopt",
        .judge = interior_point_beside_ipopt,
        .condition =
            "warm starts from a common trajectory; the solutions of both solvers are refined by Newton steps, so "

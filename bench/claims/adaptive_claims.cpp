@@ -84,7 +84,7 @@ Finding fewer_intervals(const ResultTables& tables, const std::string& problem) 
     const Row& best = fewest_intervals(adapted);
     const Row& other = fewest_intervals(uniform);
     const auto ratio = [&](const Row& uniform_row, const Row& adapted_row, const std::string& at) {
-      return Measurement{"ratio of intervals (uniform to adapted grids)",
+      return Measurement{"ratio of the numbers of intervals (uniform to adapted grids)",
                          quotient(uniform_row, adapted_row, "intervals"), method, at};
     };
     std::vector<Words> of_method{worded("{} {} (s = {}) instead of {} (s = {}), ratio {:.2f}", method,
@@ -141,8 +141,8 @@ Claims adaptive_claims() {
        .problems = uneven_problems,
        .where = "section 5, Adaptive Time Steps",
        .whose = Whose::extension,
-       .states = "ratio of intervals for an error of 1e-8 (uniform grids to grids adapted by error control, each with "
-                 "its best number of stages)",
+       .states = "ratio of the numbers of intervals for an error of 1e-8 (uniform grids to grids adapted by error "
+                 "control, each with its best number of stages)",
        .judge = fewer_intervals,
        .condition = "errors are true errors of q, p and cost, relative to their ranges",
        .evidence = {"adaptive.csv", "figures/{}_adaptive.svg"},

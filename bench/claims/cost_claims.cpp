@@ -131,7 +131,7 @@ Predicate saves_at_equal(const char* quantity) {
                  Measurement{"largest ratio of free variables", of_method.max("variables_ratio"), method, at}));
       smallest = std::min(smallest, least);
     }
-    return found(smallest > more_expensive, "ratio of free variables (collocation to DMOC) at equal {} error: {}",
+    return found(smallest > more_expensive, "free variables of collocation divided by DMOC's at equal {} error: {}",
                  quantity, joined(words, ", "));
   };
 }

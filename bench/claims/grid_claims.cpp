@@ -84,8 +84,8 @@ Finding objective_evolution(const ResultTables& tables, const std::string& probl
     }
     if (coarser != nullptr &&
         (coarser->needed("objective") > optimum) != (tangent.front().needed("objective") > optimum)) {
-      reason = worded("the error of tangent changes sign between N = {} and {}", coarser->text("intervals"),
-                      tangent.front().text("intervals"));
+      reason = worded("the cost error of tangent-space collocation changes sign between N = {} and {}",
+                      coarser->text("intervals"), tangent.front().text("intervals"));
     }
     coarser = &tangent.front();
     const double ratio = error(tangent.front()) / error(row);

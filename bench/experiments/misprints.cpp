@@ -226,7 +226,7 @@ Misprint figure_of_iterations() {
           .where = "section 4.2.2, last paragraph, and caption of fig:twolink_iterations (editorial)",
           .printed = "the minor iterations of the two-link manipulator are in fig:kepler_iterations",
           .meant = "they are in fig:twolink_iterations, whose caption reads low thrust orbital transfer",
-          .quantity = "ratio of variables on the problem of that figure",
+          .quantity = "ratio of the numbers of variables on the problem of that figure",
           .as_printed = ratio("orbital_transfer"),
           .as_meant = ratio("two_link_manipulator"),
           .required = 1.5};

@@ -342,9 +342,10 @@ void add_tolerances_option(CommandLine& line, ExperimentOptions& options) {
 }
 
 void add_batch_option(CommandLine& line, ExperimentOptions& options) {
-  line.flag("--batch,!--no-batch", options.batch,
-            "use interior_point to solve eight cases at a time that differ only in start, parameters or end states; "
-            "times are not measured; not with --seconds, --option, --verbose or --repeats");
+  line.flag(
+      "--batch,!--no-batch", options.batch,
+      "solve cases that differ only in start, parameters or end states with interior_point, eight at a time; times "
+      "are not measured; cannot be combined with --seconds, --option, --verbose or --repeats");
   line.ignored_unless(
       "--batch",
       [&options] {

@@ -357,7 +357,8 @@ Solution solve_from(Transcription& program, const Eigen::VectorXd& start,
   Solution solution = solver.solve(program, start, sample_multipliers(program, *with_costates));
   if (is_solved(solution.status) || solution.status == Status::interrupted) return solution;
   Solution cold = solver.solve(program, start);
-  cold.message += " The solve with the costates of the start failed; this solution starts from the trajectory alone.";
+  cold.message +=
+      " The solve that started from a trajectory and its costates failed; this one started from the trajectory alone.";
   return cold;
 }
 

@@ -96,7 +96,7 @@ const Columns<SolvedCase>& core_columns() {
       {"seconds", "s", "wall-clock time of the solve; empty in a batch, whose cases share their time",
        seconds(&Solution::seconds)},
       {"largest_jump", "",
-       "largest distance |(q, v)| between a node and the integration of the interval from the previous node",
+       "largest distance |(q, v)| between a node and the state integrated over the interval from the previous node",
        from(&SolvedCase::accuracy, &Accuracy::jump)},
       {"relative_jump", "",
        "largest jump of q relative to the range of q, or of v relative to the range of v, whichever is larger",

@@ -361,8 +361,8 @@ _remedies = {
     "more_time": "more time (most_seconds=) or fewer intervals.",
     "finite_formula": "bounds that keep the coordinates away from that formula's singularity, and a guess within these bounds.",
     "radians": "radians: {coordinate} changes by {size:g}, which looks like an angle in degrees.",
-    "other_units": "other units: {coordinate} is about {size:.1g}, {smallest} about {smallest_size:.1g}; sizes near 1 suit "
-                   "solvers.",
+    "other_units": "units of other sizes: {coordinate} is about {size:.1g}, {smallest} about {smallest_size:.1g}; solvers work "
+                   "best with sizes near 1.",
     "longer_horizon": "a longer horizon than T = {size:g}, or wider bounds: the ends may be out of reach.",
     "longer_phases": "longer phases, or wider bounds: the ends may be out of reach.",
     "solver_auto": "solver=\"auto\".",

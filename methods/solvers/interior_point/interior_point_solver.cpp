@@ -374,7 +374,7 @@ InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOpt
     : Solver(std::move(options)), choices_(std::move(choices)) {}
 
 std::string InteriorPointSolver::description() const {
-  return "interior-point method with exact Hessian; eliminates its linear systems interval by interval";
+  return "interior-point method with exact Hessian; solves its linear systems by elimination, interval by interval";
 }
 
 std::unique_ptr<PreparedRun> InteriorPointSolver::prepare(CountedProgram& program) const {
