@@ -232,6 +232,10 @@ Eigen::VectorXd given_distances(const ProblemBounds& bounds) {
   return both;
 }
 
+bool is_small_distance(double distance, double size) {
+  return distance > 0.0 && distance < smallest_distance * std::max(1.0, size);
+}
+
 Eigen::VectorXd small_distances(const ProblemBounds& bounds, const Trajectory& motion) {
   constexpr double rounding = 1e-14;  // an end such as cos(π/2)
   Eigen::VectorXd distances = given_distances(bounds);
@@ -239,8 +243,8 @@ Eigen::VectorXd small_distances(const ProblemBounds& bounds, const Trajectory& m
   const double least = rounding * std::max(distances.lpNorm<Eigen::Infinity>(), motion.q.lpNorm<Eigen::Infinity>());
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     const auto& values = i < n ? motion.q.col(i) : motion.v.col(i - n);
-    const double size = std::max(1.0, values.lpNorm<Eigen::Infinity>());
-    if (distances[i] <= least || distances[i] >= smallest_distance * size) distances[i] = 0.0;
+    const bool is_small = is_small_distance(distances[i], values.lpNorm<Eigen::Infinity>());
+    if (distances[i] <= least || !is_small) distances[i] = 0.0;
   }
   return distances;
 }

@@ -76,7 +76,11 @@ inline constexpr double largest_cost_miss_of_a_motion = 0.12;
 /// smallest value that both ends and the times between them allow. 0 where an entry may stay the same.
 [[nodiscard]] Eigen::VectorXd given_distances(const ProblemBounds& bounds);
 
-/// The same, but 0 unless it is below `smallest_distance`, of 1 or of the largest magnitude of the entry, and above
+/// Whether the tolerance may hide a distance between values of this size: whether it is positive and below
+/// `smallest_distance`, of 1 or of the size.
+[[nodiscard]] bool is_small_distance(double distance, double size);
+
+/// The same as `given_distances`, but 0 unless it is small next to the largest magnitude of the entry, and above
 /// round-off of the largest distance and of the largest |q|.
 [[nodiscard]] Eigen::VectorXd small_distances(const ProblemBounds& bounds, const Trajectory& motion);
 
@@ -88,7 +92,7 @@ inline constexpr double largest_cost_miss_of_a_motion = 0.12;
 [[nodiscard]] std::string lost_distance(const ProblemBounds& bounds, const Trajectory& motion,
                                         const Accuracy& accuracy);
 
-/// See `small_distances`.
+/// See `is_small_distance`.
 inline constexpr double smallest_distance = 1e-6;
 
 }  // namespace dmocbench
