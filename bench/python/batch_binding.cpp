@@ -200,9 +200,7 @@ class Batch {
     for (Eigen::Index i = 0; i < q.width; ++i) {
       const double first = primal[q.index(i)];
       const double last = primal[q.index(i) + asked_.intervals];
-      const double distance = std::abs(last - first);
-      if (distance > 0.0 && distance < smallest_distance * std::max({1.0, std::abs(first), std::abs(last)}))
-        return true;
+      if (is_small_distance(std::abs(last - first), std::max(std::abs(first), std::abs(last)))) return true;
     }
     return false;
   }
@@ -225,6 +223,7 @@ class Batch {
   /// Solves an instance whose ends are close once more by itself: next to the guess of the problem, where a batch
   /// starts, its motion is round-off. Takes "solved" back from a solution that does not cover its distance.
   void solve_again(std::size_t number, Eigen::VectorXd& primal) {
+    stop_if_requested();
     set_values(number);
     SolverOptions options;
     options.tolerance = asked_.tolerance;
@@ -242,7 +241,14 @@ class Batch {
   void read_motions() {
     for (auto& [number, primal] : points_) {
       if (primal.size() == 0 || !primal.allFinite()) continue;
-      if (answers_.is_solved[number] && are_close(primal)) solve_again(number, primal);
+      if (answers_.is_solved[number] && are_close(primal)) {
+        try {
+          solve_again(number, primal);
+        } catch (const Stopped&) {  // whether it covers its distance is unknown
+          answers_.status[number] = name_of(Status::time_limit);
+          answers_.is_solved[number] = false;
+        }
+      }
       if (!asked_.motions) continue;
       set_values(number);
       const Trajectory motion = read_trajectory(program_, primal, Eigen::VectorXd());

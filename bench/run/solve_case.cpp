@@ -116,6 +116,25 @@ std::string estimate_in_words(const SolvedCase& solved, const Trajectory& motion
   }
 }
 
+/// What is wrong with the cost of an answer whose intervals lead to the next node.
+std::string error_of_cost_in_words(const Accuracy& found) {
+  if (found.cost_error > largest_cost_error_of_a_motion) {
+    return fmt::format(
+        "The quadrature of the program misses {:.2g} of the running cost along the computed trajectory: the cost "
+        "varies "
+        "too fast within the intervals.",
+        found.cost_error);
+  }
+  if (found.cost_miss > largest_cost_miss_of_a_motion) {
+    return fmt::format(
+        "Integrating each interval alone changes the cost by {:.2g} of its value: the forces vary too fast within the "
+        "intervals.",
+        found.cost_miss);
+  }
+  return fmt::format("Controls that vary within the intervals would save about {:.2g} of the cost.",
+                     found.control_saving);
+}
+
 /// Replays the intervals of a solved case one by one; an answer that is not a motion is too coarse instead of solved,
 /// one that does not move as far as it has to is not confirmed.
 void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
@@ -131,15 +150,7 @@ void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
   solved.solution.status = Status::too_coarse;
   if (found.relative_jump <= largest_jump_of_a_motion &&
       found.accumulated_jump <= largest_accumulated_jump_of_a_motion) {
-    const bool misses_cost = found.cost_error > largest_cost_error_of_a_motion;
-    solved.solution.message =
-        fmt::format("{} {}", sentence_of(Status::too_coarse),
-                    misses_cost ? fmt::format("The quadrature of the program misses {:.2g} of the running cost along "
-                                              "the computed trajectory: the cost varies too fast within the intervals.",
-                                              found.cost_error)
-                                : fmt::format("Integrating each interval alone changes the cost by {:.2g} of its "
-                                              "value: the forces vary too fast within the intervals.",
-                                              found.cost_miss));
+    solved.solution.message = fmt::format("{} {}", sentence_of(Status::too_coarse), error_of_cost_in_words(found));
     return;
   }
   if (found.relative_jump <= largest_jump_of_a_motion) {

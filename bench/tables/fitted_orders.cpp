@@ -218,17 +218,22 @@ std::optional<std::string> note_on_reference(const Selection& curve, long long r
 std::optional<std::string> note_on_missing_orders(std::span<const FittedCurve> fits) {
   const bool has_order = std::ranges::any_of(fits, [](const FittedCurve& fit) { return fit.order.has_value(); });
   if (fits.empty() || has_order) return std::nullopt;
+  // Coordinates that stay at rest next to first-order states have no error at all, and no floor of it.
+  const auto has_reason = [](const FittedCurve& curve) { return curve.fit.verdict != "floor" || curve.fit.floor; };
+  const auto told = std::ranges::find_if(fits, has_reason);
   const Row& head = fits.front().head;
-  const Fit& fit = fits.front().fit;
+  const Fit& fit = told == fits.end() ? fits.front().fit : told->fit;
   const std::string grids = counted(fit.grids.size(), "grid");
   std::string reason = "no four neighbouring grids have the same order; try finer grids";
-  if (fit.verdict == "few grids") {
+  if (told == fits.end()) {
+    reason = "the errors are 0: every grid has the solution of the reference";
+  } else if (fit.verdict == "few grids") {
     reason = grids + "; use at least four grids besides the reference, all solved and not too coarse";
   } else if (fit.verdict == "floor") {
     reason = fmt::format(
         "the {} error stops falling at {:.1e}, and {} above {:g} times this level; use coarser grids. If the level is "
         "far above round-off, reduce --tolerance, or add a small cost on each undetermined control",
-        fits.front().quantity, *fit.floor, counted(fit.grids.size(), "grid is", "grids are"), above_floor);
+        told->quantity, *fit.floor, counted(fit.grids.size(), "grid is", "grids are"), above_floor);
   }
   return fmt::format("{} {} {} {}: no order is fitted ({}: {})", head.text("problem"), head.text("method"),
                      head.text("tableau"), head.text("stages"), fit.verdict, reason);

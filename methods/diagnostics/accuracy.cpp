@@ -10,6 +10,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <fmt/format.h>
 
+#include "methods/diagnostics/control_saving.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
@@ -108,7 +109,7 @@ double worth_of(const TracedProblem& traced, const Trajectory& trajectory, const
   return worth;
 }
 
-/// Sets `Accuracy::cost_error` and `Accuracy::cost_miss`.
+/// Sets `Accuracy::cost_error`, `Accuracy::cost_miss` and `Accuracy::control_saving`.
 void compare_cost(const TracedProblem& traced, const Trajectory& trajectory, double worth, Accuracy& found) {
   constexpr double smallest_cost = 1e-6;  // below it round-off and the tolerance decide
   using FinerRule = boost::math::quadrature::gauss<double, 7>;
@@ -144,13 +145,15 @@ void compare_cost(const TracedProblem& traced, const Trajectory& trajectory, dou
   };
   found.cost_error = share(finer - of_program);
   found.cost_miss = share(finer - of_program + worth);
+  found.control_saving = share(control_saving(traced, trajectory));
 }
 
 }  // namespace
 
 bool Accuracy::is_motion() const {
   return relative_jump <= largest_jump_of_a_motion && accumulated_jump <= largest_accumulated_jump_of_a_motion &&
-         cost_error <= largest_cost_error_of_a_motion && !(cost_miss > largest_cost_miss_of_a_motion);
+         cost_error <= largest_cost_error_of_a_motion && !(cost_miss > largest_cost_miss_of_a_motion) &&
+         !(control_saving > largest_control_saving_of_a_motion);
 }
 
 Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance) {
@@ -232,6 +235,10 @@ Eigen::VectorXd given_distances(const ProblemBounds& bounds) {
   return both;
 }
 
+bool is_small_distance(double distance, double size) {
+  return distance > 0.0 && distance < smallest_distance * std::max(1.0, size);
+}
+
 Eigen::VectorXd small_distances(const ProblemBounds& bounds, const Trajectory& motion) {
   constexpr double rounding = 1e-14;  // an end such as cos(π/2)
   Eigen::VectorXd distances = given_distances(bounds);
@@ -239,8 +246,8 @@ Eigen::VectorXd small_distances(const ProblemBounds& bounds, const Trajectory& m
   const double least = rounding * std::max(distances.lpNorm<Eigen::Infinity>(), motion.q.lpNorm<Eigen::Infinity>());
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     const auto& values = i < n ? motion.q.col(i) : motion.v.col(i - n);
-    const double size = std::max(1.0, values.lpNorm<Eigen::Infinity>());
-    if (distances[i] <= least || distances[i] >= smallest_distance * size) distances[i] = 0.0;
+    const bool is_small = is_small_distance(distances[i], values.lpNorm<Eigen::Infinity>());
+    if (distances[i] <= least || !is_small) distances[i] = 0.0;
   }
   return distances;
 }

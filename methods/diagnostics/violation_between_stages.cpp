@@ -282,8 +282,8 @@ class Measurement {
   void keep_path(Eigen::Index k, const Eigen::RowVectorXd& point, const Eigen::RowVectorXd& h) {
     for (Eigen::Index i = 0; i < h.size(); ++i) {
       Worst& worst = violated_[static_cast<std::size_t>(i)];
-      const double outside = std::max(path_bounds_.lower[i] - h[i], h[i] - path_bounds_.upper[i]);
-      const double amount = std::isfinite(h[i]) ? outside : infinite;
+      double amount = std::max(path_bounds_.lower[i] - h[i], h[i] - path_bounds_.upper[i]);
+      if (!std::isfinite(h[i])) amount = infinite;
       if (amount > worst.amount) worst = {amount, k, point[2 * n_ + m_ + l_], point};
     }
   }
@@ -494,7 +494,8 @@ class Measurement {
     for (const double bound : {path_bounds_.lower[i], path_bounds_.upper[i]}) {
       if (std::isfinite(bound)) largest = std::max(largest, std::abs(bound));
     }
-    return largest > 0.0 ? largest : infinite;
+    if (largest == 0.0) return infinite;
+    return largest;
   }
 
   [[nodiscard]] ViolationBetweenStages summary() {

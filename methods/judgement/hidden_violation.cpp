@@ -5,10 +5,19 @@
 
 namespace dmocbench {
 
+namespace {
+
+/// The size below which unknowns count as at rest.
+double size_at_rest(const Eigen::VectorXd& primal) {
+  constexpr double share = 1e-6;
+  return share * std::max(1.0, primal.size() > 0 ? primal.lpNorm<Eigen::Infinity>() : 0.0);
+}
+
+}  // namespace
+
 void ConstraintSizes::measure_unknowns(const NonlinearProgram& program, const Eigen::VectorXd& primal) {
-  constexpr double at_rest = 1e-6;
   const double largest = primal.size() > 0 ? primal.lpNorm<Eigen::Infinity>() : 0.0;
-  const double least = at_rest * std::max(1.0, largest);
+  const double least = size_at_rest(primal);
   of_unknowns_.setConstant(primal.size(), largest > least ? largest : 1.0);
   const IntervalStructure* const structure = program.interval_structure();
   if (structure == nullptr) return;
@@ -18,6 +27,36 @@ void ConstraintSizes::measure_unknowns(const NonlinearProgram& program, const Ei
     if (count == 0) continue;
     const double size = primal.segment(first, count).lpNorm<Eigen::Infinity>();
     of_unknowns_.segment(first, count).setConstant(size > least ? size : 1.0);
+  }
+}
+
+/// Twice, since an unknown may be limited by another one at rest.
+void ConstraintSizes::limit_those_at_rest(const NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                          const KktMemory& memory) {
+  const IntervalStructure* const structure = program.interval_structure();
+  if (structure == nullptr) return;
+  const BlockPattern& pattern = program.jacobian_structure();
+  const double least = size_at_rest(primal);
+  const auto limit = [&](const PlaceRun& run) {
+    const auto first = static_cast<Eigen::Index>(run.first);
+    const auto count = static_cast<Eigen::Index>(run.count);
+    if (count == 0 || primal.segment(first, count).lpNorm<Eigen::Infinity>() > least) return;
+    const auto is_member = [&](int column) { return column >= first && column < first + count; };
+    of_rows_.setZero(memory.constraints.size());
+    pattern.for_each([&](Eigen::Index e, int row, int column) {
+      if (!is_member(column)) of_rows_[row] += std::abs(memory.jacobian[e]) * of_unknowns_[column];
+    });
+    of_sums_.setConstant(of_unknowns_.size(), 1.0);
+    pattern.for_each([&](Eigen::Index e, int row, int column) {
+      const double by_member = std::abs(memory.jacobian[e]);
+      const bool is_equation = program.constraint_lower()[row] == program.constraint_upper()[row];
+      if (!is_member(column) || !is_equation || by_member == 0.0 || of_rows_[row] == 0.0) return;
+      of_sums_[column] = std::min(of_sums_[column], of_rows_[row] / by_member);
+    });
+    of_unknowns_.segment(first, count).setConstant(of_sums_.segment(first, count).maxCoeff());
+  };
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    for (const PlaceRun& run : structure->unknowns.runs()) limit(run);
   }
 }
 
@@ -69,15 +108,21 @@ std::optional<HiddenViolation> ConstraintSizes::hidden_violation(const Nonlinear
                                                                  const KktMemory& memory) {
   measure_unknowns(program, primal);
   measure_sums(program, memory);
-  of_rows_.setZero(memory.constraints.size());
-  program.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
-    of_rows_[row] += std::abs(memory.jacobian[e]) * of_unknowns_[column];
-  });
   std::optional<HiddenViolation> worst;
   const auto compare = [&](bool is_of_bound, Eigen::Index i, double violation, double size) {
     if (!(violation > std::max(largest_share, worst ? worst->share : 0.0) * size) || size == 0.0) return;
     worst = HiddenViolation{.is_of_bound = is_of_bound, .number = i, .size = size, .share = violation / size};
   };
+  for (Eigen::Index j = 0; j < primal.size(); ++j) {
+    compare(true, j, std::max(program.variable_lower()[j] - primal[j], primal[j] - program.variable_upper()[j]),
+            of_unknowns_[j]);
+  }
+  compare_sums(program, primal, memory, compare);
+  limit_those_at_rest(program, primal, memory);
+  of_rows_.setZero(memory.constraints.size());
+  program.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
+    of_rows_[row] += std::abs(memory.jacobian[e]) * of_unknowns_[column];
+  });
   for (Eigen::Index i = 0; i < of_rows_.size(); ++i) {
     const double violation = std::max({0.0, program.constraint_lower()[i] - memory.constraints[i],
                                        memory.constraints[i] - program.constraint_upper()[i]});
@@ -85,11 +130,6 @@ std::optional<HiddenViolation> ConstraintSizes::hidden_violation(const Nonlinear
     if (is_flat && violation <= program.rounding_floors().of_constraint(i)) continue;
     compare(false, i, violation, is_flat ? std::abs(memory.constraints[i]) : of_rows_[i]);
   }
-  for (Eigen::Index j = 0; j < primal.size(); ++j) {
-    compare(true, j, std::max(program.variable_lower()[j] - primal[j], primal[j] - program.variable_upper()[j]),
-            of_unknowns_[j]);
-  }
-  compare_sums(program, primal, memory, compare);
   add_distances_from_bounds(program, memory.constraints);
   return worst;
 }

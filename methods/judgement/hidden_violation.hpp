@@ -21,7 +21,9 @@ struct HiddenViolation {
 /// worst. Next to a tolerance of 1e-8 any point meets a constraint of size 1e-14.
 ///
 /// The size of an unknown is the largest magnitude in its run of the interval structure (in all unknowns without one),
-/// or 1 where that is below 1e-6 of the largest unknown, or of 1: at rest it is not known. An unknown of all nodes that
+/// or 1 where that is below 1e-6 of the largest unknown, or of 1: at rest it is not known. In the size of a constraint
+/// it is then no more than every equation that it is in allows, given the sizes of the other unknowns there: a rate
+/// ẏ = c u is at most c times as large as u. An unknown of all nodes that
 /// only adds up others, as an integral does, all its derivatives being 1 or -1, is as large as what is added at most
 /// from one node to the next; what its equations miss together is compared with its largest value, too, because many
 /// small violations add up to a large one of its last bound. Where all derivatives of a constraint vanish its value
@@ -51,6 +53,7 @@ class ConstraintSizes {
  private:
   void add_distances_from_bounds(const NonlinearProgram& program, const Eigen::VectorXd& constraints);
   void measure_unknowns(const NonlinearProgram& program, const Eigen::VectorXd& primal);
+  void limit_those_at_rest(const NonlinearProgram& program, const Eigen::VectorXd& primal, const KktMemory& memory);
   void measure_sums(const NonlinearProgram& program, const KktMemory& memory);
   template <class Compare>
   void compare_sums(const NonlinearProgram& program, const Eigen::VectorXd& primal, const KktMemory& memory,

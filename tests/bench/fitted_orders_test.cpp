@@ -123,6 +123,24 @@ TEST(FittedOrders, OfErrorsThatStopFallingFarAboveRoundOffAreNoneAndTheNoteNames
       << none.notes[0];
 }
 
+TEST(FittedOrders, OfStatesAtRestAreNoReasonForTheNote) {
+  const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, {16, 32, 64});
+  Table of_controls(table.columns());
+  Table of_nothing(table.columns());
+  for (Row row : table.rows()) {
+    row.set("state_error", 0.0);
+    of_controls.append(row);
+    row.set("control_error", 0.0);
+    of_nothing.append(row);
+  }
+  for (const auto& [errors, reason] :
+       {std::pair(of_controls, "(few grids: 3 grids"), std::pair(of_nothing, "(floor: the errors are 0")}) {
+    const FittedOrders none = fit_orders(errors, std::nullopt, exact_reference);
+    ASSERT_EQ(none.notes.size(), 1U);
+    EXPECT_NE(none.notes[0].find(reason), std::string::npos) << none.notes[0];
+  }
+}
+
 TEST(FittedOrders, OfGridsThatDisagreeAreNone) {
   const auto jumping = [](double n) { return std::pow(n, -2.0) * (std::fmod(std::log2(n), 2.0) < 0.5 ? 1.0 : 1.4); };
   const FittedOrders none =

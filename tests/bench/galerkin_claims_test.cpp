@@ -59,13 +59,13 @@ TEST(GalerkinClaims, OnMomentumTurnWithTheLargestDefect) {
             ClaimVerdict::differs);
 }
 
-TEST(GalerkinClaims, OnTheControlLagrangianTurnWithOneTripleAndWithATestThatFindsNoMistake) {
+TEST(GalerkinClaims, OnTheControlLagrangianTurnWithOneTripleAndAreUndecidedByATestThatFindsNoMistake) {
   const std::string claim = "variation_and_discretisation_commute";
   EXPECT_EQ(verdict_on_spaces(claim), ClaimVerdict::reproduced);
-  for (const auto& [column, number] :
-       {std::pair("galerkin_form_difference", "1e-9"), std::pair("straight_form_difference", "1e-15")}) {
-    EXPECT_EQ(verdict_on_spaces(claim, "equivalence_galerkin_lobatto", "galerkin_2_1", sets(column, number)),
-              ClaimVerdict::differs);
+  for (const auto& [column, number, verdict] :
+       {std::tuple("galerkin_form_difference", "1e-9", ClaimVerdict::differs),
+        std::tuple("straight_form_difference", "1e-15", ClaimVerdict::undecided)}) {
+    EXPECT_EQ(verdict_on_spaces(claim, "equivalence_galerkin_lobatto", "galerkin_2_1", sets(column, number)), verdict);
   }
 }
 

@@ -77,6 +77,29 @@ TEST(Accuracy, FindsACostThatOscillatesAsFastAsTheGrid) {
   EXPECT_TRUE(error_on(512).is_motion());
 }
 
+/// The same with half as many periods as intervals: the quadrature is right on average, and the price of the control is
+/// that of constant controls, 1 on average, where the reciprocal of the average reciprocal is √(1 - a²).
+TEST(Accuracy, FindsWhatControlsThatFollowTheirPriceWithinTheIntervalsWouldSave) {
+  for (const double amplitude : {0.0, 0.3, 0.5, 0.9}) {
+    const tests::DoubleIntegrator base;
+    const tests::Restated waves(base, [&](tests::Restated::Statement& s) {
+      s.running_cost = [&](const ControlledState& x) {
+        return 0.5 * x.u[0] * x.u[0] * (1.0 + amplitude * cos(2.0 * std::numbers::pi * 16.0 * x.t));
+      };
+    });
+    for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+      const auto on = [&](Eigen::Index intervals) {
+        return accuracy(waves,
+                        tests::solve(waves, {method, 1}, Grid::uniform(intervals), guessed_motion(waves)).trajectory);
+      };
+      const double saving = 1.0 / std::sqrt(1.0 - amplitude * amplitude) - 1.0;
+      EXPECT_NEAR(on(32).control_saving, saving, 0.05 * saving + 0.002) << method << ' ' << amplitude;
+      EXPECT_EQ(on(32).is_motion(), saving < 0.1);
+      EXPECT_LT(on(512).control_saving, 0.1 * saving + 1e-4);
+    }
+  }
+}
+
 /// f = u + a sin(2π w t + 0.5): by one stage on as many intervals as periods it is one constant, which u cancels.
 TEST(Accuracy, FindsWhatAForceThatOscillatesAsFastAsTheGridAddsToTheCost) {
   constexpr double amplitude = 0.5;

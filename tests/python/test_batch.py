@@ -75,6 +75,16 @@ class Batches(unittest.TestCase):
         self.assertEqual(set(batch.status), {"time limit"})
         self.assertTrue(np.isnan(batch.cost).all())
 
+    def test_keep_answers_when_the_time_ends_while_close_ends_are_solved_again(self):
+        end = np.column_stack([np.linspace(1e-7, 2e-7, 100), np.zeros(100)])
+        began = time.monotonic()
+        self.assertTrue(db.solve_batch(PendulumSwingUp(), end=end, intervals=64).is_solved.all())
+        all_take = time.monotonic() - began
+        for share in (0.4, 0.5, 0.6, 0.7):
+            batch = db.solve_batch(PendulumSwingUp(), end=end, intervals=64, most_seconds=share * all_take)
+            self.assertTrue(batch.is_solved.any())
+            self.assertLessEqual(set(batch.status), {"solved", "time limit"})
+
     def test_take_built_in_problems(self):
         batch = db.solve_batch("cart_pole", parameters={"length": [0.45, 0.5, 0.55]}, intervals=48)
         self.assertAlmostEqual(batch.cost[1], db.solve("cart_pole", intervals=48).cost, places=6)

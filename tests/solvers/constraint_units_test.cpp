@@ -17,8 +17,8 @@ namespace {
 
 using tests::Restated;
 
-Solution solve(const Problem& problem, const std::string& method, const std::string& solver) {
-  const auto program = tests::transcribe(problem, {method, 1}, Grid::uniform(12));
+Solution solve(const Problem& problem, const std::string& method, const std::string& solver, int stages = 1) {
+  const auto program = tests::transcribe(problem, {method, stages}, Grid::uniform(12));
   SolverOptions options;
   options.most_iterations = 200;
   return make_solver(solver, options)->solve(*program, sample(*program, guessed_motion(problem)));
@@ -120,6 +120,48 @@ TEST_P(ConstraintsTimes, AnyNumberAreNotSolvedWhereAnIntegralCannotBeReached) {
       EXPECT_FALSE(is_solved(solution.status))
           << factor << ": " << integral.lower << " to " << integral.upper << ", cost " << solution.objective;
     }
+  }
+}
+
+/// ẏ = factor u_2 from 0 to `reached` times the factor with |u_2| <= 1, next to a double integrator.
+class ReachedByARate final : public tests::SmallProblem {
+ public:
+  ReachedByARate(double factor, double reached)
+      : SmallProblem("reached", with(0.0, 0.0), with(1.0, factor * reached), 1.0, 2), factor_(factor) {}
+  [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"y"}; }
+  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
+    return one(factor_ * x.u[1]);
+  }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(x.u[0]); }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    bounds.u = {.lower = Eigen::Vector2d(-100.0, -1.0), .upper = Eigen::Vector2d(100.0, 1.0)};
+    return bounds;
+  }
+
+ private:
+  static BoundaryState with(double q, double y) {
+    BoundaryState state = at(q, 0.0);
+    state.y = Eigen::VectorXd::Constant(1, y);
+    return state;
+  }
+
+  double factor_;
+};
+
+TEST_P(ConstraintsTimes, AnyNumberAreNotSolvedWhereAFirstOrderStateCannotBeReached) {
+  const auto& [method, solver] = GetParam();
+  for (const int stages : {1, 2}) {
+    for (int k = -30; k <= 3; k += 3) {
+      const ReachedByARate problem(std::pow(10.0, k), 1.5);
+      const Solution solution = solve(problem, method, solver, stages);
+      EXPECT_FALSE(is_solved(solution.status)) << k << ", " << stages << " stages: " << solution.objective;
+    }
+    const Solution solution = solve(ReachedByARate(1.0, 0.5), method, solver, stages);
+    EXPECT_TRUE(is_solved(solution.status)) << solution.message;
+    EXPECT_NEAR(solution.objective, 6.125, 0.1);
   }
 }
 
