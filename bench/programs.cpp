@@ -15,6 +15,9 @@ int run(int argc, char** argv);
 namespace claims_program {
 int run(int argc, char** argv);
 }
+namespace closed_loop_program {
+int run(int argc, char** argv);
+}
 namespace coercivity_program {
 int run(int argc, char** argv);
 }
@@ -96,6 +99,8 @@ constexpr std::array core_programs{
     Program{"certify", "The optimal cost, computed with independent methods", certify_program::run},
     Program{"claims", "Compares the paper's statements with the measurements and prints the verdicts",
             claims_program::run},
+    Program{"closed_loop", "Feedback by plans at every sample, on an exact plant with disturbances",
+            closed_loop_program::run},
     Program{"coercivity", "Coercivity of the discrete optimum over the number of intervals", coercivity_program::run},
     Program{"cold_start", "Success rates of solves from perturbed guesses", cold_start_program::run},
     Program{"consistency", "Momentum-force consistency over the number of intervals", consistency_program::run},
