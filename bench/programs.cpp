@@ -15,6 +15,9 @@ int run(int argc, char** argv);
 namespace claims_program {
 int run(int argc, char** argv);
 }
+namespace closed_loop_program {
+int run(int argc, char** argv);
+}
 namespace coercivity_program {
 int run(int argc, char** argv);
 }
@@ -96,6 +99,8 @@ constexpr std::array core_programs{
     Program{"certify", "Computes the optimal cost with independent methods", certify_program::run},
     Program{"claims", "Compares the paper's statements with the measurements and prints the verdicts",
             claims_program::run},
+    Program{"closed_loop", "Drives an exact plant with disturbances using plans that are renewed at every sample",
+            closed_loop_program::run},
     Program{"coercivity", "Measures the coercivity of the discrete optimum", coercivity_program::run},
     Program{"cold_start", "Measures success rates of solves from perturbed guesses", cold_start_program::run},
     Program{"consistency", "Compares the change of momentum with the forces", consistency_program::run},

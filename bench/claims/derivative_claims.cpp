@@ -93,12 +93,13 @@ ClaimVerdict verdict_on_pairs(const Pairs& pairs) {
   return ClaimVerdict::undecided;
 }
 
-/// "0.2 to 2.1": the range of a column over the rows of a back end with exact Hessians.
-Words range_of(const Selection& rows, const char* derivatives, const std::string& column) {
+/// "0.2 to 2.1 by the tape": the range of a column over the rows of a back end with exact Hessians; no words without
+/// numbers.
+Words range_of(const Selection& rows, const char* derivatives, const char* in_words, const std::string& column) {
   const Selection measured = rows.where("derivatives", derivatives).where("hessian", "exact").with_number(column);
-  if (measured.empty()) return worded("(not measured)");
-  return worded("{:.3g} to {:.3g}", Measurement{"least " + column, measured.min(column), "", derivatives},
-                Measurement{"largest " + column, measured.max(column), "", derivatives});
+  if (measured.empty()) return {};
+  return worded("{:.3g} to {:.3g} by {}", Measurement{"least " + column, measured.min(column), "", derivatives},
+                Measurement{"largest " + column, measured.max(column), "", derivatives}, in_words);
 }
 
 /// All settings together, as one sign test for each pair of rivals; in no setting differences may be better.
@@ -140,9 +141,12 @@ Finding more_robust(const ResultTables& tables, const std::string& problem) {
         worded("from the guess, central differences solve {} of {} programs; {} are solved only with central "
                "differences, {} only with exact derivatives",
                central.by_differences, central.count, central.by_differences_alone, central.exact_alone));
-    reason = worded("{}: relative to the largest entry, the error of Jacobians is {} with differences, {} with ADOL-C",
-                    reason, range_of(settings.back(), "dense_differences", "jacobian_error"),
-                    range_of(settings.back(), "adolc_whole", "jacobian_error"));
+    const Words errors = joined({range_of(settings.back(), "dense_differences", "dense differences", "jacobian_error"),
+                                 range_of(settings.back(), "adolc_whole", "ADOL-C", "jacobian_error")},
+                                ", ");
+    if (!errors.is_empty()) {
+      reason = worded("{}; relative to the largest entry, the errors of Jacobians are: {}", reason, errors);
+    }
   }
   return Finding{.clauses = std::move(words), .verdict = verdict_on_all(verdicts)}.because(reason).as_sure_as(
       fmt::format("sign tests on programs that only one of the two solves, p = {}", fmt::join(chances, ", ")));
@@ -169,7 +173,7 @@ Words add_ratio(TimedRatios& ratios, const Selection& rows, const std::string& n
   return left_out(slower, timed, fmt::format("not solved with {} or {}, which favours {} with", slow, fast, slow));
 }
 
-/// "12 %": the share of time in evaluations of solves, where both were measured.
+/// "12 % by the tape": the share of time in evaluations of solves, where both were measured; no words elsewhere.
 Words share_of_evaluations(const Selection& rows, const char* derivatives) {
   double evaluations = 0.0;
   double seconds = 0.0;
@@ -179,20 +183,24 @@ Words share_of_evaluations(const Selection& rows, const char* derivatives) {
     evaluations += *of_row;
     seconds += *row.number("seconds");
   }
-  if (seconds <= 0.0) return worded("(not measured)");
-  return worded("{:.0f} %",
-                Measurement{"share of time in evaluations", 100.0 * evaluations / seconds, "", derivatives, "%"});
+  if (seconds <= 0.0) return {};
+  return worded("{:.0f} % by {}",
+                Measurement{"share of time in evaluations", 100.0 * evaluations / seconds, "", derivatives, "%"},
+                derivatives);
 }
 
 /// The reason: the cost of a Jacobian.
 Words costs_of_jacobians(const ResultTables& tables, const std::string& problem) {
   if (!tables.has(warm)) return {};
   const Selection rows = by_ipopt(tables, warm, problem);
-  const auto cost = [&](const char* derivatives) { return range_of(rows, derivatives, "jacobian_over_residual"); };
-  return worded(
-      "a Jacobian costs as much as {} residuals with dense differences, {} with ADOL-C recorded once and {} interval "
-      "by interval, {} with structured differences, {} with the tape",
-      cost("dense_differences"), cost("adolc_whole"), cost("adolc"), cost("forward_differences"), cost("tape"));
+  const auto cost = [&](const char* derivatives, const char* in_words) {
+    return range_of(rows, derivatives, in_words, "jacobian_over_residual");
+  };
+  const Words costs = joined({cost("dense_differences", "dense differences"),
+                              cost("adolc_whole", "ADOL-C recorded once"), cost("adolc", "ADOL-C interval by interval"),
+                              cost("forward_differences", "structured differences"), cost("tape", "the tape")},
+                             ", ");
+  return costs.is_empty() ? costs : worded("the cost of a Jacobian, in residuals: {}", costs);
 }
 
 /// Solves of a kind with a name.
@@ -256,13 +264,18 @@ Finding faster(const ResultTables& tables, const std::string& problem) {
   }
   require(!words.empty(), "{}.csv has no program of {} with {} and with {}", quasi_newton, problem, rivals.differences,
           rivals.exact);
+  const Words shares = joined({share_of_evaluations(settings.front().rows, rivals.differences),
+                               share_of_evaluations(settings.front().rows, rivals.exact)},
+                              ", ");
   return found(verdicts.empty() ? ClaimVerdict::undecided : verdict_on_all(verdicts), "{} over {}, {}",
                rivals.differences, rivals.exact, joined(words, "; "))
-      .because(worded(
-          "first derivatives and residuals take {} of the time of a quasi-Newton solve with {} and {} with {}, so the "
-          "time of a whole solve follows the number of iterations (`automatic_differentiation_saves_time`)",
-          share_of_evaluations(settings.front().rows, rivals.differences), rivals.differences,
-          share_of_evaluations(settings.front().rows, rivals.exact), rivals.exact));
+      .because(
+          shares.is_empty()
+              ? shares
+              : worded(
+                    "first derivatives and residuals take {} of the time of a quasi-Newton solve, so the "
+                    "time of a whole solve follows the number of iterations (`automatic_differentiation_saves_time`)",
+                    shares));
 }
 
 Finding saves_time(const ResultTables& tables, const std::string& problem) {

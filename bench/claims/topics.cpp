@@ -18,6 +18,7 @@ Claims galerkin_claims();
 Claims minima_claims();
 Claims cold_start_claims();
 Claims warm_start_claims();
+Claims closed_loop_claims();
 Claims shooting_claims();
 Claims stage_control_claims();
 Claims coincidence_claims();
@@ -37,7 +38,7 @@ std::vector<std::vector<Claims (*)()>> topics_by_chapter() {
       {energy_claims, coercivity_claims},
       {consistency_order_claims, order_theorem_claims},
       {order_claims, galerkin_claims, error_constant_claims},
-      {minima_claims, cold_start_claims, warm_start_claims},
+      {minima_claims, cold_start_claims, warm_start_claims, closed_loop_claims},
       {shooting_claims},
       {stage_control_claims, coincidence_claims, flow_claims, modified_energy_claims, rotation_claims},
       {optimal_momentum_claims, smoothness_claims},

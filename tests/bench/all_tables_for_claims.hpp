@@ -574,6 +574,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["consistency_galerkin"] = galerkin_momentum_rows();
   rows["equivalence_galerkin"] = galerkin_form_rows();
   rows["equivalence_galerkin_lobatto"] = galerkin_form_rows();
+  rows["closed_loop"] = loop_rows();
   rows["error_constants_limits"] = limit_rows("1");
   rows["error_constants_two_stages_limits"] = limit_rows("2");
   rows["cold_start_shooting_shares"] = shooting_cold_rows();

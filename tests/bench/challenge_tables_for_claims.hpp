@@ -119,6 +119,37 @@ inline Rows limit_rows(const char* stages) {
   return rows;
 }
 
+/// Loops on grids with equal intervals and with equal unknowns: DMOC ends nearest, and disturbances matter more.
+inline Rows loop_rows() {
+  Rows rows;
+  struct Plans {
+    const char* method;
+    const char* intervals;
+    const char* variables;
+    double error;
+  };
+  for (const Plans& plans :
+       {Plans{"dmoc", "32", "94", 1.0}, Plans{"hamiltonian", "32", "156", 1.0}, Plans{"hamiltonian", "19", "91", 2.8},
+        Plans{"tangent", "32", "156", 1.1}, Plans{"tangent", "19", "91", 2.9}}) {
+    for (const std::string feedback : {"open", "closed"}) {
+      for (int draw = 0; draw <= 10; ++draw) {
+        Row row = row_of_texts({"problem", "method", "tableau", "stages", "intervals", "feedback", "variables"},
+                               {orbit, plans.method, "gauss", "1", plans.intervals, feedback, plans.variables});
+        const double error = (feedback == "open" ? 1e-3 : 1e-5) * plans.error;
+        row.set("draw", static_cast<long long>(draw));
+        row.set("plans", 13LL);
+        row.set("failed", 0LL);
+        row.set("cost", 4e-5 * (1.0 + 0.1 * draw + error));
+        row.set("momentum_defect", plans.method == std::string("tangent") ? 1e-5 : 1e-15);
+        row.set("momentum_miss", 1e-3 * (1.0 + 0.1 * draw) * plans.error);
+        row.set("final_distance", 1e-3 * draw + error);
+        rows.push_back(row);
+      }
+    }
+  }
+  return rows;
+}
+
 inline Rows galerkin_form_rows() {
   Rows rows;
   for (const char* method : {"dmoc", "galerkin_2_1", "galerkin_2_2"}) {

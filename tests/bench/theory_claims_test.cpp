@@ -11,6 +11,7 @@ namespace {
 using tests::has;
 
 using tests::FalseNumber;
+using tests::Rows;
 using tests::verdict_with;
 
 TEST(TheoryClaims, DifferByOneFalseNumberOfTheirTables) {
@@ -46,7 +47,9 @@ TEST(TheoryClaims, DifferByOneFalseNumberOfTheirTables) {
        on_orbit + "replay_error_is_predicted"},
       {"error_constants_two_stages_limits", has("quantity", "predicted_objective_error"), "constant", 1.21,
        "examples/cost_error_is_predicted"},
-      {"error_constants_limits", has("method", "second_order"), "constant", 1.1, "examples/second_order_replay"},
+      {"closed_loop", has("feedback", "closed"), "final_distance", 0.1, on_orbit + "feedback_corrects_plans"},
+      {"closed_loop", has("feedback", "closed"), "final_distance", 0.1, on_orbit + "order_under_feedback"},
+      {"closed_loop", has("method", "tangent"), "cost", 1e-3, on_orbit + "disturbances_exceed_differences"},
       {"smoothness_slopes", has("active", "control"), "slope", 1.0, "examples/order_within_control_bounds"},
       {"smoothness_slopes", has("end", "free"), "slope", 1.0, "examples/order_with_a_free_end"},
       {"smoothness_slopes", has("stages", "2"), "slope", 4.0, "examples/kinks_leave_order_2"},
@@ -70,6 +73,26 @@ TEST(TheoryClaims, TheOrderTheoremHoldsWithOnePowerLessWhereItFailsAsPrinted) {
   };
   EXPECT_EQ(verdict("order_theorem"), ClaimVerdict::differs) << "(ii) fails, whatever (iii) does";
   EXPECT_EQ(verdict("order_theorem_with_one_power_less"), ClaimVerdict::reproduced);
+}
+
+TEST(TheoryClaims, SecondOrderReplayHasASentenceForEachDirection) {
+  Rows rows = tests::limit_rows("1");
+  for (Row& row : rows) {
+    if (row.text("problem") == "kepler_cartesian" && row.text("method") == "second_order") row.set("constant", 0.3);
+  }
+  ResultTables results;
+  results.add("error_constants_limits", tests::declared_table("error_constants_limits", rows));
+  const std::vector<JudgedClaim> judged =
+      judge_claims(results, [](const std::string& id) { return id == "examples/second_order_replay"; });
+  ASSERT_EQ(judged.size(), 1U);
+  ASSERT_EQ(judged.front().clauses.size(), 2U);
+  const std::string more = judged.front().clauses[0].text;
+  const std::string less = judged.front().clauses[1].text;
+  EXPECT_NE(more.find("by more than DMOC's"), std::string::npos) << more;
+  EXPECT_NE(more.find(orbit), std::string::npos) << more;
+  EXPECT_EQ(more.find("kepler_cartesian"), std::string::npos) << more;
+  EXPECT_NE(less.find("by less than DMOC's, ratios of the limits: kepler_cartesian 0.25"), std::string::npos) << less;
+  EXPECT_EQ(less.find(orbit), std::string::npos) << less;
 }
 
 }  // namespace

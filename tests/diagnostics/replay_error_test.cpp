@@ -96,7 +96,7 @@ TEST(CostByIntervals, BeginsEveryIntervalAtItsOwnNode) {
 
 TEST(ReplayError, ThrowsWhereTheMotionEndsBeforeTheHorizon) {
   const tests::BlowUp problem(2.0);
-  tests::expect_error_naming({"replay", "interval"}, [&] {
+  tests::expect_error_naming({"exact motion", "between t = 0.5 and 0.625"}, [&] {
     static_cast<void>(replay_error(problem, controls_alone(problem, 1, Grid::uniform(8), [](double) { return 0.0; })));
   });
 }

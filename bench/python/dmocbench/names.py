@@ -24,9 +24,9 @@ CostForm = Literal["bolza", "mayer"]
 Refinement = Literal["h", "hp"]
 """The kind of refinement for an accuracy: of the steps, or of the steps and stages."""
 
-Experiment = Literal["adaptive", "certify", "claims", "coercivity", "cold_start", "consistency", "consistency_order",
-                     "convergence", "derivatives", "equivalence", "error_constants", "invariants", "iterations", "list",
-                     "local_minima", "low_thrust", "misprints", "new", "objective", "primitives", "profile", "read-sol",
-                     "report", "savings_by_solver", "sequence", "shooting", "smoothness", "solve", "step_control", "study",
-                     "sweep", "write-nl"]
+Experiment = Literal["adaptive", "certify", "claims", "closed_loop", "coercivity", "cold_start", "consistency",
+                     "consistency_order", "convergence", "derivatives", "equivalence", "error_constants", "invariants",
+                     "iterations", "list", "local_minima", "low_thrust", "misprints", "new", "objective", "primitives",
+                     "profile", "read-sol", "report", "savings_by_solver", "sequence", "shooting", "smoothness", "solve",
+                     "step_control", "study", "sweep", "write-nl"]
 """A program of the suite."""
