@@ -4,21 +4,22 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
-#include <boost/math/quadrature/gauss.hpp>
 #include <fmt/format.h>
 
 #include "methods/diagnostics/control_saving.hpp"
+#include "methods/diagnostics/steps_of_intervals.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/points_along.hpp"
 
 namespace dmocbench {
 
@@ -57,34 +58,73 @@ std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& traject
   return state;
 }
 
-/// (Δq, Δv, Δy) of every interval, a column each: where it ends, minus its last node. Infinite, like those after it in
-/// the same part, from the first interval on whose integration fails: nothing is worse.
-Eigen::MatrixXd jumps_of(const TracedProblem& traced, const Trajectory& trajectory, double tolerance) {
-  const Eigen::Index n = trajectory.q.cols();
+/// (q, v, y) of the nodes from the first on, a column each.
+Eigen::MatrixXd states_from(const Trajectory& trajectory, Eigen::Index first) {
+  Eigen::MatrixXd states(trajectory.intervals() + 1 - first, 2 * trajectory.q.cols() + trajectory.y.cols());
+  states.leftCols(2 * trajectory.q.cols()) << trajectory.q.bottomRows(states.rows()),
+      trajectory.v.bottomRows(states.rows());
+  if (trajectory.y.cols() > 0) states.rightCols(trajectory.y.cols()) = trajectory.y.bottomRows(states.rows());
+  return states.transpose();
+}
+
+/// Where every interval ends, a column each, by a single step; not a number where that is not accurate enough, or not
+/// possible.
+Eigen::MatrixXd ends_by_steps(const TracedProblem& traced, const Trajectory& trajectory, double tolerance) {
   const auto intervals = static_cast<std::size_t>(trajectory.intervals());
-  Eigen::MatrixXd jumps = Eigen::MatrixXd::Constant(2 * n + trajectory.y.cols(), trajectory.intervals(),
-                                                    std::numeric_limits<double>::infinity());
+  Eigen::MatrixXd ends =
+      Eigen::MatrixXd::Constant(2 * trajectory.q.cols() + trajectory.y.cols(), trajectory.intervals(), std::nan(""));
+  if (traced.constraint_count() > 0) return ends;
+  std::optional<StepsOfIntervals> steps;
+  try {
+    steps.emplace(traced);
+  } catch (const Error&) {  // L_vv is not definite
+    return ends;
+  }
+  const std::size_t parts = part_count(intervals);
+  for_each_part(parts, [&](std::size_t part) {
+    const auto last = static_cast<Eigen::Index>(begin_of_part(part + 1, parts, intervals));
+    constexpr Eigen::Index at_once = 128;  // their stages stay in the cache
+    for (auto k = static_cast<Eigen::Index>(begin_of_part(part, parts, intervals)); k < last; k += at_once) {
+      const Eigen::Index count = std::min(at_once, last - k);
+      ends.middleCols(k, count) = steps->ends(trajectory, k, count, tolerance);
+    }
+  });
+  return ends;
+}
+
+/// Integrates the intervals whose ends are not numbers, in as many steps as they need. Infinite, like those after it in
+/// the same part, from the first one on that fails: nothing is worse.
+void carry_others(const TracedProblem& traced, const Trajectory& trajectory, double tolerance, Eigen::MatrixXd& ends) {
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index k = 0; k < ends.cols(); ++k) {
+    if (!ends.col(k).allFinite()) others.push_back(k);
+  }
   constexpr double shortest = 1e-9;      // 0 would be no limit
   constexpr std::size_t per_part = 256;  // takes about ten milliseconds
-  const std::size_t parts = part_count(intervals, per_part);
+  const std::size_t parts = others.empty() ? 0 : part_count(others.size(), per_part);
   std::vector<std::unique_ptr<EquationsOfMotion>> motions;  // one per part, since each has memory of its own
   motions.reserve(parts);
   for (std::size_t part = 0; part < parts; ++part) motions.push_back(std::make_unique<EquationsOfMotion>(traced));
   const double left = std::max(seconds_left(), shortest);
+  ends(Eigen::all, others).setConstant(std::numeric_limits<double>::infinity());
   for_each_part(parts, [&](std::size_t part) {
     const StopScope scope(nullptr, left);  // the thread of a part has none
-    for (std::size_t i = begin_of_part(part, parts, intervals); i < begin_of_part(part + 1, parts, intervals); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      const std::vector<double> state = carried(*motions[part], trajectory, k, tolerance);
+    for (std::size_t i = begin_of_part(part, parts, others.size()); i < begin_of_part(part + 1, parts, others.size());
+         ++i) {
+      const std::vector<double> state = carried(*motions[part], trajectory, others[i], tolerance);
       const Eigen::Map<const Eigen::VectorXd> end(state.data(), static_cast<Eigen::Index>(state.size()));
       if (state.empty() || !end.allFinite()) break;
-      jumps.col(k) = end;
-      jumps.col(k).head(n) -= trajectory.q.row(k + 1).transpose();
-      jumps.col(k).segment(n, n) -= trajectory.v.row(k + 1).transpose();
-      jumps.col(k).tail(trajectory.y.cols()) -= Trajectory::row_of(trajectory.y, k + 1);
+      ends.col(others[i]) = end;
     }
   });
-  return jumps;
+}
+
+/// (Δq, Δv, Δy) of every interval, a column each: where it ends, minus its last node.
+Eigen::MatrixXd jumps_of(const TracedProblem& traced, const Trajectory& trajectory, double tolerance) {
+  Eigen::MatrixXd ends = ends_by_steps(traced, trajectory, tolerance);
+  stop_if_requested();
+  carry_others(traced, trajectory, tolerance, ends);
+  return ends - states_from(trajectory, 1);
 }
 
 /// Σ_k ψ_{k+1}·δx_k of the jumps δx_k: by how much they change the least cost, to first order; 0 without costates, or
@@ -109,36 +149,33 @@ double worth_of(const TracedProblem& traced, const Trajectory& trajectory, const
   return worth;
 }
 
+/// h C at the share `tau` of every interval, along the elements' polynomials.
+Eigen::VectorXd cost_along(const TracedProblem& traced, const Trajectory& trajectory, double tau) {
+  Eigen::VectorXd costs(trajectory.intervals());
+  constexpr Eigen::Index at_once = 256;  // their formulas stay in the cache
+  for (Eigen::Index first = 0; first < costs.size(); first += at_once) {
+    const Eigen::Index count = std::min(at_once, costs.size() - first);
+    costs.segment(first, count) =
+        traced.table(points_along(trajectory, first, count, tau)).col(3 * trajectory.q.cols());
+  }
+  return costs.cwiseProduct(trajectory.node_times.tail(costs.size()) - trajectory.node_times.head(costs.size()));
+}
+
 /// Sets `Accuracy::cost_error`, `Accuracy::cost_miss` and `Accuracy::control_saving`.
 void compare_cost(const TracedProblem& traced, const Trajectory& trajectory, double worth, Accuracy& found) {
   constexpr double smallest_cost = 1e-6;  // below it round-off and the tolerance decide
-  using FinerRule = boost::math::quadrature::gauss<double, 7>;
-  PointFunction running_cost(
-      traced.configuration_size(), traced.control_size(),
-      [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced.at(x).running_cost); },
-      traced.first_order_size());
-  Eigen::VectorXd value(1);
-  const auto cost_at = [&](Eigen::Index k, double t) {
-    running_cost.evaluate({.q = configuration_at(trajectory, t),
-                           .v = velocity_on_interval(trajectory, k, t),
-                           .u = control_on_interval(trajectory, k, t),
-                           .y = first_order_on_interval(trajectory, k, t)},
-                          t, value);
-    return value[0];
-  };
+  const Eigen::VectorXd& b = trajectory.tableau.b;
   double of_program = 0.0;
-  double finer = 0.0;
-  double size = 0.0;
-  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
-    const double left = trajectory.node_times[k];
-    const double h = trajectory.step(k);
-    for (Eigen::Index i = 0; i < trajectory.stages(); ++i) {
-      of_program += h * trajectory.tableau.b[i] * cost_at(k, left + h * trajectory.tableau.c[i]);
-    }
-    const double of_interval = FinerRule::integrate([&](double t) { return cost_at(k, t); }, left, left + h);
-    finer += of_interval;
-    size += std::abs(of_interval);
+  for (Eigen::Index i = 0; i < b.size(); ++i) {
+    of_program += b[i] * cost_along(traced, trajectory, trajectory.tableau.c[i]).sum();
   }
+  static const Tableau finer_rule = collocation_tableau("gauss", gauss_nodes(7), 14);
+  Eigen::VectorXd of_intervals = Eigen::VectorXd::Zero(trajectory.intervals());
+  for (Eigen::Index i = 0; i < finer_rule.stages(); ++i) {
+    of_intervals += finer_rule.b[i] * cost_along(traced, trajectory, finer_rule.c[i]);
+  }
+  const double finer = of_intervals.sum();
+  const double size = of_intervals.lpNorm<1>();
   const auto share = [&](double of_cost) {
     if (!std::isfinite(finer)) return std::numeric_limits<double>::infinity();
     return std::abs(of_cost) / std::max({size, std::abs(trajectory.cost), smallest_cost});

@@ -23,4 +23,8 @@ template <class Scalar>
                              std::type_identity_t<Scalar> from, std::type_identity_t<Scalar> to,
                              std::type_identity_t<Scalar> first_step, std::type_identity_t<Scalar> tolerance);
 
+/// One step of that method from time 0 to 1, in place, whatever its error. Returns the error of every entry as a share
+/// of the one that `integrate` accepts: it keeps a step whose entries are all at most 1.
+[[nodiscard]] std::vector<double> step_once(const Rate<double>& rate, std::vector<double>& x, double tolerance);
+
 }  // namespace dmocbench

@@ -124,6 +124,17 @@ bool has_stopped(Status status) {
   return status == Status::step_failed || status == Status::not_confirmed || status == Status::acceptable;
 }
 
+/// Whether a program has equations of its ends, which alone may be left out: to look for dependent rows takes a sparse
+/// factorisation, and more memory than the solve.
+bool has_equations_of_ends(const NonlinearProgram& program) {
+  const IntervalStructure* const structure = program.interval_structure();
+  return structure != nullptr && std::ranges::any_of(structure->rows.runs(), [&](const PlaceRun& run) {
+           const auto rows = Eigen::seqN(static_cast<Eigen::Index>(run.first), static_cast<Eigen::Index>(run.count));
+           return run.kind == Place::Kind::border &&
+                  (program.constraint_lower()(rows).array() == program.constraint_upper()(rows).array()).any();
+         });
+}
+
 /// A program without conditions of its ends that others imply: each is an inequality that no point near a solution
 /// reaches. Equations of intervals and nodes stay.
 class RelaxedProgram final : public ForwardingProgram {
@@ -138,13 +149,12 @@ class RelaxedProgram final : public ForwardingProgram {
   /// Relaxes the last of the conditions whose gradients depend on each other at a point; false if there are none.
   [[nodiscard]] bool relax_one_at(const Eigen::VectorXd& point) {
     constexpr std::size_t most = 16;
-    const IntervalStructure* const structure = interval_structure();
-    if (structure == nullptr || relaxed_.size() == most || !point.allFinite()) return false;
+    if (!has_equations_of_ends(*this) || relaxed_.size() == most || !point.allFinite()) return false;
     Eigen::Index last = -1;
     const std::vector<std::size_t> rows = dependent_rows(*this, point);
     for (const std::size_t row : rows) {
       const auto i = static_cast<Eigen::Index>(row);
-      const bool is_of_ends = structure->rows[row].kind == Place::Kind::border;
+      const bool is_of_ends = interval_structure()->rows[row].kind == Place::Kind::border;
       if (is_of_ends && lower_[i] == upper_[i]) last = std::max(last, i);
     }
     if (last < 0 || rows.size() < 2) return false;

@@ -98,7 +98,11 @@ class EntryTable {
     };
     if (run.kind == Place::Kind::border) return append(run, run.count, made_.global_unknowns);
     if (is_of_all(run, Place::Kind::node)) {
-      if (fixed(run.first + 1, made_.intervals - 1) > 0) refuse("an unknown of a node between the ends is fixed");
+      const bool holds_some = fixed(run.first + 1, made_.intervals - 1) > 0;
+      for (Eigen::Index k = 1; holds_some && k < made_.intervals; ++k) {
+        const auto unknown = static_cast<Eigen::Index>(run.first) + k;
+        if (dmocbench::is_fixed(program_, unknown)) made_.held_unknowns.push_back(unknown);
+      }
       return append(run, 1, made_.node_unknowns);
     }
     if (is_of_all(run, Place::Kind::interval)) {

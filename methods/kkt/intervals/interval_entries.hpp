@@ -54,7 +54,8 @@ struct IntervalEntries {
   std::vector<Eigen::Index> interval_unknowns;
   std::vector<Eigen::Index> equality_rows;  ///< of nodes, then of intervals
   std::vector<Eigen::Index> inequality_rows;
-  std::vector<bool> is_fixed;  ///< one per unknown of an interval
+  std::vector<bool> is_fixed;               ///< one per unknown of an interval
+  std::vector<Eigen::Index> held_unknowns;  ///< fixed ones of nodes between the ends, by their numbers in the program
 
   std::vector<Eigen::Index> global_unknowns;
   std::array<std::vector<Eigen::Index>, 2> end_unknowns;  ///< further unknowns of the first and of the last node
@@ -80,7 +81,7 @@ struct IntervalEntries {
 };
 
 /// Looks up where a program's runs go. The reason instead if the program has no interval structure, or one that is not
-/// the same in all intervals, or fixed unknowns between its ends.
+/// the same in all intervals.
 [[nodiscard]] tl::expected<IntervalEntries, std::string> interval_entries(const NonlinearProgram& program);
 
 }  // namespace dmocbench::kkt

@@ -56,6 +56,7 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
   const Eigen::Index middle = entries_.intervals / 2;
   if (!has_plan_ && !choose_plan(arrays, {middle})) return FactorisationStatus::singular;
   weights_.rescale(arrays);
+  hold(matrix, arrays);
   for (bool may_choose_order = true;; may_choose_order = false) {
     arrays.terminal_weights = weights_.values().data();
     for_each_part(groups_.size(), [&](std::size_t g) { kernel_.backward(plan_, arrays, groups_[g].group()); });
@@ -83,6 +84,18 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
   substitute(arrays, step);
   return is_finite(step.primal) && is_finite(step.multipliers) ? FactorisationStatus::solved
                                                                : FactorisationStatus::singular;
+}
+
+/// Adds a penalty to the diagonal of unknowns that do not move. It leaves the form the same where they stay, so that a
+/// positive one proves the inertia, and an error of its inverse, which refinement removes: it is larger than what holds
+/// the other unknowns, such as the barrier of a bound.
+void IntervalKkt::hold(const KktMatrix& matrix, NewtonArrays& arrays) {
+  constexpr double multiple = 1e3;
+  if (entries_.held_unknowns.empty()) return;
+  copy_to(held_diagonal_, matrix.diagonal);
+  const double penalty = multiple * std::max(weights_.values().maxCoeff(), largest_of(matrix.diagonal));
+  for (const Eigen::Index i : entries_.held_unknowns) held_diagonal_[i] += penalty;
+  arrays.arrays[static_cast<std::size_t>(Source::diagonal)] = held_diagonal_.data();
 }
 
 /// The status after a backward sweep; if it is `solved`, `boundary_` holds the solution at the ends.
@@ -173,6 +186,7 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const KktStep& step) {
     kernel_.forward(plan_, arrays, groups_[g].group(), step.primal.data(), step.multipliers.data());
   });
   boundary_.write(step);
+  for (const Eigen::Index i : entries_.held_unknowns) step.primal[i] = 0.0;
   entries_.write_inequality_multipliers(arrays, 1, step.primal.data(), step.multipliers.data());
 }
 

@@ -32,7 +32,9 @@ class IntervalKkt : public KktSystem {
   void begin_solve() override { weights_.forget(); }
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;
-  [[nodiscard]] bool is_certain() const noexcept override { return found_.is_certain; }
+  [[nodiscard]] bool is_certain() const noexcept override {
+    return found_.is_certain && entries_.held_unknowns.empty();  // a larger penalty may show a minimum
+  }
 
   [[nodiscard]] const Shape& shape() const noexcept { return entries_.shape; }
   /// Backward sweeps so far, with those for other terminal weights and other orders of elimination.
@@ -49,6 +51,7 @@ class IntervalKkt : public KktSystem {
   [[nodiscard]] Elimination join(const NewtonArrays& arrays, const KktMatrix& matrix,
                                  const KktRightHandSide& right_hand_side);
   [[nodiscard]] bool join_segments();
+  void hold(const KktMatrix& matrix, NewtonArrays& arrays);
   void find_last_carry(const NewtonArrays& arrays);
   void substitute(const NewtonArrays& arrays, const KktStep& step);
 
@@ -64,6 +67,7 @@ class IntervalKkt : public KktSystem {
   Eigen::MatrixXd last_carry_;  // node_sums x node
 
   Eigen::VectorXd padded_;
+  Eigen::VectorXd held_diagonal_;
   std::vector<GroupMemory> groups_;
   SegmentValue segment_value_;
   SegmentChain chain_;

@@ -20,6 +20,7 @@ constexpr int enough_calm = 3;
 
 /// The reason why the ends of a program do not fit; null if they do.
 const char* refusal_of_ends(const NonlinearProgram& program, const IntervalEntries& entries) {
+  if (!entries.held_unknowns.empty()) return "an unknown of a node between the ends is fixed";
   if (!entries.global_unknowns.empty()) return "an unknown belongs to the whole horizon";
   if (!entries.end_unknowns[0].empty() || !entries.end_unknowns[1].empty()) return "an end has unknowns of its own";
   if (!entries.end_rows.empty()) return "there are boundary conditions";

@@ -47,11 +47,12 @@ tl::expected<std::unique_ptr<kkt::KktSystem>, std::string> make_kkt(NonlinearPro
   if (choices.factorisation == InteriorPointOptions::Factorisation::sparse) {
     return std::make_unique<kkt::SparseKkt>(program);
   }
+  auto by_intervals = kkt::IntervalKkt::make(program);
+  if (by_intervals) return std::make_unique<kkt::RefinedKkt>(program, std::move(*by_intervals));
   if (program.interval_structure() != nullptr && program.interval_structure()->has_interior_equations) {
     return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::along_the_horizon);
   }
-  return kkt::IntervalKkt::make(program).map(
-      [&](auto by_intervals) { return std::make_unique<kkt::RefinedKkt>(program, std::move(by_intervals)); });
+  return tl::unexpected(std::move(by_intervals).error());
 }
 
 /// One solve by the method of Wächter and Biegler (README.md). Numbers in brackets are its equations, A-1 to

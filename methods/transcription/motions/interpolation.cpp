@@ -1,7 +1,6 @@
 #include "methods/transcription/motions/interpolation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include <boost/math/interpolators/cubic_hermite.hpp>
 
 #include "methods/transcription/elements/tableau.hpp"
+#include "methods/transcription/motions/points_along.hpp"
 
 namespace dmocbench {
 
@@ -22,17 +22,6 @@ constexpr double rounding_of_times = 1e-12;
 Eigen::Index interval_of(const Eigen::VectorXd& times, double t) {
   const auto above = std::upper_bound(times.begin(), times.end(), t);
   return std::clamp<Eigen::Index>(above - times.begin() - 1, 0, times.size() - 2);
-}
-
-/// ∫₀^τ of the Lagrange polynomials of c, by Gauss quadrature that is exact for their degree.
-Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
-  static const std::array quadratures{gauss_tableau(1), gauss_tableau(2), gauss_tableau(3)};  // slow to make
-  const Tableau& quadrature = quadratures[std::min<std::size_t>(static_cast<std::size_t>(c.size()) / 2, 2)];
-  Eigen::VectorXd integral = Eigen::VectorXd::Zero(c.size());
-  for (Eigen::Index i = 0; i < quadrature.stages(); ++i) {
-    integral += tau * quadrature.b[i] * lagrange_basis(c, tau * quadrature.c[i]);
-  }
-  return integral;
 }
 
 /// The interval of a node or of any other time on that side of it.
