@@ -63,6 +63,9 @@ int run(int argc, char** argv);
 namespace report_program {
 int run(int argc, char** argv);
 }
+namespace rigid_body_coordinates_program {
+int run(int argc, char** argv);
+}
 namespace sequence_program {
 int run(int argc, char** argv);
 }
@@ -118,6 +121,8 @@ constexpr std::array core_programs{
     Program{"profile", "Success, speed and accuracy of every method on all problems", profile_program::run},
     Program{"report", "Writes one HTML page with the claims, figures, tables and trajectories of a results folder",
             report_program::run},
+    Program{"rigid_body_coordinates", "One slew of a rigid body in five systems of coordinates, against one optimum",
+            rigid_body_coordinates_program::run},
     Program{"sequence", "Sequences of problems, each started from the solution of the previous one",
             sequence_program::run},
     Program{"shooting", "Sizes and condition numbers of DMOC, multiple and single shooting", shooting_program::run},

@@ -114,9 +114,9 @@ Registry problems_of_the_suite() {
   registry.add<CartPoleCartesian>();
   registry.add<TwoLinkMaximal>();
   registry.add<LinkChainMaximal>();
-  registry.add<SatelliteDirectors>();
   registry.add<SatelliteAngles>();
   registry.add<SatelliteQuaternion>();
+  registry.add<SatelliteDirectors>();
   registry.add<Waypoints>();
   registry.add<Formation>();
   registry.add<BouncingBall>();
