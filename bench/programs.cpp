@@ -66,6 +66,9 @@ int run(int argc, char** argv);
 namespace report_program {
 int run(int argc, char** argv);
 }
+namespace rigid_body_coordinates_program {
+int run(int argc, char** argv);
+}
 namespace sequence_program {
 int run(int argc, char** argv);
 }
@@ -123,6 +126,8 @@ constexpr std::array core_programs{
     Program{"profile", "Measures success, speed and accuracy of every method on all problems", profile_program::run},
     Program{"report", "Writes one HTML page with the claims, figures, tables and trajectories of a results folder",
             report_program::run},
+    Program{"rigid_body_coordinates", "Solves one slew of a rigid body in five systems of coordinates",
+            rigid_body_coordinates_program::run},
     Program{"sequence", "Solves sequences of problems, each started from the previous solution", sequence_program::run},
     Program{"shooting", "Compares sizes and condition numbers of DMOC and shooting", shooting_program::run},
     Program{"smoothness", "Measures orders of convergence for nonsmooth and smooth optimal controls",

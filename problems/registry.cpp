@@ -44,7 +44,9 @@
 #include "problems/rigid_quadrotor.hpp"
 #include "problems/robot_arm.hpp"
 #include "problems/rolling_disk.hpp"
+#include "problems/satellite_angles.hpp"
 #include "problems/satellite_directors.hpp"
+#include "problems/satellite_quaternion.hpp"
 #include "problems/spherical_pendulum.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
 #include "problems/spring_arm.hpp"
@@ -112,6 +114,8 @@ Registry problems_of_the_suite() {
   registry.add<CartPoleCartesian>();
   registry.add<TwoLinkMaximal>();
   registry.add<LinkChainMaximal>();
+  registry.add<SatelliteAngles>();
+  registry.add<SatelliteQuaternion>();
   registry.add<SatelliteDirectors>();
   registry.add<Waypoints>();
   registry.add<Formation>();

@@ -29,6 +29,7 @@ Claims optimal_momentum_claims();
 Claims smoothness_claims();
 Claims constraint_claims();
 Claims phase_claims();
+Claims rigid_body_claims();
 Claims adaptive_claims();
 Claims library_claims();
 
@@ -42,7 +43,7 @@ std::vector<std::vector<Claims (*)()>> topics_by_chapter() {
       {shooting_claims},
       {stage_control_claims, coincidence_claims, flow_claims, modified_energy_claims, rotation_claims},
       {optimal_momentum_claims, smoothness_claims},
-      {constraint_claims, phase_claims},
+      {constraint_claims, rigid_body_claims, phase_claims},
       {adaptive_claims},
       {library_claims},
   };

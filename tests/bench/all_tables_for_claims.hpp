@@ -577,6 +577,12 @@ inline std::map<std::string, Rows> all_rows() {
   rows["closed_loop"] = loop_rows();
   rows["error_constants_limits"] = limit_rows("1");
   rows["error_constants_two_stages_limits"] = limit_rows("2");
+  for (const std::string slew : {"rigid_body_coordinates", "rigid_body_coordinates_near_singularity"}) {
+    rows[slew] = rigid_body_rows(slew.ends_with("singularity") ? 0.3 : 0.01);
+    rows[slew + "_slopes"] = rigid_body_slope_rows();
+    rows[slew + "_reference"] = rows_of_texts({"problem", "certified_digits"},
+                                              {{"satellite_angles", "13"}, {"satellite_quaternion_embedded", "12"}});
+  }
   rows["cold_start_shooting_shares"] = shooting_cold_rows();
   rows["savings_by_solver_shooting"] = shooting_cost_rows();
   rows["profile"] = profile_rows();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -101,7 +102,6 @@ inline Rows galerkin_rows() {
   return rows;
 }
 
-/// Lagrangians of programs equal to the discrete action of the control Lagrangian, by a multiplier of the right degree.
 /// Limits of errors, the predictions a hundredth of their uncertainty away.
 inline Rows limit_rows(const char* stages) {
   Rows rows;
@@ -150,6 +150,43 @@ inline Rows loop_rows() {
   return rows;
 }
 
+constexpr std::array coordinates_of_attitudes{"satellite_angles", "satellite_directors", "satellite_directors_embedded",
+                                              "satellite_quaternion", "satellite_quaternion_embedded"};
+
+/// One slew in five systems of coordinates, with this error of the attitude in Euler angles.
+inline Rows rigid_body_rows(double error_of_angles) {
+  Rows rows;
+  for (const std::string problem : coordinates_of_attitudes) {
+    const bool has_multipliers = problem == "satellite_directors" || problem == "satellite_quaternion";
+    Row row = solved_row("dmoc", 64);
+    row.set("problem", problem);
+    row.set("free_variables", has_multipliers ? 510LL : 381LL);
+    row.set("objective", 8.0);
+    row.set("state_error", problem == "satellite_angles" ? error_of_angles : 0.004);
+    row.set("objective_error", 0.02);
+    row.set("replay_error", 0.01);
+    if (problem == "satellite_quaternion_embedded") {
+      row.set("optimum_state_difference", 1e-15);
+      row.set("optimum_objective_difference", 1e-15);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+inline Rows rigid_body_slope_rows() {
+  Rows rows;
+  for (const char* problem : coordinates_of_attitudes) {
+    for (const char* quantity : {"state", "objective", "replay"}) {
+      rows.push_back(
+          row_of_texts({"problem", "method", "tableau", "stages", "quantity", "slope", "standard_error", "verdict"},
+                       {problem, "dmoc", "gauss", "1", quantity, "2.01", "0.01", "slope"}));
+    }
+  }
+  return rows;
+}
+
+/// Lagrangians of programs equal to the discrete action of the control Lagrangian, by a multiplier of the right degree.
 inline Rows galerkin_form_rows() {
   Rows rows;
   for (const char* method : {"dmoc", "galerkin_2_1", "galerkin_2_2"}) {

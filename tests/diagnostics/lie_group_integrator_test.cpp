@@ -1,22 +1,26 @@
-// The variational integrator on SO(3) of Lee, Leok and McClamroch is DMOC of directors, with one Gauss stage.
+// Lie group integrators as DMOC with one Gauss stage: on SO(3) by Lee, Leok and McClamroch in directors, on the unit
+// quaternions with Cayley's map as retraction in quaternions.
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/mechanics/forwarding_problem.hpp"
 #include "methods/mechanics/motion_constraints.hpp"
 #include "problems/satellite_directors.hpp"
+#include "problems/satellite_quaternion.hpp"
 
 namespace dmocbench {
 namespace {
 
-/// The directors without R'R = 1, which L_d does not contain.
-class FreeDirectors final : public ForwardingProblem {
+/// A problem without its constraints g(q) = 0, which L_d does not contain.
+class Unconstrained final : public ForwardingProblem {
  public:
-  explicit FreeDirectors(const Problem& directors) : ForwardingProblem(directors) {}
+  explicit Unconstrained(const Problem& problem) : ForwardingProblem(problem) {}
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& /*q*/) const override { return {}; }
 };
 
@@ -56,7 +60,7 @@ TEST(LieGroupIntegrator, SatisfiesTheDiscreteEulerLagrangeEquationsOfDirectorsTo
   const Eigen::Vector3d spin(0.7, -0.4, 1.1);
   const std::vector<Eigen::Matrix3d> attitudes = free_body(inertia, inertia.cwiseProduct(spin), h, 50);
   MotionConstraints constraints{TracedProblem(problem)};
-  const DiscreteLagrangian discrete(FreeDirectors(problem), make_tableau("gauss", 1));
+  const DiscreteLagrangian discrete(Unconstrained(problem), make_tableau("gauss", 1));
   const auto between = [&](std::size_t k) {
     const auto q = [&](std::size_t node) { return LongVector(attitudes[node].reshaped().cast<long double>()); };
     return discrete.at(q(k), q(k + 1), LongMatrix::Zero(1, 3), h, 0.0);
@@ -74,6 +78,30 @@ TEST(LieGroupIntegrator, SatisfiesTheDiscreteEulerLagrangeEquationsOfDirectorsTo
   }
   EXPECT_GT(least_impulse, 0.01);
   EXPECT_LT(largest_rest, 1e-14);
+}
+
+/// Unit quaternions of a turn about an axis, which is given by its angle times the axis.
+Eigen::Vector4d turned(const Eigen::Quaterniond& from, const Eigen::Vector3d& turn) {
+  const Eigen::Quaterniond to = from * Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  return {to.w(), to.x(), to.y(), to.z()};
+}
+
+// L_d(g_0, g_1) = h l(τ⁻¹(g_0⁻¹ g_1)/h), l(ω) = ½ ωᵀJω: Cayley's map τ(hω) = (1 + a)/(1 - a), a = hω/4, of unit
+// quaternions turns by 4 arctan |a| about a.
+TEST(LieGroupIntegrator, WithCayleysMapOfUnitQuaternionsHasTheDiscreteLagrangianOfTheQuaternion) {
+  const SatelliteQuaternion problem;
+  const Eigen::Vector3d inertia(problem.parameter("inertia_1"), problem.parameter("inertia_2"),
+                                problem.parameter("inertia_3"));
+  constexpr double h = 0.1;
+  const DiscreteLagrangian discrete(Unconstrained(problem), make_tableau("gauss", 1));
+  const Eigen::Quaterniond from(Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()));
+  for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0.3, -0.2, 0.1), Eigen::Vector3d(-1.0, 1.5, 2.0)}) {
+    const Eigen::Vector3d omega = 4.0 / h * std::tan(0.25 * turn.norm()) * turn.normalized();
+    const double lagrangian = 0.5 * h * omega.dot(inertia.cwiseProduct(omega));
+    const auto at = discrete.at(turned(from, Eigen::Vector3d::Zero()).cast<long double>(),
+                                turned(from, turn).cast<long double>(), LongMatrix::Zero(1, 3), h, 0.0);
+    EXPECT_NEAR(static_cast<double>(at.lagrangian), lagrangian, 1e-14 * lagrangian);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A rigid satellite by its rotation matrix: the closed form, Euler's angles, and momentum about every axis.
+// A rigid satellite by its rotation matrix: other coordinates, the closed form, and momentum about every axis.
 #include "problems/satellite_directors.hpp"
 
 #include <cmath>
@@ -7,53 +7,50 @@
 
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/mechanics/forwarding_problem.hpp"
+#include "problems/satellite_angles.hpp"
+#include "problems/satellite_quaternion.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench {
 namespace {
 
-/// The slew of `SatelliteDirectors` by ZYX angles (φ, θ, ψ): R = R_z(ψ) R_y(θ) R_x(φ).
-class SatelliteByAngles final : public Problem {
- public:
-  explicit SatelliteByAngles(const SatelliteDirectors& directors) : directors_(directors) {}
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"roll", "pitch", "yaw"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2", "u_3"}; }
-  [[nodiscard]] Expression lagrangian(const State& x) const override {
-    const ExpressionVector omega = rates(x.q) * x.v;
-    Expression sum = 0.0;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      sum += 0.5 * directors_.parameter("inertia_" + std::to_string(i + 1)) * omega[i] * omega[i];
-    }
-    return sum;
-  }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return rates(x.q).transpose() * x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
-  [[nodiscard]] BoundaryState initial_state() const override { return angles_of(directors_.initial_state().q); }
-  [[nodiscard]] BoundaryState final_state() const override { return angles_of(directors_.final_state().q); }
-  [[nodiscard]] double horizon() const override { return directors_.horizon(); }
-
- private:
-  /// B with ω = B q̇.
-  static ExpressionMatrix rates(const ExpressionVector& q) {
-    ExpressionMatrix b(3, 3);
-    b << 1.0, 0.0, -sin(q[1]), 0.0, cos(q[0]), cos(q[1]) * sin(q[0]), 0.0, -sin(q[0]), cos(q[1]) * cos(q[0]);
-    return b;
-  }
-  static BoundaryState angles_of(const Eigen::VectorXd& directors) {
-    const Eigen::Matrix3d attitude = directors.reshaped(3, 3);
-    return BoundaryState::at_rest(Eigen::Vector3d(std::atan2(attitude(2, 1), attitude(2, 2)),
-                                                  -std::asin(attitude(2, 0)),
-                                                  std::atan2(attitude(1, 0), attitude(0, 0))));
-  }
-
-  const SatelliteDirectors& directors_;
-};
-
-SatelliteDirectors general_slew() {
-  SatelliteDirectors problem;
-  for (const char* component : {"axis_1", "axis_2", "axis_3"}) problem.set_parameter(component, 1.0);
-  problem.set_parameter("angle", 1.0);
+template <class Satellite>
+Satellite general_slew(const Eigen::Vector3d& axis, double angle) {
+  Satellite problem;
+  problem.set_parameter("axis_1", axis[0]);
+  problem.set_parameter("axis_2", axis[1]);
+  problem.set_parameter("axis_3", axis[2]);
+  problem.set_parameter("angle", angle);
   return problem;
+}
+
+SatelliteDirectors general_slew() { return general_slew<SatelliteDirectors>({1.0, 1.0, 1.0}, 1.0); }
+
+/// What must not depend on coordinates at a point of the guess: the attitude, the kinetic energy and the power of the
+/// torques (1, 2, 3).
+Eigen::VectorXd seen_from_outside(const SatelliteSlew& problem, double t) {
+  const MotionPoint point = problem.guess(t);
+  const ExpressionVector q = point.q.cast<Expression>();
+  const ExpressionVector v = point.v.cast<Expression>();
+  const ExpressionVector torques = Eigen::Vector3d(1.0, 2.0, 3.0).cast<Expression>();
+  Eigen::VectorXd seen(11);
+  seen << problem.attitude_at(point.q).reshaped(), problem.lagrangian({q, v, t}).constant_value().value(),
+      problem.force({q, v, torques, t}).dot(v).constant_value().value();
+  return seen;
+}
+
+TEST(Satellites, TurnTheSameBodyByTheSameTorquesInAllCoordinates) {
+  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1.0, 1.0, 0.3), Eigen::Vector3d(0.1, 1.0, 0.1)}) {
+    const auto directors = general_slew<SatelliteDirectors>(axis, 2.6);
+    const auto angles = general_slew<SatelliteAngles>(axis, 2.6);
+    const auto quaternion = general_slew<SatelliteQuaternion>(axis, 2.6);
+    for (int i = 0; i <= 32; ++i) {
+      const double t = directors.horizon() * i / 32.0;
+      const Eigen::VectorXd seen = seen_from_outside(directors, t);
+      EXPECT_LT((seen_from_outside(angles, t) - seen).norm(), 1e-13 * (1.0 + seen.norm()));
+      EXPECT_LT((seen_from_outside(quaternion, t) - seen).norm(), 1e-13 * (1.0 + seen.norm()));
+    }
+  }
 }
 
 double cost_of(const Problem& problem, const tests::Scheme& scheme, Eigen::Index intervals) {
@@ -75,8 +72,7 @@ TEST(SatelliteDirectors, SlewsAboutAPrincipalAxisAtTheCostOfTheClosedForm) {
 
 TEST(SatelliteDirectors, HaveTheOptimumOfEulersAnglesAwayFromTheirSingularity) {
   const SatelliteDirectors problem = general_slew();
-  const SatelliteByAngles by_angles(problem);
-  const double exact = cost_of(by_angles, {"dmoc", 4}, 32);
+  const double exact = cost_of(general_slew<SatelliteAngles>({1.0, 1.0, 1.0}, 1.0), {"dmoc", 4}, 32);
   EXPECT_NEAR(cost_of(problem, {"dmoc", 3, "lobatto"}, 64), exact, 1e-7 * exact);
   EXPECT_NEAR(cost_of(problem, {"tangent", 2}, 64), exact, 1e-7 * exact);
 }

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/link_chain_maximal.hpp"
 #include "problems/satellite_directors.hpp"
+#include "problems/satellite_quaternion.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
 #include "problems/two_link_maximal.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -32,7 +34,7 @@ Answer solved(const Problem& problem, const Scheme& scheme) {
 template <class Redundant>
 std::shared_ptr<const Problem> mechanism() {
   auto problem = std::make_shared<Redundant>();
-  if constexpr (std::same_as<Redundant, SatelliteDirectors>) {
+  if constexpr (std::derived_from<Redundant, SatelliteSlew>) {
     for (const auto& [name, value] : {std::pair("axis_2", 0.7), {"axis_3", -0.4}, {"angle", 2.6}}) {
       problem->set_parameter(name, value);
     }
@@ -50,8 +52,8 @@ class EmbeddedProblemOf : public testing::Test {
   EmbeddedProblem embedded{redundant};
 };
 
-using Mechanisms =
-    testing::Types<SphericalPendulumCartesian, CartPoleCartesian, TwoLinkMaximal, LinkChainMaximal, SatelliteDirectors>;
+using Mechanisms = testing::Types<SphericalPendulumCartesian, CartPoleCartesian, TwoLinkMaximal, LinkChainMaximal,
+                                  SatelliteDirectors, SatelliteQuaternion>;
 TYPED_TEST_SUITE(EmbeddedProblemOf, Mechanisms);
 
 TYPED_TEST(EmbeddedProblemOf, HasTheSolutionsOfMultipliersByDmocAndByHamiltonianCollocation) {

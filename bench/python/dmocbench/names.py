@@ -27,6 +27,6 @@ Refinement = Literal["h", "hp"]
 Experiment = Literal["adaptive", "certify", "claims", "closed_loop", "coercivity", "cold_start", "consistency",
                      "consistency_order", "convergence", "derivatives", "equivalence", "error_constants", "invariants",
                      "iterations", "list", "local_minima", "low_thrust", "misprints", "new", "objective", "primitives",
-                     "profile", "read-sol", "report", "savings_by_solver", "sequence", "shooting", "smoothness", "solve",
-                     "step_control", "study", "sweep", "write-nl"]
+                     "profile", "read-sol", "report", "rigid_body_coordinates", "savings_by_solver", "sequence", "shooting",
+                     "smoothness", "solve", "step_control", "study", "sweep", "write-nl"]
 """A program of the suite."""
