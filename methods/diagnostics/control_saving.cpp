@@ -43,7 +43,7 @@ class HamiltonianOfControl {
   [[nodiscard]] double saving(Eigen::Index k, double t) {
     set_time(k, t);
     constexpr double difference = 1e-3;  // these are shares of the size of a control
-    constexpr double flattest = 1e-4;    // second difference of H for the whole size, as a share of H
+    constexpr double flattest = 1e-4;    // second difference of H for the whole size, as a share of its terms
     constexpr double farthest = 10.0;
     const Eigen::VectorXd u = point_.u;
     const double here = at(u);
@@ -55,10 +55,11 @@ class HamiltonianOfControl {
         return at(other);
       };
       const double above = moved(difference);
+      const double terms = values_.cwiseAbs().dot(weights_.cwiseAbs());  // their sum may vanish, and all of them at u
       const double below = moved(-difference);
       const double slope = (above - below) / (2.0 * difference);
       const double curvature = (above - 2.0 * here + below) / (difference * difference);
-      if (!(curvature > flattest * std::abs(here))) continue;
+      if (!(curvature > flattest * terms)) continue;
       better[j] -= std::clamp(slope / curvature, -farthest, farthest) * sizes_[j];
     }
     return std::max(0.0, here - at(better));
