@@ -121,8 +121,7 @@ std::string error_of_cost_in_words(const Accuracy& found) {
   if (found.cost_error > largest_cost_error_of_a_motion) {
     return fmt::format(
         "The quadrature of the program misses {:.2g} of the running cost along the computed trajectory: the cost "
-        "varies "
-        "too fast within the intervals.",
+        "varies too fast within the intervals.",
         found.cost_error);
   }
   if (found.cost_miss > largest_cost_miss_of_a_motion) {
