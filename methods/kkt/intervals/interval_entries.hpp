@@ -83,4 +83,7 @@ struct IntervalEntries {
 /// the same in all intervals, or fixed unknowns between its ends.
 [[nodiscard]] tl::expected<IntervalEntries, std::string> interval_entries(const NonlinearProgram& program);
 
+/// The reason why the states at the ends are not given and nothing else stated there; null if they are.
+[[nodiscard]] const char* reason_of_free_ends(const NonlinearProgram& program, const IntervalEntries& entries);
+
 }  // namespace dmocbench::kkt
