@@ -26,7 +26,7 @@ struct PassSweep {
     locals = memory.take(LocalBlocks<S>{shape}.size());
     next_inverse = memory.take(shape.node * shape.node);
     const auto [n, Z, X, w, N] = sizes_of(shape);
-    hessian = memory.take(shape.inequalities > 0 ? Z * (Z + X + 1) : 0);
+    hessian = memory.take(Z * (Z + X + 1));
     of_node = memory.take(shape.inequalities > 0 ? n * (n + 1) : 0);
     sums = memory.take(shape.node * (shape.node + free_size(shape)));
     local_memory = {memory.take(size_of<StepWork<Shape>>(plan.shape) + size_of<CostToGo<Shape>>(plan.shape))};
@@ -49,7 +49,7 @@ struct PassSweep {
   int cost_size;
   Lanes* locals;        // `LocalBlocks` of eight intervals
   Lanes* next_inverse;  // of the equalities of the intervals after them
-  Lanes* hessian;       // with the squares of inequalities, if there are any
+  Lanes* hessian;       // of the local blocks, changed
   Lanes* of_node;       // the squares' Hessian and gradient of x
   Lanes* sums;
   Memory local_memory;
@@ -112,6 +112,16 @@ DMOCBENCH_INLINE void add_squares(const LocalSystem<S>& local, Lanes* hessian, L
       for (int i = 0; i < Z; ++i) hessian[i + column(j) * Z] += weighed * local.inequality(row, i);
       for (int i = 0; i < n && j >= Z; ++i) of_node[i + (j - Z) * n] += weighed * local.inequality(row, Z + i);
     }
+  }
+}
+
+/// In a lane whose x' is given, the Hessian between x' and other unknowns: no step depends on it, but it could make the
+/// pivots of an interval that carries ν negative.
+template <class S>
+DMOCBENCH_INLINE void drop_terms_of_next(const S& shape, std::size_t lane, Lanes* hessian) {
+  const auto [n, Z, X, w, N] = sizes_of(shape);
+  for (int j = 0; j < Z + X; ++j) {
+    for (int i = 0; i < (j < n ? Z : n); ++i) hessian[i + j * Z].set(lane, 0.0);
   }
 }
 
@@ -181,14 +191,15 @@ template <class S>
         record + records.sums()(0, i), distance);
   }
   // The cost.
-  const Lanes* H = local.hessian.first;
-  if (shape.inequalities > 0) {
-    copy(H, Z * (Z + X + 1), sweep.hessian);
+  const bool has_squares = shape.inequalities > 0;
+  const bool has_last = begin + count == pass.intervals;
+  const Lanes* const H = has_squares || has_last ? sweep.hessian : local.hessian.first;
+  if (has_squares || has_last) copy(local.hessian.first, Z * (Z + X + 1), sweep.hessian);
+  if (has_squares) {
     for (int i = 0; i < n * (n + 1); ++i) sweep.of_node[i] = Lanes{};
     add_squares(local, sweep.hessian, sweep.of_node);
-    H = sweep.hessian;
   }
-  const bool has_squares = shape.inequalities > 0;
+  if (has_last) drop_terms_of_next(shape, static_cast<std::size_t>(count - 1), sweep.hessian);
   const auto of_node = [&, n = n](int i, int j)
                            DMOCBENCH_INLINED { return has_squares ? sweep.of_node[i + j * n] : Lanes{}; };
   const auto hessian = [&, Z = Z](int i, int j) DMOCBENCH_INLINED -> const Lanes& { return H[i + j * Z]; };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "methods/kkt/intervals/pass_blocks.hpp"
 #include "methods/runtime/parallel.hpp"
@@ -12,8 +11,10 @@ namespace dmocbench::kkt {
 
 namespace {
 
-/// Below this pivot of Γ, scaled to a diagonal of ones, ν is carried further.
+/// Below this pivot of Γ, scaled to a diagonal of ones, ν is carried further, ...
 constexpr double smallest_conditioned_pivot = 1e-5;
+/// ... through so many intervals at most: if they do not determine the end, more of them hardly do.
+constexpr int most_carried = 32;
 
 PassKernel pass_kernel_of(const Shape& shape, InstructionSet set) {
 #ifdef DMOCBENCH_X86_KERNELS
@@ -87,8 +88,8 @@ SinglePass::Outcome SinglePass::solve(const EliminationPlan& plan, const NewtonA
     kernel_.backward(plan, arrays, begin, at, true, pass_);
     at = begin;
     if (!pass_.pivots_hold) return Outcome::undecided;
-    if (factorise_reachability(at > 0 ? smallest_conditioned_pivot : rounding())) break;
-    if (at == 0) return Outcome::undecided;
+    if (factorise_reachability()) break;
+    if (at == 0 || carried == most_carried) return Outcome::undecided;
   }
   eliminate_end_multiplier();
   const int first_with_nu = at;
@@ -102,13 +103,8 @@ SinglePass::Outcome SinglePass::solve(const EliminationPlan& plan, const NewtonA
   return Outcome::solved;
 }
 
-double SinglePass::rounding() const {
-  return 10.0 * static_cast<double>(end_.size()) * std::numeric_limits<double>::epsilon();
-}
-
-/// Γ = LLᵀ; L has the reciprocals of its diagonal. False if a pivot is less than `smallest` times the entry that it
-/// was.
-bool SinglePass::factorise_reachability(double smallest) {
+/// Γ = LLᵀ; L has the reciprocals of its diagonal. False if Γ is not positive definite, or badly conditioned.
+bool SinglePass::factorise_reachability() {
   const Eigen::Index X = end_.size();
   const double* const Gamma = pass_.value + PassValueBlocks<Shape>{entries_.shape}.reachability()(0, 1);
   for (Eigen::Index j = 0; j < X; ++j) {
@@ -119,7 +115,7 @@ bool SinglePass::factorise_reachability(double smallest) {
         factor_(i, j) = sum * factor_(j, j);
         continue;
       }
-      if (!(sum > smallest * Gamma[j + j * X])) return false;
+      if (!(sum > smallest_conditioned_pivot * Gamma[j + j * X])) return false;
       factor_(j, j) = 1.0 / std::sqrt(sum);
     }
   }

@@ -25,7 +25,7 @@ class SinglePass {
   enum class Outcome : unsigned char {
     solved,
     wrong_inertia,  ///< certainly
-    undecided,      ///< a pivot near zero, or one of an interval that carries ν is negative, or Γ is not definite
+    undecided,  ///< a pivot is near zero, or one of an interval that carries ν negative, or Γ is badly conditioned
   };
 
   /// True if the pass is faster than segments and joints for a program, and its ends are given.
@@ -39,8 +39,7 @@ class SinglePass {
   [[nodiscard]] Outcome solve(const EliminationPlan& plan, const NewtonArrays& arrays, const KktStep& step);
 
  private:
-  [[nodiscard]] double rounding() const;
-  [[nodiscard]] bool factorise_reachability(double smallest);
+  [[nodiscard]] bool factorise_reachability();
   void eliminate_end_multiplier();
   void find_end_multiplier();
   void write_ends(const KktStep& step) const;
