@@ -31,7 +31,7 @@ void expect_same_steps(const Problem& problem, const tests::Scheme& scheme, Eige
   const tests::KktNumbers numbers = tests::shifted_system(program, sample(program, guessed_motion(problem)));
   Eigen::VectorXd baseline;
   for (const InstructionSet set : available_instruction_sets()) {
-    const auto kkt = IntervalKkt::make(program, segment_kernels_of(set)).value();
+    const auto kkt = IntervalKkt::make(program, set).value();
     const Eigen::VectorXd steps = step_of(*kkt, numbers);
     if (set == InstructionSet::baseline) {
       baseline = steps;
@@ -74,7 +74,7 @@ TEST(SegmentKernels, TakeTheStepOfTheSparseFactorisationWhereverABlockOfStepsEnd
       SparseKkt sparse(program);
       const Eigen::VectorXd wanted = step_of(sparse, numbers);
       for (const InstructionSet set : available_instruction_sets()) {
-        const auto by_intervals = IntervalKkt::make(program, segment_kernels_of(set)).value();
+        const auto by_intervals = IntervalKkt::make(program, set).value();
         for (int again = 0; again < 2; ++again) {  // what a sweep leaves in its memory changes no later one
           const Eigen::VectorXd found = step_of(*by_intervals, numbers);
           EXPECT_LT((found - wanted).lpNorm<Eigen::Infinity>(), 1e-7 * wanted.lpNorm<Eigen::Infinity>())

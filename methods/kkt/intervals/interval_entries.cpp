@@ -335,4 +335,16 @@ tl::expected<IntervalEntries, std::string> interval_entries(const NonlinearProgr
   return EntryTable(program, *structure).make();
 }
 
+const char* reason_of_free_ends(const NonlinearProgram& program, const IntervalEntries& entries) {
+  if (!entries.held_unknowns.empty()) return "an unknown of a node between the ends is fixed";
+  if (!entries.global_unknowns.empty()) return "an unknown belongs to the whole horizon";
+  if (!entries.end_unknowns[0].empty() || !entries.end_unknowns[1].empty()) return "an end has unknowns of its own";
+  if (!entries.end_rows.empty()) return "there are boundary conditions";
+  for (const Eigen::Index first : entries.node_unknowns) {
+    if (!is_fixed(program, first)) return "the state at the start is not given";
+    if (!is_fixed(program, first + entries.intervals)) return "the state at the end is not given";
+  }
+  return nullptr;
+}
+
 }  // namespace dmocbench::kkt

@@ -84,4 +84,7 @@ struct IntervalEntries {
 /// the same in all intervals.
 [[nodiscard]] tl::expected<IntervalEntries, std::string> interval_entries(const NonlinearProgram& program);
 
+/// The reason why not only the states of both ends are given, or more is stated there; null if it is so.
+[[nodiscard]] const char* reason_of_free_ends(const NonlinearProgram& program, const IntervalEntries& entries);
+
 }  // namespace dmocbench::kkt

@@ -13,20 +13,28 @@ namespace {
 /// Intervals that a new order of elimination is chosen by, besides the middle one.
 constexpr Eigen::Index sampled_intervals = 9;
 
+FactorisationStatus status_of(const KktStep& step) {
+  return is_finite(step.primal) && is_finite(step.multipliers) ? FactorisationStatus::solved
+                                                               : FactorisationStatus::singular;
+}
+
 }  // namespace
 
-IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, SegmentKernelChoice choose) {
+IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, InstructionSet set) {
   auto entries = interval_entries(program);
   if (!entries) return tl::unexpected(std::move(entries).error());
   auto boundary = BoundarySystem::make(program, *entries);
   if (!boundary) return tl::unexpected(std::move(boundary).error());
-  return std::make_unique<IntervalKkt>(std::move(*entries), std::move(*boundary), choose);
+  const bool suits_single_pass = SinglePass::suits(program, *entries);
+  auto kkt = std::make_unique<IntervalKkt>(std::move(*entries), std::move(*boundary), set);
+  if (suits_single_pass) kkt->single_pass_.emplace(kkt->entries_);
+  return kkt;
 }
 
-IntervalKkt::IntervalKkt(IntervalEntries entries, BoundarySystem boundary, SegmentKernelChoice choose)
+IntervalKkt::IntervalKkt(IntervalEntries entries, BoundarySystem boundary, InstructionSet set)
     : entries_(std::move(entries)),
       boundary_(std::move(boundary)),
-      choose_(choose),
+      set_(set),
       weights_(entries_),
       padded_(entries_.make_padded(1)),
       groups_(cut_into_groups(entries_.shape, static_cast<std::size_t>(entries_.intervals))) {}
@@ -44,7 +52,8 @@ bool IntervalKkt::choose_plan(const NewtonArrays& arrays, const std::vector<Eige
   has_plan_ = plan.has_value();
   if (!plan) return false;
   plan_ = std::move(*plan);
-  kernel_ = choose_(plan_.shape);
+  kernel_ = segment_kernels_of(set_)(plan_.shape);
+  has_pass_ = single_pass_ && single_pass_->use(plan_, set_);
   weights_.use(plan_);
   for (GroupMemory& memory : groups_) memory.make_workspace(kernel_.workspace_size(plan_));
   return true;
@@ -55,6 +64,19 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
   NewtonArrays arrays = arrays_of(matrix, right_hand_side);
   const Eigen::Index middle = entries_.intervals / 2;
   if (!has_plan_ && !choose_plan(arrays, {middle})) return FactorisationStatus::singular;
+  if (has_pass_) {
+    ++eliminations_;
+    const SinglePass::Outcome outcome = single_pass_->solve(plan_, arrays, step);
+    if (outcome == SinglePass::Outcome::wrong_inertia) {
+      found_ = {FactorisationStatus::wrong_inertia, true};
+      return found_.status;
+    }
+    if (outcome == SinglePass::Outcome::solved) {
+      entries_.write_fixed(1, step.primal.data());
+      entries_.write_inequality_multipliers(arrays, 1, step.primal.data(), step.multipliers.data());
+      return status_of(step);
+    }
+  }
   weights_.rescale(arrays);
   hold(matrix, arrays);
   for (bool may_choose_order = true;; may_choose_order = false) {
@@ -82,8 +104,7 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
     if (found_.is_certain || !weights_.next_multiple()) return found_.status;
   }
   substitute(arrays, step);
-  return is_finite(step.primal) && is_finite(step.multipliers) ? FactorisationStatus::solved
-                                                               : FactorisationStatus::singular;
+  return status_of(step);
 }
 
 /// Adds a penalty to the diagonal of unknowns that do not move. It leaves the form the same where they stay, so that a

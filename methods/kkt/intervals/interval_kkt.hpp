@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "methods/kkt/intervals/interval_entries.hpp"
 #include "methods/kkt/intervals/segment_chain.hpp"
 #include "methods/kkt/intervals/segment_group.hpp"
+#include "methods/kkt/intervals/single_pass.hpp"
 #include "methods/kkt/intervals/terminal_weights.hpp"
 #include "methods/kkt/kkt_system.hpp"
 #include "methods/program/nonlinear_program.hpp"
@@ -24,10 +26,10 @@ class IntervalKkt : public KktSystem {
  public:
   /// The reason in a sentence for a program whose structure does not allow it (interval_entries.hpp).
   using Made = tl::expected<std::unique_ptr<IntervalKkt>, std::string>;
-  [[nodiscard]] static Made make(const NonlinearProgram& program, SegmentKernelChoice choose = segment_kernel_for);
+  [[nodiscard]] static Made make(const NonlinearProgram& program, InstructionSet set = preferred_instruction_set());
 
-  /// `entries` and `boundary` belong to the program; `choose` selects the kernel for its shape. `make` does all.
-  IntervalKkt(IntervalEntries entries, BoundarySystem boundary, SegmentKernelChoice choose);
+  /// `entries` and `boundary` belong to the program; `set` is the instruction set of the kernels. `make` does all.
+  IntervalKkt(IntervalEntries entries, BoundarySystem boundary, InstructionSet set);
 
   void begin_solve() override { weights_.forget(); }
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
@@ -57,12 +59,14 @@ class IntervalKkt : public KktSystem {
 
   IntervalEntries entries_;
   BoundarySystem boundary_;
-  SegmentKernelChoice choose_;
+  InstructionSet set_;
   SegmentKernel kernel_{};
   bool has_plan_ = false;
-  Elimination found_;  // by the last sweep
+  bool has_pass_ = false;  // its order of elimination suits a single pass
+  Elimination found_;      // by the last sweep
   int eliminations_ = 0;
   EliminationPlan plan_;
+  std::optional<SinglePass> single_pass_;  // where it suits the program
   TerminalWeights weights_;
   Eigen::MatrixXd last_carry_;  // node_sums x node
 

@@ -18,19 +18,6 @@ constexpr int most_believed = 4;
 /// Systems in a row that are not refused, after which a lane goes back to the usual weights, which keep more digits.
 constexpr int enough_calm = 3;
 
-/// The reason why the ends of a program do not fit; null if they do.
-const char* refusal_of_ends(const NonlinearProgram& program, const IntervalEntries& entries) {
-  if (!entries.held_unknowns.empty()) return "an unknown of a node between the ends is fixed";
-  if (!entries.global_unknowns.empty()) return "an unknown belongs to the whole horizon";
-  if (!entries.end_unknowns[0].empty() || !entries.end_unknowns[1].empty()) return "an end has unknowns of its own";
-  if (!entries.end_rows.empty()) return "there are boundary conditions";
-  for (const Eigen::Index first : entries.node_unknowns) {
-    if (!is_fixed(program, first)) return "the initial state is not fixed";
-    if (!is_fixed(program, first + entries.intervals)) return "the final state is not fixed";
-  }
-  return nullptr;
-}
-
 std::size_t lanes_of(int entries) { return static_cast<std::size_t>(entries) * lane_count; }
 
 }  // namespace
@@ -38,7 +25,7 @@ std::size_t lanes_of(int entries) { return static_cast<std::size_t>(entries) * l
 LaneKkt::Made LaneKkt::make(const NonlinearProgram& program, const KktMatrix& usual, SegmentKernelChoice choose) {
   auto entries = interval_entries(program);
   if (!entries) return tl::unexpected(std::move(entries).error());
-  if (const char* const refusal = refusal_of_ends(program, *entries)) return tl::unexpected(std::string(refusal));
+  if (const char* const refusal = reason_of_free_ends(program, *entries)) return tl::unexpected(std::string(refusal));
   Eigen::VectorXd padded = entries->make_padded(1);
   const NewtonArrays arrays{{usual.jacobian.data(), usual.hessian.data(), usual.diagonal.data(), nullptr, nullptr,
                              usual.compliance.data(), padded.data()}};

@@ -204,12 +204,18 @@ bool SegmentChain::join_and_count(const SegmentValue& segment) {
 bool SegmentChain::join(const SegmentValue& segment, Between between) {
   // A size known at compile time, or a bound of it, needs no memory from the heap, which would take longer than the
   // arithmetic. Every further size costs compile time.
-  constexpr int usual = 4;
   constexpr int most = 16;
-  const Eigen::Index n = total_.P.rows();
-  if (n == usual) return join_sized<usual, usual>(segment, between);
-  return n <= most ? join_sized<Eigen::Dynamic, most>(segment, between)
-                   : join_sized<Eigen::Dynamic, Eigen::Dynamic>(segment, between);
+  switch (const Eigen::Index n = total_.P.rows()) {
+    case 4:
+      return join_sized<4, 4>(segment, between);
+    case 6:
+      return join_sized<6, 6>(segment, between);
+    case 8:
+      return join_sized<8, 8>(segment, between);
+    default:
+      return n <= most ? join_sized<Eigen::Dynamic, most>(segment, between)
+                       : join_sized<Eigen::Dynamic, Eigen::Dynamic>(segment, between);
+  }
 }
 
 template <int size, int most>

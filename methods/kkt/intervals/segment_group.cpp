@@ -61,8 +61,8 @@ void GroupMemory::allocate(const Shape& shape) {
   std::size_t lines = 0;
   for (const auto& [first, count] : blocks) lines += static_cast<std::size_t>(count);
   // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector would write zeros
-  blocks_ = std::make_unique_for_overwrite<Line[]>(lines);
-  Line* next = blocks_.get();
+  blocks_ = std::make_unique_for_overwrite<NumberLine[]>(lines);
+  NumberLine* next = blocks_.get();
   for (const auto& [first, count] : blocks) {
     *first = next->numbers.data();
     next += count;
@@ -71,7 +71,7 @@ void GroupMemory::allocate(const Shape& shape) {
 
 void GroupMemory::make_workspace(std::size_t numbers) {
   // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)
-  workspace_ = std::make_unique_for_overwrite<Line[]>(numbers / lane_count);
+  workspace_ = std::make_unique_for_overwrite<NumberLine[]>(numbers / lane_count);
   group_.workspace = workspace_[0].numbers.data();
   group_.has_constants = false;
 }

@@ -12,6 +12,13 @@ namespace dmocbench::kkt {
 /// The smallest trusted pivot of the equalities, relative to the pivots by which the order of elimination was chosen.
 inline constexpr double smallest_trusted_ratio = 1e-7;
 
+/// One number of every lane, aligned as vector registers require.
+struct alignas(lane_count * sizeof(double)) NumberLine {
+  std::array<double, lane_count> numbers;
+};
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector would write zeros
+using NumberLines = std::unique_ptr<NumberLine[]>;
+
 /// Eight segments and their memory, which is first touched by the thread that fills it.
 class GroupMemory {
  public:
@@ -31,16 +38,9 @@ class GroupMemory {
   GroupMemory() = default;
   void allocate(const Shape& shape);
 
-  /// One number of every lane, aligned as vector registers require.
-  struct alignas(lane_count * sizeof(double)) Line {
-    std::array<double, lane_count> numbers;
-  };
-  // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector would write zeros
-  using Lines = std::unique_ptr<Line[]>;
-
   SegmentGroup group_;
-  Lines blocks_;
-  Lines workspace_;
+  NumberLines blocks_;
+  NumberLines workspace_;
 };
 
 /// Cuts the horizon into groups of eight segments: one for a short one, and one per part of a long one (parallel.hpp),
