@@ -26,8 +26,8 @@ inline constexpr int known_nodes<FixedShape<node, sizes...>> = node;
 
 enum class Update : unsigned char { set, add, subtract };
 
-/// Sizes of a product C = A B, and where entries stand: A and C column by column, the columns of A `left` numbers apart
-/// and those of C `result`; entry (k, j) of B is at k * down + j * right.
+/// Sizes of a product C = A B, and where entries stand: A and C column by column, columns of A `left` and columns of C
+/// `result` numbers apart; entry (k, j) of B is at k * down + j * right.
 struct QuadSizes {
   int rows;  ///< a multiple of four
   int columns;

@@ -160,7 +160,7 @@ void SinglePass::find_end_multiplier() {
   }
 }
 
-/// The ends do not move. The multipliers of the last node's equalities are those of the sums there.
+/// The ends do not move. The last entries of ν are the multipliers of the last node's equalities.
 void SinglePass::write_ends(const KktStep& step) const {
   for (const Eigen::Index first : entries_.node_unknowns) {
     step.primal[first] = 0.0;
