@@ -63,6 +63,22 @@ std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std:
   return answers;
 }
 
+/// Throws `Error` if a problem has no sequence.
+void require_sequence(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
+                      StartProvider& starts, const SolverOptions& solver_options) {
+  if (problem->bounds().horizon.is_free()) {
+    throw Error(fmt::format("{} has a free horizon; a receding horizon needs a fixed horizon; choose another problem",
+                            problem->name()));
+  }
+  if (problem->phased() != nullptr && !homotopy_of(options, *problem)) {
+    throw Error(
+        fmt::format("{} has phases, which a receding horizon does not support; vary a quantity with --over "
+                    "NAME=LOWER:UPPER, or choose another problem",
+                    problem->name()));
+  }
+  static_cast<void>(first_answers(options, problem, starts, solver_options));
+}
+
 /// All methods through one kind of sequence, step by step in turn, so that other load of the machine slows all alike.
 void run_in_turn(std::vector<SequenceRun>& runs, const SequenceOptions& options, std::vector<SequenceStep>& steps) {
   constexpr int steps_between_cold_solves = 5;
@@ -77,18 +93,8 @@ void run_in_turn(std::vector<SequenceRun>& runs, const SequenceOptions& options,
 
 std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
                                       StartProvider& starts, const SolverOptions& solver_options) {
-  if (problem->bounds().horizon.is_free()) {
-    throw Error(fmt::format("{} has a free horizon; a receding horizon needs a fixed horizon; choose another problem",
-                            problem->name()));
-  }
   const std::optional<SweptQuantity> quantity = homotopy_of(options, *problem);
   const bool has_phases = problem->phased() != nullptr;
-  if (has_phases && !quantity) {
-    throw Error(
-        fmt::format("{} has phases, which a receding horizon does not support; vary a quantity with --over "
-                    "NAME=LOWER:UPPER, or choose another problem",
-                    problem->name()));
-  }
   std::vector<SequenceStep> steps;
   const std::vector<SolvedCase> answers = first_answers(options, problem, starts, solver_options);
   // NOLINTNEXTLINE(bugprone-unchecked-optional-access): every one of them is solved
@@ -126,9 +132,9 @@ int run_sequences(CommandLine& line) {
   TableRun run("sequence", line, TableRun::Resumes::yes);
   options.methods = chosen_of("--method", paper_families(), options.methods);
   const auto problems = run.selected(options.problems);
-  for (const auto& problem : problems) static_cast<void>(homotopy_of(options, *problem));
   const SolverOptions solver_options = TableRun::solver_options();
   StartProvider starts({}, solver_options);
+  for (const auto& problem : problems) require_sequence(options, problem, starts, solver_options);
   for (const auto& problem : problems) {
     run.stage(problem->name(), [&] {
       run.show(problem->name());

@@ -278,7 +278,7 @@ TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
     write("objective", columns, rows);
   };
   slip_in("objective", columns, {rows.begin(), rows.end() - 1});
-  expect("6 rows but objective.csv has 5");
+  expect("6 rows, but objective.csv has 5");
   ColumnNames more = columns;
   more.emplace_back("wish");
   slip_in("objective", more, rows);

@@ -144,7 +144,7 @@ class Mistakes(unittest.TestCase):
         self.refused("bounds of integrals has 2 entries, but integrands has 1",
                      variant(integrands=integrands, bounds={"integrals": ([0.0, 1.0], [2.0, 2.0])}))
         self.refused("integrals", variant(integrands=integrands))
-        self.refused("1 lower and 3 upper|2 lower and 3 upper",
+        self.refused("2 lower but 3 upper bounds",
                      variant(integrands=integrands, bounds={"integrals": ([0.0, 1.0], [2.0, 2.0, 2.0])}))
         self.refused("lower bound 2 above the upper bound 1", variant(integrands=integrands, bounds={"integrals": (2.0, 1.0)}))
 
