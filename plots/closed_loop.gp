@@ -13,7 +13,7 @@ do for [problem_word in problems_of("closed_loop", "final_distance")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_closed_loop", 560)
     figure_title = title_text(problem_label(problem).": distance of an exact plant from the final state",\
-        "Marks: plans at every sample, with disturbances one for each draw. Dotted: the first plan to the end.", "")
+        "Marks: a new plan at every sample; with disturbances, one mark per draw. Dotted: the first plan alone.", "")
     eval panels(1, 2, 95, 24, 125, 40, 30)
     eval measure("closed_loop", problem_word.",stages=1", "variables", "final_distance")
     do for [panel in "without with"] {

@@ -48,7 +48,7 @@ do for [name in "iterations iterations_limited_memory"] {
         of_paper(problem, "fig:kepler\\_iterations: 1.7 times as many",\
             "fig:twolink\\_iterations: 1.5 times as many").conditions(name)."."\
         .left_out_text(count_of("all", name, where), count_of("''", name, where)),\
-        "Lines: free variables (minus constraints, from a free basis) plus later major iterations.")
+        "Lines: free variables (minus constraints, from a free basis) plus later majors.")
     do for [kind in kinds] {
       eval begin_figure(kind, figure_of(problem), 680)
       plot for [curve in slack] rows(name, with_start(curve, "none"), "minor_iterations")\
