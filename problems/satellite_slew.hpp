@@ -61,7 +61,7 @@ class SatelliteSlew : public Problem {
   [[nodiscard]] ProblemCard card_of(const std::string& coordinates, const std::string& source,
                                     const std::string& unit_of_q) const {
     return {
-        .description = "a rigid satellite turns from rest to rest, its attitude given by " + coordinates,
+        .description = "slew of a rigid satellite from rest to rest; coordinates of its attitude: " + coordinates,
         .title = "Satellite (" + coordinates + ")",
         .axis_units = {.state = unit_of_q, .control = "N m", .momentum = "N m s", .cost = "N² m² s", .energy = "N m"},
         .source = source + "; closed form about a principal axis",
