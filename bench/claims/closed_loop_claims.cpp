@@ -33,7 +33,7 @@ const std::vector<Rivalry> rivalries{{"tangent", true}, {"tangent", false}, {"ha
 
 /// The loops of a problem with plans of one stage.
 Selection loops_of(const ResultTables& tables, const std::string& problem, const char* feedback, bool is_disturbed) {
-  const Selection loops =
+  Selection loops =
       tables.rows("closed_loop", problem).where("stages", "1").where("feedback", feedback).where([&](const Row& row) {
         return (row.needed("draw") > 0.0) == is_disturbed;
       });

@@ -27,7 +27,7 @@ std::string chart_of(const std::string& problem) { return problem + "_embedded";
 
 /// DMOC's rows of a slew with errors.
 Selection dmoc_rows(const ResultTables& tables, const char* slew) {
-  const Selection rows = midpoint(tables.rows(slew).usable(), "dmoc");
+  Selection rows = midpoint(tables.rows(slew).usable(), "dmoc");
   require(!rows.empty(), "{}.csv has no solved row of dmoc", slew);
   return rows;
 }
@@ -63,11 +63,12 @@ Finding one_optimum(const ResultTables& tables, const std::string& /*problem*/) 
 Finding one_order(const ResultTables& tables, const std::string& /*problem*/) {
   constexpr double near = 0.2;
   Selection rows;
-  for (const char* slew : slews)
+  for (const char* slew : slews) {
     rows.append(tables.rows(std::string(slew) + "_slopes").where([](const Row& row) {
       const std::string& quantity = row.text("quantity");
       return has_order(row) && (quantity == "state" || quantity == "objective" || quantity == "replay");
     }));
+  }
   const std::size_t systems = rows.distinct("problem").size();
   require(systems == 5, "the tables of orders have orders of {} systems of coordinates; five are needed", systems);
   return found(
