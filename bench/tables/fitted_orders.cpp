@@ -220,12 +220,12 @@ std::optional<std::string> note_on_missing_orders(std::span<const FittedCurve> f
   if (fits.empty() || has_order) return std::nullopt;
   // Coordinates that stay at rest next to first-order states have no error at all, and no floor of it.
   const auto has_reason = [](const FittedCurve& curve) { return curve.fit.verdict != "floor" || curve.fit.floor; };
-  const auto told = std::ranges::find_if(fits, has_reason);
+  const auto explained = std::ranges::find_if(fits, has_reason);
   const Row& head = fits.front().head;
-  const Fit& fit = told == fits.end() ? fits.front().fit : told->fit;
+  const Fit& fit = explained == fits.end() ? fits.front().fit : explained->fit;
   const std::string grids = counted(fit.grids.size(), "grid");
   std::string reason = "no four neighbouring grids have the same order; try finer grids";
-  if (told == fits.end()) {
+  if (explained == fits.end()) {
     reason = "the errors are 0: every grid has the solution of the reference";
   } else if (fit.verdict == "few grids") {
     reason = grids + "; use at least four grids besides the reference, all solved and not too coarse";
@@ -233,7 +233,7 @@ std::optional<std::string> note_on_missing_orders(std::span<const FittedCurve> f
     reason = fmt::format(
         "the {} error stops falling at {:.1e}, and {} above {:g} times this level; use coarser grids. If the level is "
         "far above round-off, reduce --tolerance, or add a small cost on each undetermined control",
-        told->quantity, *fit.floor, counted(fit.grids.size(), "grid is", "grids are"), above_floor);
+        explained->quantity, *fit.floor, counted(fit.grids.size(), "grid is", "grids are"), above_floor);
   }
   return fmt::format("{} {} {} {}: no order is fitted ({}: {})", head.text("problem"), head.text("method"),
                      head.text("tableau"), head.text("stages"), fit.verdict, reason);

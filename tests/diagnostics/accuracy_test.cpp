@@ -77,8 +77,8 @@ TEST(Accuracy, FindsACostThatOscillatesAsFastAsTheGrid) {
   EXPECT_TRUE(error_on(512).is_motion());
 }
 
-/// The same with half as many periods as intervals: the quadrature is right on average, and the price of the control is
-/// that of constant controls, 1 on average, where the reciprocal of the average reciprocal is √(1 - a²).
+/// The same with half as many periods as intervals: the quadrature is right on average. The price of constant controls
+/// is 1 on average, and the reciprocal of the average reciprocal is √(1 - a²).
 TEST(Accuracy, FindsWhatControlsThatFollowTheirPriceWithinTheIntervalsWouldSave) {
   for (const double amplitude : {0.0, 0.3, 0.5, 0.9}) {
     const tests::DoubleIntegrator base;
