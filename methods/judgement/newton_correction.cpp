@@ -15,6 +15,13 @@ namespace {
 
 using kkt::FactorisationStatus;
 
+/// The share of the largest entry of the Hessian that is added to its diagonal where eliminations lose the curvature
+/// along a control to rounding, as on a singular arc.
+constexpr double rounding_of_curvature = 1e-9;
+/// The length of a step with that shift at which the answer is settled. Along a curvature of more than this share of
+/// `settled` times the shift, which is 1e-13 of the largest entry, no longer step would become so short.
+constexpr double surely_settled = 1e-4 * settled;
+
 double largest(const Eigen::VectorXd& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0.0; }
 
 }  // namespace
@@ -31,26 +38,34 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
   step_.multipliers.setZero(multipliers.size());
   has_minimum_ = false;
   if (!conditions_.is_finite()) return unbounded;
-  const auto solved_or_failed = [&](kkt::KktSystem& system) {
+  const auto solved_or_failed = [&](kkt::KktSystem& system, const kkt::KktMatrix& matrix) {
     try {
       system.begin_solve();
-      return system.solve(kkt_matrix_of(conditions_), {conditions_.gradient, conditions_.constraints},
-                          {step_.primal, step_.multipliers});
+      return system.solve(matrix, {conditions_.gradient, conditions_.constraints}, {step_.primal, step_.multipliers});
     } catch (const Stopped&) {
       throw;
     } catch (const std::exception&) {  // the factorisation is out of memory, or fails otherwise
       return FactorisationStatus::singular;
     }
   };
-  has_minimum_ = by_intervals_ && solved_or_failed(*by_intervals_) == FactorisationStatus::solved;
+  has_minimum_ =
+      by_intervals_ && solved_or_failed(*by_intervals_, kkt_matrix_of(conditions_)) == FactorisationStatus::solved;
   if (has_minimum_) {
     measure_step(primal, memory.gradient_of_cost);
-    has_minimum_ = step_.length <= settled || refine_step();
+    has_minimum_ = step_.length <= settled || refine_step(kkt_matrix_of(conditions_));
+  }
+  if (by_intervals_ && !has_minimum_) {
+    const Eigen::VectorXd diagonal =
+        conditions_.diagonal.array() + rounding_of_curvature * largest_entry(program_, conditions_.hessian);
+    const kkt::KktMatrix shifted{conditions_.hessian, conditions_.jacobian, diagonal, conditions_.compliance};
+    has_minimum_ = solved_or_failed(*by_intervals_, shifted) == FactorisationStatus::solved && refine_step(shifted);
+    if (has_minimum_) measure_step(primal, memory.gradient_of_cost);
+    has_minimum_ = has_minimum_ && step_.length <= surely_settled;
   }
   if (!has_minimum_) {
     by_intervals_.reset();
     if (!pivoting_) pivoting_ = kkt_system_of_any_point(program_);
-    if (solved_or_failed(*pivoting_) != FactorisationStatus::solved) return std::nullopt;
+    if (solved_or_failed(*pivoting_, kkt_matrix_of(conditions_)) != FactorisationStatus::solved) return std::nullopt;
     has_minimum_ = pivoting_->has_minimum();
   }
   measure_step(primal, memory.gradient_of_cost);
@@ -67,8 +82,8 @@ std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& pri
   return step_;
 }
 
-/// Refines a step by intervals; false if it does not become the step of its system.
-bool NewtonCorrections::refine_step() {
+/// Refines a step by intervals, by `shifted` or the matrix itself; false if it does not become the step of the latter.
+bool NewtonCorrections::refine_step(const kkt::KktMatrix& shifted) {
   constexpr int most_refinements = 5;
   constexpr double accuracy = 1e-6;
   const kkt::KktMatrix matrix = kkt_matrix_of(conditions_);
@@ -79,7 +94,7 @@ bool NewtonCorrections::refine_step() {
     residual_->compute(matrix, {conditions_.gradient, conditions_.constraints}, step);
     if (residual_->excess(matrix, step, accuracy) <= 1.0) return true;
     const FactorisationStatus status =
-        by_intervals_->solve(matrix, residual_->value(), {correction.primal, correction.multipliers});
+        by_intervals_->solve(shifted, residual_->value(), {correction.primal, correction.multipliers});
     if (status != FactorisationStatus::solved) return false;
     step_.primal += correction.primal;
     step_.multipliers += correction.multipliers;

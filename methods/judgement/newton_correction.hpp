@@ -84,7 +84,7 @@ class NewtonCorrections {
 
  private:
   void measure_step(const Eigen::VectorXd& primal, const Eigen::VectorXd& gradient);
-  [[nodiscard]] bool refine_step();
+  [[nodiscard]] bool refine_step(const kkt::KktMatrix& shifted);
 
   NonlinearProgram& program_;
   std::unique_ptr<kkt::KktSystem> by_intervals_;  // until it fails once

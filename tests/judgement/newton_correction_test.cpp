@@ -132,5 +132,26 @@ TEST(NewtonCorrection, SettlesTheCrane) {
   }
 }
 
+/// The curvature along the first and last control of either arc is lost to rounding.
+TEST(NewtonCorrection, IsNotHiddenByTheShiftOnASingularArc) {
+  const auto problem = make_problem("refraction");
+  const auto program = tests::transcribe(*problem, {"hamiltonian", 1}, Grid::uniform(1024));
+  const Solution solution = make_solver("interior_point")->solve(*program, sample(*program, guessed_motion(*problem)));
+  ASSERT_EQ(solution.status, Status::solved);
+  const Eigen::VectorXd is_free =
+      (program->variable_lower().array() < program->variable_upper().array()).cast<double>();
+  const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(is_free.size(), 0.0, static_cast<double>(is_free.size()));
+  for (const double distance : {0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4}) {
+    const Eigen::VectorXd moved = solution.primal.array() + distance * is_free.array() * numbers.array().square().sin();
+    const auto is_settled = [&](NewtonCorrections::Factorisation factorisation) {
+      return tests::value_of(NewtonCorrections(*program, factorisation).at(moved, solution.multipliers)).length <=
+             settled;
+    };
+    EXPECT_EQ(is_settled(NewtonCorrections::Factorisation::by_intervals),
+              is_settled(NewtonCorrections::Factorisation::sparse))
+        << distance;
+  }
+}
+
 }  // namespace
 }  // namespace dmocbench

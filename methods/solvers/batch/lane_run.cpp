@@ -196,7 +196,8 @@ void LaneRun::solve_systems() {
       if (!is_usable) multipliers_.of(number).setZero();
     } else if (outcomes[number] == solved) {
       lane.moves = true;
-    } else if (outcomes[number] == wrong_inertia && lane.phase == LanePhase::newton && lane.shift.raise()) {
+    } else if (outcomes[number] == wrong_inertia && lane.phase == LanePhase::newton &&
+               lane.shift.raise(kkt::FactorisationStatus::wrong_inertia)) {
       lane.waits = true;
     } else {
       give_up(number);

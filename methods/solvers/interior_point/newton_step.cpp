@@ -8,23 +8,24 @@
 
 namespace dmocbench::interior_point {
 
-double InertiaShift::third_of_last() const noexcept {
+double InertiaShift::last_over(double divisor) const noexcept {
   constexpr double smallest = 1e-20;
-  return std::max(smallest, last_ / 3.0);
+  return std::max(smallest, last_ / divisor);
 }
 
-void InertiaShift::begin() noexcept { shift_ = grows_ ? third_of_last() : 0.0; }
+void InertiaShift::begin() noexcept { shift_ = grows_ ? last_over(3.0) : is_flat_ ? last_over(100.0) : 0.0; }
 
 void InertiaShift::keep() noexcept {
-  grows_ = last_ > 0.0 && shift_ > third_of_last();
+  grows_ = last_ > 0.0 && shift_ > last_over(3.0);
   if (shift_ > 0.0) last_ = shift_;
 }
 
-bool InertiaShift::raise() noexcept {
-  constexpr double first = 1e-4;
+bool InertiaShift::raise(kkt::FactorisationStatus status) noexcept {
   constexpr double largest = 1e20;
+  is_flat_ = is_flat_ || (shift_ == 0.0 && status == kkt::FactorisationStatus::singular);
+  const double first = is_flat_ ? 1e-8 : 1e-4;
   const bool is_first = last_ == 0.0;
-  shift_ = shift_ > 0.0 ? shift_ * (is_first ? 100.0 : 8.0) : is_first ? first : third_of_last();
+  shift_ = shift_ > 0.0 ? shift_ * (is_first ? 100.0 : 8.0) : is_first ? first : last_over(3.0);
   return shift_ <= largest;
 }
 
@@ -67,7 +68,7 @@ bool NewtonStep::compute(const Iterate& at, double mu, const Primal& gradient, c
     if (status == kkt::FactorisationStatus::solved) break;
     // The factorisation does not solve where a number is not finite. To look for one before would cost as much as half
     // a sweep.
-    if (!is_finite(program_.hessian()) || !shift_.raise()) return false;
+    if (!is_finite(program_.hessian()) || !shift_.raise(status)) return false;
   }
   shift_.keep();
   set_eliminated_steps(at, mu, step);

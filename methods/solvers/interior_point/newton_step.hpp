@@ -9,7 +9,9 @@ namespace dmocbench::interior_point {
 
 /// The multiple δ_w of the unit matrix that makes the Hessian positive definite on the null space of the equalities:
 /// raised until the inertia is right, starting from a third of the last shift (Algorithm IC of Wächter and
-/// Biegler). Unlike there, the system without a shift is not tried first where a third was too little the last time.
+/// Biegler). Unlike there, the system without a shift is not tried first where a third was too little the last time,
+/// nor after one without a shift was singular, as where a direction has no curvature: from then on a system begins with
+/// a hundredth, because a tiny shift is enough, and a singular system costs a sparse factorisation.
 class InertiaShift {
  public:
   /// Call before a new system with the program's Hessian.
@@ -17,17 +19,18 @@ class InertiaShift {
   /// Call before a system without a shift.
   void clear() noexcept { shift_ = 0.0; }
   [[nodiscard]] double value() const noexcept { return shift_; }
-  /// The next larger one; false beyond the largest.
-  [[nodiscard]] bool raise() noexcept;
+  /// The next larger one, after a system that was not solved; false beyond the largest.
+  [[nodiscard]] bool raise(kkt::FactorisationStatus status) noexcept;
   /// This one was enough.
   void keep() noexcept;
 
  private:
-  [[nodiscard]] double third_of_last() const noexcept;
+  [[nodiscard]] double last_over(double divisor) const noexcept;
 
   double shift_ = 0.0;
   double last_ = 0.0;
-  bool grows_ = false;  // the last system needed more than a third of the shift before it
+  bool is_flat_ = false;  // a system without a shift was singular
+  bool grows_ = false;    // the last system needed more than a third of the shift before it
 };
 
 /// The linear systems of the method. All have the form (13) of Wächter and Biegler,
