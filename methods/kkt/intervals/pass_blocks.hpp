@@ -19,19 +19,31 @@ constexpr int node_height(const auto& shape) { return whole_quads(shape.node); }
 constexpr int input_height(const auto& shape) { return whole_quads(shape.node + free_size(shape)); }
 constexpr int state_height(const auto& shape) { return whole_quads(2 * shape.node); }
 
-/// What the backward pass reads of an interval and the forward pass does not.
+/// An interval's part of the KKT system.
 template <class S>
-struct PassCostBlocks {
+struct PassInputBlocks {
   S shape;
   /// (x, u) x x': the Hessian between them.
   [[nodiscard]] constexpr BlockPlace mixed() const { return {0, input_height(shape), shape.node}; }
-  /// (x, u) x (x, u, 1): the quadratic form and gradient where x' moves with x.
+  /// (x, u) x (x, u, 1): Hessian and gradient, those of x from inequalities only.
   [[nodiscard]] constexpr BlockPlace form() const {
     return {mixed().end(), input_height(shape), shape.node + free_size(shape) + 1};
   }
   /// x' x (x', 1).
   [[nodiscard]] constexpr BlockPlace next() const { return {form().end(), node_height(shape), shape.node + 1}; }
-  [[nodiscard]] constexpr int size() const { return next().end(); }
+  /// The equalities' derivatives with respect to x', rows in the order of elimination; then their factors.
+  [[nodiscard]] constexpr BlockPlace equality() const { return {next().end(), node_height(shape), shape.node}; }
+  /// (x, u) x rows in that order: the equalities' derivatives where D = x' - x takes the place of x'. Then their
+  /// values, in the order of the program. Both are negative.
+  [[nodiscard]] constexpr BlockPlace inputs() const { return {equality().end(), input_height(shape), shape.node}; }
+  [[nodiscard]] constexpr BlockPlace residual() const { return {inputs().end(), node_height(shape), 1}; }
+  /// (D, u) x s': the derivatives of -s', in the order of elimination.
+  [[nodiscard]] constexpr BlockPlace carry() const { return {residual().end(), input_height(shape), shape.node}; }
+  /// (x', (x, u), (value, e)) x inequalities.
+  [[nodiscard]] constexpr BlockPlace inequalities() const {
+    return {carry().end(), node_height(shape) + input_height(shape) + 4, shape.inequalities};
+  }
+  [[nodiscard]] constexpr int size() const { return inequalities().end(); }
 };
 
 /// What the forward pass needs of an interval.
@@ -43,7 +55,7 @@ struct PassRecordBlocks {
   [[nodiscard]] constexpr BlockPlace constant() const { return {increment().end(), node_height(shape), 1}; }
   /// (D, u) x z': z' = (sums)ᵀ (D, u).
   [[nodiscard]] constexpr BlockPlace sums() const { return {constant().end(), input_height(shape), shape.node}; }
-  /// z x s: z = -(inverse) s.
+  /// s x z: z = -(inverse)ᵀ s.
   [[nodiscard]] constexpr BlockPlace inverse() const { return {sums().end(), node_height(shape), shape.node}; }
   /// (X) x u and u: Lᵀ u = -(gain)ᵀ X - (offset).
   [[nodiscard]] constexpr BlockPlace gain() const { return {inverse().end(), state_height(shape), free_size(shape)}; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "methods/kkt/intervals/pass_blocks.hpp"
 #include "methods/kkt/intervals/quad_products.hpp"
 #include "methods/kkt/intervals/segment_kernel.hpp"
@@ -30,16 +32,14 @@ struct PassWorkBlocks {
   }
   /// D x D: the Hessian of D.
   [[nodiscard]] constexpr BlockPlace curvature() const {
-    return {along_inputs().end(), node_height(shape), shape.node};
+    return {along_inputs().end(), node_height(shape), node_height(shape)};
   }
   /// (x, u) x D: the Hessian between them.
   [[nodiscard]] constexpr BlockPlace cross() const { return {curvature().end(), input_height(shape), shape.node}; }
   /// (x, u) x z.
   [[nodiscard]] constexpr BlockPlace of_sums() const { return {cross().end(), input_height(shape), shape.node}; }
-  /// cross + ½ Jᵀ curvature.
-  [[nodiscard]] constexpr BlockPlace half() const { return {of_sums().end(), input_height(shape), shape.node}; }
   /// (x, u) x (x, u): half of the quadratic form that D adds, not symmetric.
-  [[nodiscard]] constexpr BlockPlace added() const { return {half().end(), input_height(shape), input_count()}; }
+  [[nodiscard]] constexpr BlockPlace added() const { return {of_sums().end(), input_height(shape), input_count()}; }
   /// D x extras and (x, u) x extras: gradients.
   [[nodiscard]] constexpr BlockPlace along_increment() const {
     return {added().end(), node_height(shape), extra_count()};
@@ -98,9 +98,157 @@ struct PassSigns {
   }
 };
 
+/// Where x' is given, the terms of the Hessian that read it: no step depends on them, but they could make the pivots of
+/// an interval that carries ν negative.
+template <class S>
+DMOCBENCH_INLINE void drop_terms_of_next(const S& shape, double* input) {
+  const PassInputBlocks<S> places{shape};
+  const BlockPlace rows = places.inequalities();
+  for (int i = 0; i < places.mixed().end(); ++i) input[i] = 0.0;
+  for (int i = 0; i < node_height(shape) * shape.node; ++i) input[places.next().first + i] = 0.0;
+  for (int row = 0; row < shape.inequalities; ++row) {
+    for (int i = 0; i < shape.node; ++i) input[rows(i, row)] = 0.0;
+  }
+}
+
+/// Adds inequalities whose slacks are eliminated: their squares, weighted by 1/e.
+template <class S>
+DMOCBENCH_INLINE void add_squares(const S& shape, double* input) {
+  const int n = shape.node;
+  const int columns = n + free_size(shape);
+  const PassInputBlocks<S> places{shape};
+  const BlockPlace rows = places.inequalities();
+  for (int row = 0; row < shape.inequalities; ++row) {
+    const double* const of_next = input + rows(0, row);
+    const double* const of_input = of_next + node_height(shape);
+    const double* const value = of_input + input_height(shape);
+    const double weight = 1.0 / value[1];
+    for (int j = 0; j < columns + 1; ++j) {
+      const double factor = weight * (j < columns ? of_input[j] : value[0]);
+      for (int i = 0; i < columns; ++i) input[places.form()(i, j)] += factor * of_input[i];
+    }
+    for (int j = 0; j < n; ++j) {
+      const double factor = weight * of_next[j];
+      for (int i = 0; i < columns; ++i) input[places.mixed()(i, j)] += factor * of_input[i];
+      for (int i = 0; i < n; ++i) input[places.next()(i, j)] += factor * of_next[i];
+      input[places.next()(j, n)] += factor * value[0];
+    }
+  }
+}
+
+/// The rows of a quad after row p.
+inline constexpr Quad after[4] = {{0.0, 1.0, 1.0, 1.0}, {0.0, 0.0, 1.0, 1.0}, {0.0, 0.0, 0.0, 1.0}, {}};
+
+/// E = L U in place, the unit diagonal in L, reciprocals on that of U. Returns the smallest pivot relative to the usual
+/// one; -1 if it is not a number.
+template <class S>
+DMOCBENCH_INLINE double factorise_equalities(const S& shape, const double* pivot_scales, double* E) {
+  const int n = shape.node;
+  const int h = node_height(shape);
+  double smallest = 1e300;
+  for (int p = 0; p < n; ++p) {
+    double* const column = E + p * h;
+    const double pivot = column[p];
+    const double ratio = (pivot < 0.0 ? -pivot : pivot) * pivot_scales[p];
+    smallest = ratio >= smallest ? smallest : (ratio < smallest ? ratio : -1.0);
+    const double reciprocal = 1.0 / pivot;
+    const int own = p / 4 * 4;
+    const Quad factors = reciprocal * after[p % 4] * quad(column + own);
+    for (int i = own + 4; i < h; i += 4) quad(column + i) *= reciprocal;
+    for (int j = p + 1; j < n; ++j) {
+      double* const other = E + j * h;
+      const double factor = other[p];
+      quad(other + own) -= factor * factors;
+      for (int i = own + 4; i < h; i += 4) quad(other + i) -= factor * quad(column + i);
+    }
+    quad(column + own) = (1.0 - after[p % 4]) * quad(column + own) + factors;
+    column[p] = reciprocal;
+  }
+  return smallest;
+}
+
+/// Solves for `count` columns of 4 `down` rows with a block of the diagonal of L, or of U. Columns of X are `height`
+/// numbers apart.
+template <bool is_upper, int down>
+DMOCBENCH_INLINE void substitute(const double* E, int h, int count, int height, double* X) {
+#pragma GCC unroll 8
+  for (int step = 0; step < count; ++step) {
+    const int j = is_upper ? count - 1 - step : step;
+    Quad sums[down];
+    for (int d = 0; d < down; ++d) sums[d] = quad(X + 4 * d + j * height);
+#pragma GCC unroll 8
+    for (int before = 0; before < step; ++before) {
+      const int k = is_upper ? count - 1 - before : before;
+      const double factor = E[j + k * h];
+      for (int d = 0; d < down; ++d) sums[d] -= factor * quad(X + 4 * d + k * height);
+    }
+    const double scale = is_upper ? E[j + j * h] : 1.0;
+    for (int d = 0; d < down; ++d) quad(X + 4 * d + j * height) = is_upper ? scale * sums[d] : sums[d];
+  }
+}
+template <bool is_upper>
+DMOCBENCH_INLINE void substitute_rows(const double* E, int h, int count, int height, double* X) {
+  const int pairs = height / 8 * 8;
+  for (int i = 0; i < pairs; i += 8) substitute<is_upper, 2>(E, h, count, height, X + i);
+  if (pairs < height) substitute<is_upper, 1>(E, h, count, height, X + pairs);
+}
+
+/// X Eᵀ = B with the factors of E, for matrices with columns of `height` numbers.
+template <class S>
+DMOCBENCH_INLINE void solve_equalities(const S& shape, const double* E, int height, const double* B, double* X) {
+  const int n = shape.node;
+  const int h = node_height(shape);
+  for (int i = 0; B != X && i < height * n; i += 4) quad(X + i) = quad(B + i);
+  if constexpr (is_always_plain<S>) {
+    substitute_rows<false>(E, h, n, height, X);
+    substitute_rows<true>(E, h, n, height, X);
+  } else {
+    constexpr int most = 4;  // columns between products
+    const auto solve = [&](int begin, auto is_upper) DMOCBENCH_INLINED {
+      const int count = begin + most < n ? most : n - begin;
+      const int known = is_upper ? begin + count : 0;
+      const int depth = is_upper ? n - known : begin;
+      double* const target = X + begin * height;
+      carry_out_quads({height, count, depth, height, height, h, 1}, Update::subtract, target, X + known * height,
+                      E + begin + known * h);
+      const double* const diagonal = E + begin + begin * h;
+      if (count == most) return substitute_rows<is_upper>(diagonal, h, most, height, target);
+      substitute_rows<is_upper>(diagonal, h, count, height, target);
+    };
+    for (int begin = 0; begin < n; begin += most) solve(begin, std::false_type());
+    for (int begin = (n - 1) / most * most; begin >= 0; begin -= most) solve(begin, std::true_type());
+  }
+}
+
+/// E⁻¹, D and z' of the record; `next_E` has the factors of the next interval, and is null at the end, where z' is s'.
+template <class S>
+DMOCBENCH_INLINE void record_equalities(const S& shape, const double* input, const double* next_E,
+                                        const int* places_of_rows, double* record) {
+  const int n = shape.node;
+  const int a = input_height(shape);
+  const int h = node_height(shape);
+  const PassInputBlocks<S> inputs{shape};
+  const PassRecordBlocks<S> records{shape};
+  const double* const E = input + inputs.equality().first;
+  double* const inverse = record + records.inverse().first;
+  double* const r = record + records.constant().first;
+  for (int i = 0; i < h * n; i += 4) quad(inverse + i) = Quad{};
+  for (int i = 0; i < n; ++i) inverse[i + places_of_rows[i] * h] = 1.0;
+  solve_equalities(shape, E, h, inverse, inverse);
+  solve_equalities(shape, E, a, input + inputs.inputs().first, record + records.increment().first);
+  for_dots<S>(inverse, h, n, n, input + inputs.residual().first,
+              [&](int i, double dot) DMOCBENCH_INLINED { r[i] = dot; });
+  const double* const carry = input + inputs.carry().first;
+  double* const G = record + records.sums().first;
+  if (next_E != nullptr) return solve_equalities(shape, next_E, a, carry, G);
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < a; i += 4) quad(G + i + j * a) = -quad(carry + i + places_of_rows[j] * a);
+  }
+}
+
 /// The quadratic form of D: `curvature`, `cross` and `along_state`, `along_inputs` that they are made of.
 template <class S>
-DMOCBENCH_INLINE void differentiate_sums(const S& shape, const double* cost, const double* G, const double* value,
+DMOCBENCH_INLINE void differentiate_sums(const S& shape, const double* input, const double* G, const double* value,
                                          double* work) {
   const int n = shape.node;
   const int m = free_size(shape);
@@ -113,17 +261,17 @@ DMOCBENCH_INLINE void differentiate_sums(const S& shape, const double* cost, con
   double* const A = work + places.curvature().first;
   double* const U = work + places.cross().first;
   double* const T = work + places.turned().first;
-  const double* const mixed = cost + PassCostBlocks<S>{shape}.mixed().first;
+  const double* const mixed = input + PassInputBlocks<S>{shape}.mixed().first;
   const auto along_state = [](const auto& s) {
     const int rows = input_height(s);
     return QuadSizes{rows, 2 * s.node, s.node, rows, rows, 1, state_height(s)};
   };
   const auto along_inputs = [](const auto& s) {
     const int rows = input_height(s);
-    return QuadSizes{rows, s.node + free_size(s), s.node, rows, rows, rows, 1};
+    return QuadSizes{rows, s.node + free_size(s), s.node, rows, rows, rows, 1, true};
   };
   multiply<Update::set>(shape, along_state, W, G, P + n);
-  multiply<Update::set>(shape, along_inputs, M, W + n * a, G);
+  multiply<Update::set>(shape, along_inputs, M, W + n * a, G);  // symmetric
   const int h = node_height(shape);
   set_transposed(T, h, W, a, n, n);
   for (int j = 0; j < n; ++j) {
@@ -135,11 +283,12 @@ DMOCBENCH_INLINE void differentiate_sums(const S& shape, const double* cost, con
     for (int i = n; i < n + m; ++i) U[i + j * a] = M[i + j * a] + W[i + j * a] + mixed[i + j * a];
     for (int i = n + m; i < a; ++i) U[i + j * a] = 0.0;
   }
+  mirror(A, h);
 }
 
 /// The gradients of D and of (x, u), one per extra column, and what the constant r adds to γ.
 template <class S, bool has_end>
-DMOCBENCH_INLINE void differentiate_extras(const S& shape, const double* cost, const double* record, double* value,
+DMOCBENCH_INLINE void differentiate_extras(const S& shape, const double* input, const double* record, double* value,
                                            double* work) {
   const int n = shape.node;
   const int m = free_size(shape);
@@ -172,7 +321,7 @@ DMOCBENCH_INLINE void differentiate_extras(const S& shape, const double* cost, c
     for (int i = n; i < n + m; ++i) of_input[i + j * a] = W[i + j * a];
     for (int i = n + m; i < a; ++i) of_input[i + j * a] = 0.0;
   }
-  for (int i = 0; i < n + m; ++i) of_input[i] += cost[PassCostBlocks<S>{shape}.form()(i, n + m)];
+  for (int i = 0; i < n + m; ++i) of_input[i] += input[PassInputBlocks<S>{shape}.form()(i, n + m)];
   double* const gamma = value + PassValueBlocks<S>{shape}.reachability().first;
   for (int j = 1; j < extra; ++j) {
     for (int i = 0; i < n; ++i) gamma[j - 1] += of_D[i + j * h] * r[i];
@@ -198,7 +347,7 @@ DMOCBENCH_INLINE void differentiate_extras(const S& shape, const double* cost, c
 
 /// The quadratic form in (u, X): the rows of u go to the work, the others replace the cost-to-go.
 template <class S, bool has_end>
-DMOCBENCH_INLINE void condense_pass(const S& shape, const double* cost, const double* J, double* value, double* work) {
+DMOCBENCH_INLINE void condense_pass(const S& shape, const double* input, const double* J, double* value, double* work) {
   const int n = shape.node;
   const int m = free_size(shape);
   const int a = input_height(shape);
@@ -207,14 +356,14 @@ DMOCBENCH_INLINE void condense_pass(const S& shape, const double* cost, const do
   const int g = whole_quads(m);
   const PassWorkBlocks<S> places{shape};
   const double* const A = work + places.curvature().first;
-  const double* const U = work + places.cross().first;
+  double* const U = work + places.cross().first;
   const double* const W = work + places.along_state().first;
   const double* const M = work + places.along_inputs().first;
   double* const Y = work + places.of_sums().first;
-  double* const half = work + places.half().first;
   double* const K = work + places.added().first;
   double* const T = work + places.turned().first;
-  const double* const form = cost + PassCostBlocks<S>{shape}.form().first;
+  const double* const form = input + PassInputBlocks<S>{shape}.form().first;
+  const double* const mixed = input + PassInputBlocks<S>{shape}.mixed().first;
   multiply<Update::set>(
       shape,
       [](const auto& s) {
@@ -223,8 +372,9 @@ DMOCBENCH_INLINE void condense_pass(const S& shape, const double* cost, const do
       },
       Y, J, A);
   for (int i = 0; i < a * n; i += 4) {
-    quad(half + i) = quad(U + i) + 0.5 * quad(Y + i);
-    quad(Y + i) += quad(U + i);
+    const Quad of_sums = quad(Y + i);
+    quad(Y + i) = quad(U + i) + of_sums;
+    quad(U + i) += 0.5 * of_sums;
   }
   multiply<Update::set>(
       shape,
@@ -232,35 +382,32 @@ DMOCBENCH_INLINE void condense_pass(const S& shape, const double* cost, const do
         const int rows = input_height(s);
         return QuadSizes{rows, s.node + free_size(s), s.node, rows, rows, rows, 1};
       },
-      K, half, J);
+      K, U, J);
+  // Half of the form, apart from `form`: x' moves with x too.
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) K[i + j * a] += mixed[i + j * a];
+    for (int i = n; i < n + m; ++i) K[i + j * a] += mixed[i + j * a] + W[i + j * a];
+  }
   // Rows of u.
   double* const Z = work + places.eliminated().first;
   double* const R = work + places.pivots().first;
+  set_transposed(Z, b, K + n, a, m, n);
+  set_transposed(Z + n, b, Y + n, a, m, n);
+  set_transposed(R, g, K + n + n * a, a, m, m);
   for (int j = 0; j < m; ++j) {
-    for (int i = 0; i < n; ++i) {
-      Z[i + j * b] = form[i + (n + j) * a] + K[i + (n + j) * a] + W[n + j + i * a] + K[n + j + i * a];
-      Z[n + i + j * b] = Y[n + j + i * a];
-    }
+    const int column = (n + j) * a;
+    for (int i = 0; i < n; ++i) Z[i + j * b] += form[i + column] + K[i + column];
     for (int i = 2 * n; i < b; ++i) Z[i + j * b] = 0.0;
-    for (int i = 0; i < m; ++i) {
-      const int at = n + i + (n + j) * a;
-      R[i + j * g] = form[at] + M[at] + K[at] + K[n + j + (n + i) * a];
-    }
+    for (int i = 0; i < m; ++i) R[i + j * g] += form[n + i + column] + M[n + i + column] + K[n + i + column];
     for (int i = m; i < g; ++i) R[i + j * g] = 0.0;
   }
-  // The others.
+  // The others, of which the lower triangle counts.
   double* const P = value;
   set_transposed(T, h, K, a, n, n);
+  set_transposed(P + n, b, Y, a, n, n);
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) P[i + j * b] += form[i + j * a] + K[i + j * a] + T[i + j * h];
-  }
-  set_transposed(T, h, Y, a, n, n);
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      P[n + i + j * b] = T[i + j * h];
-      P[i + (n + j) * b] = Y[i + j * a];
-      P[n + i + (n + j) * b] = A[i + j * h];
-    }
+    for (int i = 0; i < n; ++i) P[n + i + (n + j) * b] = A[i + j * h];
   }
   const double* const of_D = work + places.along_increment().first;
   const double* const of_input = work + places.gradient().first;
@@ -295,10 +442,13 @@ DMOCBENCH_INLINE void factorise_inputs(const S& shape, double* record, double* e
   double* const diagonal = work + places.turned().first;
   for (int p = 0; p < m; ++p) diagonal[p] = R[p + p * g];
   for (int p = 0; p < m; ++p) {
-    for (int q = 0; q < p; ++q) {
-      const double factor = L[p + q * g];
-      for (int i = 0; i < b; i += 4) quad(Z + i + p * b) -= factor * quad(Z + i + q * b);
-      for (int j = 0; j < extra; ++j) offset[p + j * g] -= factor * offset[q + j * g];
+    for (int i = 0; i < b; i += 4) {
+      Quad sum = quad(Z + i + p * b);
+      for (int q = 0; q < p; ++q) sum -= L[p + q * g] * quad(Z + i + q * b);
+      quad(Z + i + p * b) = sum;
+    }
+    for (int j = 0; j < extra; ++j) {
+      for (int q = 0; q < p; ++q) offset[p + j * g] -= L[p + q * g] * offset[q + j * g];
     }
     signs.note(R[p + p * g], diagonal[p]);
     const double reciprocal = 1.0 / R[p + p * g];
@@ -368,20 +518,20 @@ DMOCBENCH_INLINE void advance_pass(const S& shape, double* record, double* end_r
 
 /// Eliminates an interval in front of the cost-to-go.
 template <class S, bool has_end>
-DMOCBENCH_INLINE void pass_backward(const S& shape, const double* cost, double* record, double* end_record,
+DMOCBENCH_INLINE void pass_backward(const S& shape, const double* input, double* record, double* end_record,
                                     double* value, double* work, PassSigns& signs) {
   const int n = shape.node;
   const int b = state_height(shape);
-  const BlockPlace next = PassCostBlocks<S>{shape}.next();
+  const BlockPlace next = PassInputBlocks<S>{shape}.next();
   const PassRecordBlocks<S> records{shape};
   for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) value[i + j * b] += cost[next(i, j)];
+    for (int i = 0; i < n; ++i) value[i + j * b] += input[next(i, j)];
   }
   double* const p = value + PassValueBlocks<S>{shape}.extras().first;
-  for (int i = 0; i < n; ++i) p[i] += cost[next(i, n)];
-  differentiate_sums(shape, cost, record + records.sums().first, value, work);
-  differentiate_extras<S, has_end>(shape, cost, record, value, work);
-  condense_pass<S, has_end>(shape, cost, record + records.increment().first, value, work);
+  for (int i = 0; i < n; ++i) p[i] += input[next(i, n)];
+  differentiate_sums(shape, input, record + records.sums().first, value, work);
+  differentiate_extras<S, has_end>(shape, input, record, value, work);
+  condense_pass<S, has_end>(shape, input, record + records.increment().first, value, work);
   factorise_inputs<S, has_end>(shape, record, end_record, work, signs);
   advance_pass<S, has_end>(shape, record, end_record, value, work);
 }
@@ -421,8 +571,12 @@ DMOCBENCH_INLINE void pass_forward(const S& shape, const double* record, const d
     for (int q = p + 1; q < m; ++q) u[p] -= L[q + p * g] * u[q];
   }
   double* const multipliers = work + places.multipliers().first;
-  for_dots<S>(record + records.inverse().first, h, n, n, costate,
-              [&](int i, double dot) DMOCBENCH_INLINED { multipliers[i] = -dot; });
+  const double* const inverse = record + records.inverse().first;
+  for (int i = 0; i < h; i += 4) {
+    Quad sum{};
+    for (int j = 0; j < n; ++j) sum -= costate[j] * quad(inverse + i + j * h);
+    quad(multipliers + i) = sum;
+  }
   for (int i = 0; i < n; ++i) inputs[i] = X[i];
   double* const D = costate;  // no longer needed
   const double* const r = record + records.constant().first;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "methods/kkt/intervals/pass_blocks.hpp"
+#include "methods/kkt/intervals/pass_gathers.hpp"
 #include "methods/runtime/parallel.hpp"
 
 namespace dmocbench::kkt {
@@ -68,6 +69,14 @@ bool SinglePass::use(const EliminationPlan& plan, InstructionSet set) {
   pass_.workspace = workspace_[0].numbers.data();
   pass_.scatters = scatters_.data();
   pass_.scatter_count = static_cast<int>(scatters_.size());
+  gathers_ = pass_gathers(entries_, plan);
+  pass_.gathers = gathers_.data();
+  pass_.gather_count = static_cast<int>(gathers_.size());
+  units_ = pass_units(entries_);
+  pass_.unit_slots = units_.data();
+  pass_.unit_count = static_cast<int>(units_.size());
+  places_of_rows_ = places_of_rows(plan);
+  pass_.places_of_rows = places_of_rows_.data();
   last_sums_.resize(shape.node);
   factor_.resize(X, X);
   solved_.resize(X, X + 1);
@@ -81,26 +90,35 @@ SinglePass::Outcome SinglePass::solve(const EliminationPlan& plan, const NewtonA
   for (int i = 0; i < node; ++i) {
     last_sums_[i] = -arrays.at(Source::rows, entries_.equality_rows[static_cast<std::size_t>(i)] + N);
   }
-  kernel_.start(plan, last_sums_.data(), pass_);
-  int at = N;  // intervals from here on are eliminated
-  for (int carried = 2; at > 0; carried *= 2) {
-    const int begin = std::max(N - carried, 0);
-    kernel_.backward(plan, arrays, begin, at, true, pass_);
-    at = begin;
-    if (!pass_.pivots_hold) return Outcome::undecided;
-    if (factorise_reachability()) break;
-    if (at == 0 || carried == most_carried) return Outcome::undecided;
+  // Four keep a digit more than two (README.md), but with a free end fewer of them have a minimum.
+  int at = -1;  // intervals from here on carry ν
+  for (int carried = N < 32 ? 2 : 4; at < 0 && carried > 1; carried /= 2) {
+    at = carry_end_multiplier(plan, arrays, carried);
   }
+  if (at < 0) return Outcome::undecided;
   eliminate_end_multiplier();
-  const int first_with_nu = at;
-  kernel_.backward(plan, arrays, 0, first_with_nu, false, pass_);
+  kernel_.backward(plan, arrays, 0, at, false, pass_);
   if (!(pass_.smallest_ratio > smallest_trusted_ratio)) return Outcome::undecided;
   if (!pass_.pivots_hold) return pass_.is_negative ? Outcome::wrong_inertia : Outcome::undecided;
-  kernel_.forward(plan, pass_, 0, first_with_nu, nullptr, step.primal.data(), step.multipliers.data());
+  kernel_.forward(plan, pass_, 0, at, nullptr, step.primal.data(), step.multipliers.data());
   find_end_multiplier();
-  kernel_.forward(plan, pass_, first_with_nu, N, end_.data(), step.primal.data(), step.multipliers.data());
+  kernel_.forward(plan, pass_, at, N, end_.data(), step.primal.data(), step.multipliers.data());
   write_ends(step);
   return Outcome::solved;
+}
+
+/// Eliminates the last intervals, `carried` or more, until Γ shows that they reach every state. Returns the first of
+/// them; -1 if a pivot is not positive, or too many intervals do not suffice.
+int SinglePass::carry_end_multiplier(const EliminationPlan& plan, const NewtonArrays& arrays, int carried) {
+  const int N = pass_.intervals;
+  kernel_.start(plan, last_sums_.data(), pass_);
+  for (int end = N;; carried *= 2) {
+    const int begin = std::max(N - carried, 0);
+    kernel_.backward(plan, arrays, begin, end, true, pass_);
+    if (pass_.pivots_hold && factorise_reachability()) return begin;
+    if (!pass_.pivots_hold || begin == 0 || carried >= most_carried) return -1;
+    end = begin;
+  }
 }
 
 /// Γ = LLᵀ; L has the reciprocals of its diagonal. False if Γ is not positive definite, or badly conditioned.

@@ -39,6 +39,7 @@ class SinglePass {
   [[nodiscard]] Outcome solve(const EliminationPlan& plan, const NewtonArrays& arrays, const KktStep& step);
 
  private:
+  [[nodiscard]] int carry_end_multiplier(const EliminationPlan& plan, const NewtonArrays& arrays, int carried);
   [[nodiscard]] bool factorise_reachability();
   void eliminate_end_multiplier();
   void find_end_multiplier();
@@ -48,6 +49,9 @@ class SinglePass {
   PassKernel kernel_{};
   Pass pass_;
   std::vector<Scatter> scatters_;
+  std::vector<PassGather> gathers_;
+  std::vector<int> units_;
+  std::vector<int> places_of_rows_;
   NumberLines numbers_;  // the value and all records
   NumberLines workspace_;
   Eigen::VectorXd last_sums_;
