@@ -1,11 +1,11 @@
 #include "methods/diagnostics/control_saving.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Core>
 #include <boost/math/quadrature/gauss.hpp>
 
+#include "methods/expression/derivatives.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/elements/tableau.hpp"
@@ -15,14 +15,19 @@ namespace dmocbench {
 
 namespace {
 
-/// What H at one time is a sum of: C, f, g, then the integrands and the path constraints.
+/// What H at one time is a sum of, C, f, g, the integrands, u and the path constraints, with the first and second
+/// derivatives by each control: a row per term, 1 + 2m columns.
 ExpressionVector terms_of_hamiltonian(const TracedProblem& traced, const ControlledState& x) {
   const TracedProblem::Values values = traced.at(x);
+  const Eigen::Index m = x.u.size();
   ExpressionVector terms(1 + values.control_force.size() + values.first_order_rates.size() + values.integrands.size() +
-                         values.path_constraints.size());
-  terms << values.running_cost, values.control_force, values.first_order_rates, values.integrands,
+                         m + values.path_constraints.size());
+  terms << values.running_cost, values.control_force, values.first_order_rates, values.integrands, x.u,
       values.path_constraints;
-  return terms;
+  ExpressionMatrix table(terms.size(), 1 + 2 * m);
+  table.leftCols(1 + m) << terms, jacobian(terms, x.u);
+  for (Eigen::Index j = 0; j < m; ++j) table.col(1 + m + j) = jacobian(table.col(1 + j), x.u.segment(j, 1));
+  return table.reshaped();
 }
 
 /// H at one time of an interval, as a function of u; see `control_saving`.
@@ -33,8 +38,8 @@ class HamiltonianOfControl {
         terms_(
             traced.configuration_size(), traced.control_size(),
             [&](const ControlledState& x) { return terms_of_hamiltonian(traced, x); }, traced.first_order_size()),
-        values_(terms_.output_count()),
-        weights_(terms_.output_count()),
+        values_(terms_.output_count() / (1 + 2 * traced.control_size()), 1 + 2 * traced.control_size()),
+        weights_(values_.rows()),
         sizes_(trajectory.stage_u.cwiseAbs().colwise().maxCoeff().transpose()) {
     sizes_ = (sizes_.array() > 0.0).select(sizes_, 1.0);
   }
@@ -42,27 +47,17 @@ class HamiltonianOfControl {
   /// H(u) - H(u + δu) at a time of interval k; 0 where δu does not lower H.
   [[nodiscard]] double saving(Eigen::Index k, double t) {
     set_time(k, t);
-    constexpr double difference = 1e-3;  // these are shares of the size of a control
-    constexpr double flattest = 1e-4;    // second difference of H for the whole size, as a share of its terms
-    constexpr double farthest = 10.0;
-    const Eigen::VectorXd u = point_.u;
-    const double here = at(u);
-    Eigen::VectorXd better = u;
-    for (Eigen::Index j = 0; j < u.size(); ++j) {
-      const auto moved = [&](double share) {
-        Eigen::VectorXd other = u;
-        other[j] += share * sizes_[j];
-        return at(other);
-      };
-      const double above = moved(difference);
-      const double terms = values_.cwiseAbs().dot(weights_.cwiseAbs());  // their sum may vanish, and all of them at u
-      const double below = moved(-difference);
-      const double slope = (above - below) / (2.0 * difference);
-      const double curvature = (above - 2.0 * here + below) / (difference * difference);
-      if (!(curvature > flattest * terms)) continue;
-      better[j] -= std::clamp(slope / curvature, -farthest, farthest) * sizes_[j];
+    constexpr double flattest = 1e-4;  // H_uu for the whole size of a control, as a share of the terms of H
+    constexpr double farthest = 10.0;  // of these sizes
+    const Eigen::VectorXd here = at(point_.u);
+    const double terms = values_.col(0).cwiseAbs().dot(weights_.cwiseAbs());  // their sum may vanish
+    Eigen::VectorXd better = point_.u;
+    for (Eigen::Index j = 0; j < better.size(); ++j) {
+      const double slope = here[1 + j] * sizes_[j];
+      const double curvature = here[1 + better.size() + j] * sizes_[j] * sizes_[j];
+      if (curvature > flattest * terms) better[j] -= std::clamp(slope / curvature, -farthest, farthest) * sizes_[j];
     }
-    return std::max(0.0, here - at(better));
+    return std::max(0.0, here[0] - at(better)[0]);
   }
 
  private:
@@ -80,7 +75,6 @@ class HamiltonianOfControl {
     };
     point_ = {configuration_at(trajectory_, t), velocity_on_interval(trajectory_, k, t),
               control_on_interval(trajectory_, k, t), first_order_on_interval(trajectory_, k, t)};
-    price_of_u_ = of_stages(trajectory_.prices.stage_u);
     weights_.setZero();
     weights_[0] = 1.0;
     Eigen::Index first = 1;
@@ -91,22 +85,23 @@ class HamiltonianOfControl {
     append(of_nodes(trajectory_.psi_p), point_.q.size());
     append(of_nodes(trajectory_.psi_y), point_.y.size());
     append(-trajectory_.integral_prices, trajectory_.integrals.size());
+    append(-of_stages(trajectory_.prices.stage_u), point_.u.size());
     append(-of_stages(trajectory_.prices.path), weights_.size() - first);
   }
 
-  [[nodiscard]] double at(const Eigen::VectorXd& u) {
-    terms_.evaluate(point_.q, point_.v, u, t_, values_, point_.y);
-    return values_.dot(weights_) - (price_of_u_.size() > 0 ? price_of_u_.dot(u) : 0.0);
+  /// H, H_{u_j} for every j, then H_{u_j u_j}.
+  [[nodiscard]] Eigen::VectorXd at(const Eigen::VectorXd& u) {
+    terms_.evaluate(point_.q, point_.v, u, t_, values_.reshaped(), point_.y);
+    return values_.transpose() * weights_;
   }
 
   const Trajectory& trajectory_;
   PointFunction terms_;
-  Eigen::VectorXd values_;
+  Eigen::MatrixXd values_;  // of the terms and their derivatives
   Eigen::VectorXd weights_;
   Eigen::VectorXd sizes_;
   MotionPoint point_;
   double t_ = 0.0;
-  Eigen::VectorXd price_of_u_;
 };
 
 }  // namespace

@@ -6,16 +6,21 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "methods/error.hpp"
 #include "methods/expression/enclosure.hpp"
+#include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/formulas_along_motion.hpp"
 #include "methods/mechanics/member_name.hpp"
 #include "methods/mechanics/phased_problem.hpp"
 #include "methods/numerics/dense_solve.hpp"
 #include "methods/transcription/elements/tableau.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/points_along.hpp"
 
 namespace dmocbench {
 
@@ -128,6 +133,48 @@ struct Worst {
   double time = 0.0;
   Eigen::RowVectorXd point;  // (q, v, u, y, t)
 };
+
+/// The prices of bounds on (q, v, u, y, h) in every interval, a row each, 0 for u: the sum of those at both nodes, or
+/// the integral of those at the stages.
+Eigen::MatrixXd prices_of_intervals(const Trajectory& trajectory, Eigen::Index path_constraints) {
+  const Eigen::Index n = trajectory.q.cols();
+  const Eigen::Index count = trajectory.intervals();
+  const Eigen::Index first_of_y = 2 * n + trajectory.stage_u.cols();
+  const Eigen::Index first_of_path = first_of_y + trajectory.y.cols();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, first_of_path + path_constraints);
+  const auto of_nodes = [&](const Eigen::MatrixXd& table, Eigen::Index first) {
+    if (table.cols() > 0) all.middleCols(first, table.cols()) = table.topRows(count) + table.bottomRows(count);
+  };
+  const auto of_stages = [&](const Eigen::MatrixXd& table, Eigen::Index first) {
+    if (table.cols() == 0) return;
+    all.middleCols(first, table.cols()) =
+        (trajectory.node_times.tail(count) - trajectory.node_times.head(count)).asDiagonal() *
+        weighted_stages(table, trajectory.tableau.b, 0, count);
+  };
+  of_nodes(trajectory.prices.q, 0);
+  of_stages(trajectory.prices.stage_v, n);
+  of_nodes(trajectory.prices.y, first_of_y);
+  of_stages(trajectory.prices.path, first_of_path);
+  constexpr double smallest = 1e-6;  // of the largest in its column; others belong to bounds that are not active
+  for (auto of_bound : all.colwise()) {
+    of_bound = (of_bound.array().abs() > smallest * of_bound.lpNorm<Eigen::Infinity>()).select(of_bound, 0.0);
+  }
+  return all;
+}
+
+/// (q, v, y) of a node and its rate under the controls of interval k, a column each.
+Eigen::MatrixXd state_and_rate(EquationsOfMotion& motion, const Trajectory& trajectory, Eigen::Index node,
+                               Eigen::Index k) {
+  const auto [q, v, none, y] = trajectory.node(node);
+  const double t = trajectory.node_times[node];
+  Eigen::MatrixXd both(q.size() + v.size() + y.size(), 2);
+  both.col(0) << q, v, y;
+  const std::vector<double> state(both.col(0).begin(), both.col(0).end());
+  std::vector<double> rate(state.size());
+  motion.write_rate(state, control_on_interval(trajectory, k, t), t, rate);
+  both.col(1) = Eigen::Map<const Eigen::VectorXd>(rate.data(), both.rows());
+  return both;
+}
 
 /// Evaluates a motion at points between the stages, for some intervals at a time, and keeps the worst violation of each
 /// bound and path constraint.
@@ -498,11 +545,68 @@ class Measurement {
     return largest;
   }
 
+  /// (q, v, u, y, t) at the points of interval k, (q, v, y) by the cubic polynomials through both nodes and the rates.
+  [[nodiscard]] Eigen::MatrixXd cubic(EquationsOfMotion& motion, Eigen::Index k) const {
+    const double h = trajectory_.step(k);
+    const Eigen::MatrixXd left = state_and_rate(motion, trajectory_, k, k);
+    const Eigen::MatrixXd right = state_and_rate(motion, trajectory_, k + 1, k);
+    Eigen::MatrixXd rows(points, rows_.cols());
+    for (Eigen::Index i = 0; i < points; ++i) {
+      const double tau = tau_of(i);
+      const double rest = 1.0 - tau;
+      const double t = trajectory_.node_times[k] + tau * h;
+      const Eigen::VectorXd x = rest * rest * ((1.0 + 2.0 * tau) * left.col(0) + h * tau * left.col(1)) +
+                                tau * tau * ((1.0 + 2.0 * rest) * right.col(0) - h * rest * right.col(1));
+      rows.row(i) << x.head(2 * n_).transpose(), control_on_interval(trajectory_, k, t).transpose(),
+          x.tail(l_).transpose(), t;
+    }
+    return rows;
+  }
+
+  /// What all excesses together add to the cost, and the one that adds most; see `MotionViolation::is_priced`.
+  [[nodiscard]] MotionViolation priced() {
+    constexpr double smallest_cost = 1e-6;  // below it round-off and the tolerance decide
+    MotionViolation found;
+    const Eigen::MatrixXd prices = prices_of_intervals(trajectory_, std::ssize(violated_));
+    if (prices.isZero(0.0) || traced_.has_embedding()) return found;
+    EquationsOfMotion motion(traced_);
+    double largest = 0.0;
+    double sum = 0.0;
+    const auto add = [&](Eigen::Index k, Eigen::Index j, double lower, double upper, const Eigen::VectorXd& values,
+                         const Eigen::VectorXd& times) {
+      Eigen::Index at = 0;
+      const double excess = prices(k, j) > 0.0 ? lower - values.minCoeff(&at) : values.maxCoeff(&at) - upper;
+      const double worth = std::abs(prices(k, j)) * excess;
+      if (!(worth > 0.0) || std::isinf(worth)) return;
+      sum += worth;
+      if (worth <= largest) return;
+      largest = worth;
+      const Eigen::Index bounds = scales_.size();
+      found = {0.0, excess, j < bounds ? name_of_bound(j) : name_of_path(j - bounds), j < bounds, true, k, times[at]};
+    };
+    for (Eigen::Index k = 0; k < trajectory_.intervals(); ++k) {
+      if (prices.row(k).isZero(0.0)) continue;
+      try {
+        const Eigen::MatrixXd rows = cubic(motion, k);
+        const Eigen::VectorXd times = rows.rightCols(1);
+        for (Eigen::Index j = 0; j < scales_.size(); ++j) add(k, j, lower_[j], upper_[j], rows.col(j), times);
+        if (!path_) continue;
+        const Eigen::MatrixXd h = path_->at(rows, points);
+        for (Eigen::Index i = 0; i < h.cols(); ++i) {
+          add(k, scales_.size() + i, path_bounds_.lower[i], path_bounds_.upper[i], h.col(i), times);
+        }
+      } catch (const Error&) {  // L_vv is singular at a node
+      }
+    }
+    found.share = share_per_added_cost * sum / std::max(std::abs(trajectory_.cost), smallest_cost);
+    return found;
+  }
+
   [[nodiscard]] ViolationBetweenStages summary() {
     ViolationBetweenStages found;
     const auto take = [&](MotionViolation& kept, double share, const Worst& worst, const std::string& name,
                           bool is_bound) {
-      if (share > kept.share) kept = {share, worst.amount, name, is_bound, worst.interval, worst.time};
+      if (share > kept.share) kept = {share, worst.amount, name, is_bound, false, worst.interval, worst.time};
     };
     for (Eigen::Index j = 0; j < scales_.size(); ++j) {
       const Worst& worst = outside_[static_cast<std::size_t>(j)];
@@ -518,6 +622,7 @@ class Measurement {
       found.largest = std::max(found.largest, worst.amount);
       if (worst.amount > 0.0) take(found.state, path_share(i, worst), worst, name_of_path(i), false);
     }
+    if (MotionViolation worst = priced(); worst.share > found.state.share) found.state = std::move(worst);
     return found;
   }
 
@@ -565,7 +670,11 @@ std::string ViolationBetweenStages::words(const Problem& problem, const Trajecto
     text += fmt::format(" {} is violated by {:.2g} at {} (interval {}){}.", worst.constraint, worst.size,
                         time_in_words(problem, worst.time), worst.interval, size);
   };
-  if (!keeps_state()) {
+  if (!keeps_state() && state.is_priced) {
+    add(state, fmt::format(". If bounds held between their points too, the cost would grow by about {:.2g} of its "
+                           "value. If it grows with every finer grid, no trajectory may keep this bound",
+                           state.share / share_per_added_cost));
+  } else if (!keeps_state()) {
     add(state, state.share > 1.0 ? ", more than its scale" : fmt::format(", {:.2g} of its scale", state.share));
   }
   if (!keeps_controls()) {
@@ -590,9 +699,9 @@ std::string ViolationBetweenStages::words(const Problem& problem, const Trajecto
 ViolationBetweenStages violation_between_stages(const Problem& problem, const TracedProblem& traced,
                                                 const Trajectory& trajectory) {
   const ProblemBounds bounds = problem.bounds();
-  const bool is_bounded = bounds.q.any() || bounds.v.any() || bounds.u.any() || bounds.y.any();
-  // With one stage u is constant in an interval, and q is linear.
-  const bool may_leave_bounds = (is_bounded && trajectory.stages() > 1) || bounds.v.any();
+  // With one stage u is constant in an interval.
+  const bool may_leave_bounds =
+      bounds.q.any() || bounds.v.any() || bounds.y.any() || (bounds.u.any() && trajectory.stages() > 1);
   if (!may_leave_bounds && traced.path_constraint_count() == 0) return {};
   return Measurement(problem, bounds, traced, trajectory).measured();
 }

@@ -286,5 +286,52 @@ TEST(ViolationBetweenStages, OfASmoothMotionAlongAConstraintFallsWithTheSquareOf
   EXPECT_LT(share(128), 0.5 * share(32));
 }
 
+/// A mass that leaves q = 0 at one speed and comes back at another, below a bound on q, by a bounded force.
+class MassBelowABound final : public tests::SmallProblem {
+ public:
+  MassBelowABound(double first_speed, double last_speed, double horizon, double highest, double most_force)
+      : SmallProblem("mass_below_a_bound", at(0.0, first_speed), at(0.0, last_speed), horizon, 1),
+        highest_(highest),
+        most_force_(most_force) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = SmallProblem::bounds();
+    bounds.q = tests::all_between(1, -tests::infinity, highest_);
+    bounds.u = tests::all_between(1, -most_force_, most_force_);
+    return bounds;
+  }
+
+ private:
+  double highest_;
+  double most_force_;
+};
+
+TEST(ViolationBetweenStages, IsPricedByWhatABoundThatIsLowerByTheExcessAddsToTheCost) {
+  // Unbounded, q = 3t - 3t² reaches 0.75 at t = ½, half way between two nodes, where one stage has a line.
+  const auto below = [](double bound) { return MassBelowABound(3.0, -3.0, 1.0, bound, 100.0); };
+  for (const tests::Scheme& scheme : {Scheme{"dmoc"}, Scheme{"hamiltonian"}, Scheme{"tangent"}}) {
+    const Trajectory motion = solved_on(below(0.7), scheme, 17);
+    const MotionViolation found = violation_of(below(0.7), motion).state;
+    EXPECT_TRUE(found.is_priced) << scheme.label();
+    EXPECT_EQ(found.interval, 8) << scheme.label();
+    EXPECT_EQ(found.constraint, "bounds().q: q[0] (q1)") << scheme.label();
+    const double added = solved_on(below(0.7 - found.size), scheme, 17).cost - motion.cost;
+    EXPECT_NEAR(found.share / share_per_added_cost * motion.cost, added, 0.1 * added) << scheme.label();
+  }
+}
+
+TEST(ViolationBetweenStages, IsSeenWhereNoForceStopsAMassBeforeAWallButTheNodesLieOnBothSidesOfTheTurn) {
+  for (const tests::Scheme& scheme : {Scheme{"dmoc", 1}, Scheme{"tangent", 1}, Scheme{"dmoc", 2}}) {
+    const auto found = [&](double turn) {  // the least q at which a force of 1 stops it
+      const MassBelowABound problem(std::sqrt(2.0 * turn), 0.0, 6.0, 1.0, 1.0);
+      return violation_of(problem, solved_on(problem, scheme, 16));
+    };
+    EXPECT_FALSE(found(1.003).is_motion()) << scheme.label();
+    EXPECT_TRUE(found(0.9).is_motion()) << scheme.label();
+  }
+}
+
 }  // namespace
 }  // namespace dmocbench
