@@ -18,7 +18,6 @@ class ThrownDown final : public tests::SmallProblem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return 0.5 * x.v[0] * x.v[0] + 0.01 * log(x.q[0] - 1.0);
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * a_ * x.u[0] * x.u[0]; }
 
  private:
@@ -63,7 +62,6 @@ class InWave final : public tests::SmallProblem {
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return one(x.u[0] + 0.3 * cos(0.2 * std::numbers::pi * periods_ * x.t));
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 
  private:
   double periods_;
@@ -92,9 +90,7 @@ TEST(SolveCase, IsTooCoarseWhereEveryIntervalMissesToTheSameSide) {
 class PowerFromRest final : public tests::SmallProblem {
  public:
   PowerFromRest() : SmallProblem("power_from_rest", at(0.0, 0.0), at(1.0, 1.5), 1.0, 1) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(x.u[0] / x.v[0]); }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 };
 
 TEST(SolveCase, AdvisesNoFinerGridWhereAForceIsSingularOnTheMotion) {
@@ -146,9 +142,6 @@ TEST(SolveCase, SolvesAProblemWithoutControlsByEverySolverAndMethod) {
 class Shift final : public tests::SmallProblem {
  public:
   explicit Shift(double distance) : SmallProblem("shift", at(0.0, 0.0), at(distance, 0.0), 1.0, 1) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 };
 
 TEST(SolveCase, NamesWhatIsFarFromOne) {

@@ -20,6 +20,7 @@
 #include "problems/control_rate.hpp"
 #include "problems/orbital_transfer_with_mass.hpp"
 #include "problems/two_link_with_motors.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
@@ -250,27 +251,16 @@ TEST_P(FirstOrderStates, BoundedRateOfAForceHasItsClosedForm) {
 }
 
 TEST_P(FirstOrderStates, BoundsOnThemHoldAtEveryNode) {
-  class Limited final : public Problem {
+  class Limited final : public tests::SmallProblem {
    public:
-    [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
-    [[nodiscard]] std::vector<std::string> control_names() const override { return {"rate"}; }
+    Limited() : SmallProblem("limited", at(0.0, 0.0, 0.0), at(1.0, 0.0, 0.0), 1.0, 1) {}
     [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"force"}; }
     [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
     [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.y; }
-    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-    [[nodiscard]] BoundaryState initial_state() const override { return at(0.0); }
-    [[nodiscard]] BoundaryState final_state() const override { return at(1.0); }
-    [[nodiscard]] double horizon() const override { return 1.0; }
     [[nodiscard]] ProblemBounds bounds() const override {
       ProblemBounds bounds = Problem::bounds();
       bounds.y = Bounds::all(1, -5.0, 5.0);
       return bounds;
-    }
-
-   private:
-    static BoundaryState at(double q) {
-      return {.q = Eigen::VectorXd::Constant(1, q), .v = Eigen::VectorXd::Zero(1), .y = Eigen::VectorXd::Zero(1)};
     }
   };
   const Limited problem;
@@ -381,20 +371,16 @@ TEST(FirstOrderStatesAlone, MayHavePhases) {
 }
 
 TEST(FirstOrderStatesRefused, WithRatesOfAnotherSize) {
-  class Short final : public Problem {
+  class Short final : public tests::SmallProblem {
    public:
-    [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
-    [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+    Short() : SmallProblem("short", of_two(), of_two(), 1.0, 1) {}
     [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"a", "b"}; }
     [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-    [[nodiscard]] BoundaryState initial_state() const override {
+
+   private:
+    static BoundaryState of_two() {
       return {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(2)};
     }
-    [[nodiscard]] BoundaryState final_state() const override { return initial_state(); }
-    [[nodiscard]] double horizon() const override { return 1.0; }
   };
   EXPECT_EQ(tests::sentence_of_error([] {
               static_cast<void>(tests::transcribe(Short(), {"dmoc", 1}, Grid::uniform(8)));

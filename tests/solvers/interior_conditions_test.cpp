@@ -136,9 +136,6 @@ class ThroughACircle final : public tests::SmallProblem {
   [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
     return one(2.0 * (x.q[0] * x.v[0] + (x.q[1] - 1.0) * x.v[1]));
   }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
     bounds.last.free_first_order(0);

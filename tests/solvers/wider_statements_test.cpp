@@ -186,9 +186,6 @@ TEST_F(WiderStatementsRefused, UnknownThatNoFormulaReads) {
   class Idle final : public tests::SmallProblem {
    public:
     Idle() : SmallProblem("idle", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1, {{"a", 1.0, "", "", 0.0, 2.0, false, true}}) {}
-    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   };
   EXPECT_EQ(sentence(Idle()), "idle: no formula depends on the unknown a; remove it");
 }
@@ -198,8 +195,6 @@ TEST_F(WiderStatementsRefused, UnknownThatAFormulaReadsAsANumber) {
    public:
     Number()
         : SmallProblem("number", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1, {{"a", 1.0, "", "", 0.0, 2.0, false, true}}) {}
-    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
     [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
       return parameter("a") * x.u[0] * x.u[0];
     }

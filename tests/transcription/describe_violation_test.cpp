@@ -168,8 +168,6 @@ class WithALogarithm final : public tests::SmallProblem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return 0.5 * x.v[0] * x.v[0] + 0.01 * log(x.q[0] + 0.5);
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
 /// No row of any method contains L itself, so that a solver fails there for another reason.
@@ -192,9 +190,7 @@ class Idle final : public tests::SmallProblem {
   [[nodiscard]] ProblemCard card() const override {
     return {.path_constraint_names = {"floor", "ceiling"}, .boundary_condition_names = {"gate"}};
   }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(-x.v[0]); }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return ExpressionVector{{x.q[0] + 1.0, 4000.0 * pow(x.t - 0.5, 2.0) - 500.0 - x.q[0]}};  // the ends keep to it
   }
@@ -224,7 +220,6 @@ class ByWayOfTwoRates final : public tests::SmallProblem {
   }
   [[nodiscard]] BoundaryState initial_state() const override { return with_rest(SmallProblem::initial_state()); }
   [[nodiscard]] BoundaryState final_state() const override { return with_rest(SmallProblem::final_state()); }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(x.y[0]); }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 
@@ -269,8 +264,6 @@ TEST_P(ViolationInWords, SaysWhereAProblemHasNoFreedom) {
 class Endless final : public tests::SmallProblem {
  public:
   Endless() : SmallProblem("endless", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return -x.u[0] * x.u[0]; }
 };
 

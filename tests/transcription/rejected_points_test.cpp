@@ -19,7 +19,6 @@ class BesideAWall final : public tests::SmallProblem {
  public:
   explicit BesideAWall(bool brakes)
       : SmallProblem("beside_a_wall", at(0.0, 10.0), at(0.0, 0.0), 1.0, 1), brakes_(brakes) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return one(x.u[0] + 0.1 * log(0.5 - x.q[0]));
   }
