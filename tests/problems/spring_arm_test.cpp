@@ -61,9 +61,7 @@ TEST_P(SpringArmBy, FindsTheStiffnessOfLeastCost) {
   EXPECT_GT(cost_with(stiffness - 0.2), best.cost + 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SpringArmBy, testing::ValuesIn(tests::all_schemes(2)), [](const auto& instance) {
-  return instance.param.method + "_" + instance.param.family + std::to_string(instance.param.stages);
-});
+INSTANTIATE_TEST_SUITE_P(All, SpringArmBy, testing::ValuesIn(tests::all_schemes(2)), tests::by_label);
 
 }  // namespace
 }  // namespace dmocbench

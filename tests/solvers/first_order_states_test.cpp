@@ -140,8 +140,7 @@ INSTANTIATE_TEST_SUITE_P(All, OrdersOfFirstOrderStates,
                          testing::Combine(testing::Values("orbit", "arm"), testing::ValuesIn(tests::all_schemes())),
                          [](const auto& instance) {
                            const Scheme& scheme = std::get<1>(instance.param);
-                           return std::get<0>(instance.param) + "_" + scheme.method + "_" + scheme.family +
-                                  std::to_string(scheme.stages);
+                           return std::get<0>(instance.param) + "_" + scheme.label();
                          });
 
 class FirstOrderStates : public testing::TestWithParam<Scheme> {};
@@ -281,9 +280,7 @@ TEST_P(FirstOrderStates, BothInteriorPointMethodsAgreeOnCoarseAndFineGrids) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FirstOrderStates, testing::ValuesIn(tests::all_schemes()), [](const auto& instance) {
-  return instance.param.method + "_" + instance.param.family + std::to_string(instance.param.stages);
-});
+INSTANTIATE_TEST_SUITE_P(All, FirstOrderStates, testing::ValuesIn(tests::all_schemes()), tests::by_label);
 
 class EqualFirstOrderStates : public testing::TestWithParam<std::tuple<std::string, int>> {};
 

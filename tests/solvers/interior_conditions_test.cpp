@@ -27,12 +27,7 @@ using tests::Restated;
 using tests::Scheme;
 using Statement = Restated::Statement;
 
-struct InteriorWay {
-  Scheme scheme;
-  std::string solver;
-};
-
-class InteriorConditions : public testing::TestWithParam<InteriorWay> {
+class InteriorConditions : public testing::TestWithParam<tests::Way> {
  protected:
   static Trajectory solved(const Problem& problem, Eigen::Index intervals) {
     return solved(problem, intervals, guessed_motion(problem));
@@ -192,18 +187,8 @@ TEST_P(InteriorConditions, WorkOnTheMotorsOfAnArmAndLeaveAMotion) {
   EXPECT_LT(accuracy(program->traced_problem(), motion).relative_jump, order() == 2 ? 2e-2 : 1e-3);
 }
 
-std::vector<InteriorWay> interior_ways() {
-  std::vector<InteriorWay> ways;
-  for (const Scheme& scheme : tests::all_schemes()) {
-    for (const std::string solver : {"ipopt", "interior_point", "auto"}) ways.push_back({scheme, solver});
-  }
-  return ways;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, InteriorConditions, testing::ValuesIn(interior_ways()), [](const auto& instance) {
-  const Scheme& scheme = instance.param.scheme;
-  return scheme.method + "_" + scheme.family + std::to_string(scheme.stages) + "_" + instance.param.solver;
-});
+INSTANTIATE_TEST_SUITE_P(All, InteriorConditions,
+                         testing::ValuesIn(tests::ways_by({"ipopt", "interior_point", "auto"})), tests::by_label);
 
 TEST(InteriorConditionsRefused, OutsideOfTheHorizonTwiceOrAgainstOtherBounds) {
   const tests::DoubleIntegrator base;

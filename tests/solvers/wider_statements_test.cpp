@@ -26,21 +26,7 @@ using Statement = Restated::Statement;
 
 ExpressionVector one(const Expression& entry) { return ExpressionVector::Constant(1, entry); }
 
-/// A scheme and the solver that is asked.
-struct Way {
-  Scheme scheme;
-  std::string solver;
-};
-
-std::vector<Way> all_ways() {
-  std::vector<Way> ways;
-  for (const Scheme& scheme : tests::all_schemes()) {
-    for (const std::string solver : {"ipopt", "interior_point"}) ways.push_back({scheme, solver});
-  }
-  return ways;
-}
-
-class WiderStatements : public testing::TestWithParam<Way> {
+class WiderStatements : public testing::TestWithParam<tests::Way> {
  protected:
   static Trajectory solved(const Problem& problem, Eigen::Index intervals) {
     const auto program = tests::transcribe(problem, GetParam().scheme, Grid::uniform(intervals));
@@ -166,10 +152,8 @@ TEST_P(WiderStatements, TwoSidedConstraintAndTwoConstraintsAreTheSameProblem) {
   EXPECT_NEAR(h.minCoeff(), -5.0, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, WiderStatements, testing::ValuesIn(all_ways()), [](const auto& instance) {
-  const Scheme& scheme = instance.param.scheme;
-  return scheme.method + "_" + scheme.family + std::to_string(scheme.stages) + "_" + instance.param.solver;
-});
+INSTANTIATE_TEST_SUITE_P(All, WiderStatements, testing::ValuesIn(tests::ways_by({"ipopt", "interior_point"})),
+                         tests::by_label);
 
 class WiderStatementsRefused : public testing::Test {
  protected:

@@ -357,9 +357,7 @@ TEST_P(ViolationInWords, HasNothingToSayOfASolvedProgramOrWithoutAPoint) {
   EXPECT_EQ(without.words(), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, ViolationInWords, testing::ValuesIn(tests::all_schemes(2)), [](const auto& scheme) {
-  return scheme.param.method + "_" + scheme.param.family + std::to_string(scheme.param.stages);
-});
+INSTANTIATE_TEST_SUITE_P(Schemes, ViolationInWords, testing::ValuesIn(tests::all_schemes(2)), tests::by_label);
 
 }  // namespace
 }  // namespace dmocbench

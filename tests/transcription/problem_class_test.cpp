@@ -200,10 +200,7 @@ INSTANTIATE_TEST_SUITE_P(All, ProblemClass,
                                          Scheme{"hamiltonian", 1}, Scheme{"hamiltonian", 2},
                                          Scheme{"hamiltonian", 3, "lobatto"}, Scheme{"tangent", 1},
                                          Scheme{"tangent", 2}, Scheme{"tangent", 3, "lobatto_shared"}),
-                         [](const auto& instance) {
-                           return instance.param.method + "_" + instance.param.family +
-                                  std::to_string(instance.param.stages);
-                         });
+                         tests::by_label);
 
 TEST(ProblemClassCounts, FixedEndsAddNoUnknownsAndGeneralEndsAddOneVelocityEach) {
   const tests::MovingFrame fixed;
