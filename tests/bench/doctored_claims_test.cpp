@@ -16,6 +16,7 @@
 #include "bench/run/described_tables.hpp"
 #include "bench/run/result_file.hpp"
 #include "tests/bench/all_tables_for_claims.hpp"
+#include "tests/support/sentence_of_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dmocbench {
@@ -222,7 +223,7 @@ TEST_F(DoctoredClaims, SayNotJudgedAndNameTheColumn) {
       EXPECT_EQ(found.verdict, ClaimVerdict::not_judged) << claim << " with " << deciding.column << " " << what;
       EXPECT_NE(found.measured().find(deciding.table + ".csv"), std::string::npos)
           << claim << " with " << deciding.column << " " << what << ": " << found.measured();
-      EXPECT_NE(found.measured().find(deciding.column), std::string::npos) << found.measured();
+      EXPECT_PRED2(tests::says, found.measured(), deciding.column);
     }
   };
   for (const Deciding& deciding : all) {
@@ -239,7 +240,7 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
     Judgements judged = judge();
     const JudgedClaim& claim = judged["examples/local_minima"];
     EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << sentence;
-    EXPECT_NE(claim.measured().find(sentence), std::string::npos) << claim.measured();
+    EXPECT_PRED2(tests::says, claim.measured(), sentence);
     EXPECT_EQ(judged["simulations/symplectic"].verdict, ClaimVerdict::reproduced);
     std::filesystem::remove(file);
     write(name, columns_.at(name), rows_.at(name));
@@ -274,7 +275,7 @@ TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
   const auto expect = [&](const std::string& sentence) {
     const JudgedClaim claim = judge()["orbital_transfer/objective_evolution"];
     EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << sentence;
-    EXPECT_NE(claim.measured().find(sentence), std::string::npos) << claim.measured();
+    EXPECT_PRED2(tests::says, claim.measured(), sentence);
     write("objective", columns, rows);
   };
   slip_in("objective", columns, {rows.begin(), rows.end() - 1});
@@ -320,8 +321,7 @@ TEST_F(DoctoredClaims, NameTheOrdersThatOneRowLacks) {
   write(name, columns_.at(name), {rows_.at(name).front()});
   const JudgedClaim claim = judge()["orbital_transfer/order_of_convergence"];
   EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged);
-  EXPECT_NE(claim.measured().find("no order of momentum for orbital_transfer, dmoc, gauss 2"), std::string::npos)
-      << claim.measured();
+  EXPECT_PRED2(tests::says, claim.measured(), "no order of momentum for orbital_transfer, dmoc, gauss 2");
 }
 
 TEST_F(DoctoredClaims, CountTheRowsThatTheyLeaveOutNameThemAndSayWhomThatFavours) {
@@ -331,8 +331,8 @@ TEST_F(DoctoredClaims, CountTheRowsThatTheyLeaveOutNameThemAndSayWhomThatFavours
   const std::string measured =
       with("derivatives", "status", "step failed", is_stray)["orbital_transfer/automatic_differentiation_saves_time"]
           .measured();
-  EXPECT_NE(measured.find("rows left out: not solved with dense_differences or "), std::string::npos) << measured;
-  EXPECT_NE(measured.find("which favours dense_differences with dmoc ("), std::string::npos) << measured;
+  EXPECT_PRED2(tests::says, measured, "rows left out: not solved with dense_differences or ");
+  EXPECT_PRED2(tests::says, measured, "which favours dense_differences with dmoc (");
 }
 
 /// The predicate of a claim: the same on every problem.

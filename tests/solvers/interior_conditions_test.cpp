@@ -202,34 +202,31 @@ TEST(InteriorConditionsRefused, OutsideOfTheHorizonTwiceOrAgainstOtherBounds) {
     return InteriorBounds{.relative_time = time, .q = std::move(q), .v = std::move(v)};
   };
   for (const double time : {0.0, 1.0, 1.5, unbound}) {
-    EXPECT_NE(sentence([&](Statement& s) { s.interior = {at(time)}; }).find("bounds().interior[0].relative_time"),
-              std::string::npos);
+    EXPECT_PRED2(tests::says, sentence([&](Statement& s) { s.interior = {at(time)}; }),
+                 "bounds().interior[0].relative_time");
   }
-  EXPECT_NE(sentence([&](Statement& s) {
-              s.interior = {at(0.5), at(0.2), at(0.5)};
-            }).find("two entries"),
-            std::string::npos);
-  EXPECT_NE(sentence([&](Statement& s) { s.interior = {at(0.5, Bounds::all(2, 0.0, 1.0))}; }).find("expected 1"),
-            std::string::npos);
-  EXPECT_NE(sentence([&](Statement& s) { s.interior = {at(0.5, Bounds::all(1, 2.0, 1.0))}; }).find("above the upper"),
-            std::string::npos);
-  EXPECT_NE(sentence([&](Statement& s) {
-              s.q = Bounds::all(1, -1.0, 1.0);
-              s.interior = {at(0.5, Bounds::all(1, 2.0, 3.0))};
-            }).find("leave no value for q[0]"),
-            std::string::npos);
-  EXPECT_NE(sentence([&](Statement& s) {
-              s.v = Bounds::all(1, -1.0, 1.0);
-              s.interior = {at(0.5, {}, Bounds::all(1, 2.0, 3.0))};
-            }).find("leave no value for v[0]"),
-            std::string::npos);
-  EXPECT_NE(sentence(
-                [&](Statement& s) {
-                  s.interior = {at(0.3), at(0.5)};
-                },
-                2)
-                .find("at least 3 intervals"),
-            std::string::npos);
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) { s.interior = {at(0.5), at(0.2), at(0.5)}; }), "two entries");
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) { s.interior = {at(0.5, Bounds::all(2, 0.0, 1.0))}; }),
+               "expected 1");
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) { s.interior = {at(0.5, Bounds::all(1, 2.0, 1.0))}; }),
+               "above the upper");
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) {
+                 s.q = Bounds::all(1, -1.0, 1.0);
+                 s.interior = {at(0.5, Bounds::all(1, 2.0, 3.0))};
+               }),
+               "leave no value for q[0]");
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) {
+                 s.v = Bounds::all(1, -1.0, 1.0);
+                 s.interior = {at(0.5, {}, Bounds::all(1, 2.0, 3.0))};
+               }),
+               "leave no value for v[0]");
+  EXPECT_PRED2(tests::says,
+               sentence(
+                   [&](Statement& s) {
+                     s.interior = {at(0.3), at(0.5)};
+                   },
+                   2),
+               "at least 3 intervals");
 }
 
 }  // namespace
