@@ -26,6 +26,10 @@ using tests::Rows;
 
 using Judgements = std::map<std::string, JudgedClaim>;
 
+bool reads(const std::vector<ReadRows>& read, const std::string& table) {
+  return std::ranges::count(read, table + ".csv", &ReadRows::table) > 0;
+}
+
 class DoctoredClaims : public tests::InTemporaryFolder {
  protected:
   void SetUp() override {
@@ -48,9 +52,7 @@ class DoctoredClaims : public tests::InTemporaryFolder {
   }
   /// Whether a claim reads the table.
   [[nodiscard]] bool is_read(const std::string& name) const {
-    return std::ranges::any_of(std::views::values(whole_), [&](const JudgedClaim& claim) {
-      return std::ranges::count(claim.rows, name + ".csv", &ReadRows::table) > 0;
-    });
+    return std::ranges::any_of(std::views::values(whole_), [&](const auto& claim) { return reads(claim.rows, name); });
   }
   /// Writes a table without telling its run.
   void slip_in(const std::string& name, const ColumnNames& columns, const Rows& rows) const {
@@ -91,7 +93,7 @@ class DoctoredClaims : public tests::InTemporaryFolder {
     tables_.forget(name);
     Judgements judged = judgements_of(tables_, [&](const std::string& id) {
       const std::vector<ReadRows>& read = whole_.at(id).rows;
-      return read.empty() || std::ranges::count(read, name + ".csv", &ReadRows::table) > 0;
+      return read.empty() || reads(read, name);
     });
     write(name, columns_.at(name), rows_.at(name));
     tables_.forget(name);
@@ -107,7 +109,7 @@ class DoctoredClaims : public tests::InTemporaryFolder {
     return judged;
   }
 
-  std::map<std::string, Rows> rows_ = tests::all_rows();
+  tests::TableRows rows_ = tests::all_rows();
   std::map<std::string, ColumnNames> columns_;
   ResultTables tables_;  ///< as they are
   Judgements whole_;     ///< of them
@@ -379,10 +381,7 @@ struct Doctoring {
 /// Predicates with the verdicts that tables lead them to.
 class ReachedVerdicts {
  public:
-  ReachedVerdicts() {
-    for (const auto& [name, rows] : rows_) tables_.add(name, tests::declared_table(name, rows));
-    note(judge_claims(tables_));
-  }
+  ReachedVerdicts() { note(judge_claims(tables_)); }
   /// Doctors every column that a predicate without both verdicts reads, group by group.
   void doctor() {
     for (const auto& [name, rows] : rows_) {
@@ -442,8 +441,8 @@ class ReachedVerdicts {
     }
   }
 
-  std::map<std::string, Rows> rows_ = tests::all_rows();
-  ResultTables tables_;
+  tests::TableRows rows_ = tests::all_rows();
+  ResultTables tables_ = tests::results_of(rows_);
   std::map<std::string, std::set<ClaimVerdict>> verdicts_;
   std::map<std::string, std::map<std::string, std::set<std::string>>> read_;  ///< columns, by predicate and table
   std::set<std::string> by_counting_;
@@ -463,9 +462,8 @@ TEST(EveryPredicate, IsReproducedByOneTableAndDiffersByAnother) {
 /// The verdicts are exchanged with the rows that agree and those that do not: a mark by which a claim leaves rows out
 /// leaves out either kind.
 TEST(EveryPredicate, LeavesRowsOutWhateverTheirNumbersAre) {
-  const std::map<std::string, Rows> all = tests::all_rows();
-  ResultTables tables;
-  for (const auto& [name, rows] : all) tables.add(name, tests::declared_table(name, rows));
+  const tests::TableRows all = tests::all_rows();
+  ResultTables tables = tests::results_of(all);
   std::map<std::string, std::vector<ReadRows>> read;
   for (const JudgedClaim& claim : judge_claims(tables)) read[claim.id()] = claim.rows;
   ReachedVerdicts reached;
@@ -505,9 +503,8 @@ TEST(EveryPredicate, LeavesRowsOutWhateverTheirNumbersAre) {
 
 /// Where solves fail, or end on another branch, a claim is judged by the others or not at all.
 TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
-  const std::map<std::string, Rows> all = tests::all_rows();
-  ResultTables tables;
-  for (const auto& [name, rows] : all) tables.add(name, tests::declared_table(name, rows));
+  const tests::TableRows all = tests::all_rows();
+  ResultTables tables = tests::results_of(all);
   // A claim judges the tables that it reads; one that does not list them might read any.
   std::map<std::string, std::vector<ReadRows>> read;
   for (const JudgedClaim& claim : judge_claims(tables)) {
@@ -527,8 +524,7 @@ TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
         tables.add(name, tests::declared_table(name, doctored));
         ++failed;
         const auto reads_it = [&](const std::string& id) {
-          return read.contains(id) &&
-                 (read[id].empty() || std::ranges::count(read[id], name + ".csv", &ReadRows::table) > 0);
+          return read.contains(id) && (read[id].empty() || reads(read[id], name));
         };
         for (const JudgedClaim& claim : judge_claims(tables, reads_it)) {
           EXPECT_NE(claim.verdict, ClaimVerdict::differs)
@@ -542,9 +538,7 @@ TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
 }
 
 TEST(EveryPredicate, OfAClaimDrawsALineAndOfAFindingDoesNot) {
-  ResultTables tables;
-  for (const auto& [name, rows] : tests::all_rows()) tables.add(name, tests::declared_table(name, rows));
-  for (const JudgedClaim& claim : judge_claims(tables)) {
+  for (const JudgedClaim& claim : judge_claims(tests::results_of(tests::all_rows()))) {
     if (claim.verdict == ClaimVerdict::not_judged) continue;
     EXPECT_EQ(claim.verdict == ClaimVerdict::measured, !claim.has_verdict) << claim.id();
     EXPECT_TRUE(claim.has_verdict || claim.whose != Whose::paper) << claim.id();

@@ -197,11 +197,7 @@ TEST(FittedOrders, OfDifferencesEndAboveThoseOfHamiltonianCollocation) {
                "branch", "configuration_difference"});
   for (const std::string& method : paper_families()) {
     for (const long long n : dense_grids) {
-      Row row;
-      row.set("problem", "pendulum");
-      row.set("method", method);
-      row.set("tableau", "gauss");
-      row.set("stages", "1");
+      Row row = tests::scheme_row(method, "pendulum");
       row.set("intervals", n);
       row.set("step", 1.0 / static_cast<double>(n));
       row.set("status", "solved");
