@@ -39,7 +39,7 @@ class MotionFile : public tests::InTemporaryFolder {
   /// Asks for the start in the file as an experiment does.
   void provide() const {
     StartProvider starts({.start = nodes_file().string()}, {});
-    const Case the_case{.problem = problem_, .method = "dmoc", .tableau = "gauss", .grid = Grid::uniform(8)};
+    const Case the_case{.problem = problem_, .method = "dmoc", .grid = Grid::uniform(8)};
     starts.check({the_case});
     EXPECT_EQ(starts.start_for(the_case).motion.at(0.5).q[0], 0.5);
   }

@@ -27,8 +27,7 @@ class ThrownDown final : public tests::SmallProblem {
 
 SolvedCase solved(double speed, double a) {
   const auto problem = std::make_shared<ThrownDown>(speed, a);
-  const Case the_case{
-      .problem = problem, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(16)};
+  const Case the_case{.problem = problem, .method = "dmoc", .solver = "ipopt", .grid = Grid::uniform(16)};
   return solve_case(the_case, {guessed_motion(*problem)}, *make_solver("ipopt"), SolverOptions{}.tolerance, 1);
 }
 
@@ -69,8 +68,7 @@ class InWave final : public tests::SmallProblem {
 TEST(SolveCase, IsTooCoarseWhereEveryIntervalMissesToTheSameSide) {
   const auto solved = [](double periods, const char* method) {
     const auto problem = std::make_shared<InWave>(periods);
-    const Case the_case{
-        .problem = problem, .method = method, .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(64)};
+    const Case the_case{.problem = problem, .method = method, .solver = "ipopt", .grid = Grid::uniform(64)};
     return solve_case(the_case, {guessed_motion(*problem)}, *make_solver("ipopt"), SolverOptions{}.tolerance, 1);
   };
   for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
@@ -93,8 +91,7 @@ class PowerFromRest final : public tests::SmallProblem {
 
 TEST(SolveCase, AdvisesNoFinerGridWhereAForceIsSingularOnTheMotion) {
   const auto problem = std::make_shared<PowerFromRest>();
-  const Case the_case{
-      .problem = problem, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(32)};
+  const Case the_case{.problem = problem, .method = "dmoc", .solver = "ipopt", .grid = Grid::uniform(32)};
   const SolvedCase solved = solve_case(the_case, {guessed_motion(*problem)}, *make_solver("ipopt"), 1e-8, 1);
   ASSERT_EQ(solved.solution.status, Status::too_coarse) << solved.solution.message;
   EXPECT_PRED2(tests::says, solved.solution.message, "force is not a finite number");
@@ -127,8 +124,7 @@ TEST(SolveCase, SolvesAProblemWithoutControlsByEverySolverAndMethod) {
   for (const char* solver : {"ipopt", "interior_point", "sqp", "auto"}) {
     for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
       SCOPED_TRACE(std::string(solver) + " " + method);
-      const Case the_case{
-          .problem = problem, .method = method, .tableau = "gauss", .solver = solver, .grid = Grid::uniform(64)};
+      const Case the_case{.problem = problem, .method = method, .solver = solver, .grid = Grid::uniform(64)};
       const SolvedCase solved = solve_case(the_case, {guessed_motion(*problem)}, *make_solver(solver), 1e-10, 1);
       EXPECT_EQ(solved.solution.status, Status::solved) << solved.solution.message;
       EXPECT_NEAR(solved.trajectory->q(32, 0), std::sin(1.0) / std::sin(2.0), 1e-3);
@@ -145,8 +141,7 @@ class Shift final : public tests::SmallProblem {
 TEST(SolveCase, NamesWhatIsFarFromOne) {
   const auto message_over = [](double distance) {
     const auto problem = std::make_shared<Shift>(distance);
-    const Case the_case{
-        .problem = problem, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(16)};
+    const Case the_case{.problem = problem, .method = "dmoc", .solver = "ipopt", .grid = Grid::uniform(16)};
     return solve_case(the_case, {guessed_motion(*problem)}, *make_solver("ipopt"), 1e-6, 1).solution.message;
   };
   EXPECT_PRED2(tests::says, message_over(4e3), "Sizes are far from 1: u1 (2e+04)");

@@ -30,7 +30,6 @@ namespace {
 Case full_solve_of(const PlannedMotion& planned) {
   return {.problem = planned.problem,
           .method = "dmoc",
-          .tableau = "gauss",
           .stages = planned.system->stages,
           .solver = "interior_point",
           .grid = Grid::uniform(planned.system->intervals)};
