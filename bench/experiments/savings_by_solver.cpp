@@ -106,12 +106,8 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
     const int systems = solution.linear_systems.value_or(0);
     if (solution.linear_seconds && systems > 0) measured.per_linear_system = *solution.linear_seconds / systems;
     if (!is_usable(solved) || !solved.trajectory) return;
-    try {
-      const double exact = indirect_->near(*solved.the_case.problem, *solved.trajectory).cost();
-      measured.objective_error = std::abs(solved.trajectory->cost - exact) / std::abs(exact);
-    } catch (const Error& error) {
-      solved.note(error.what());
-    }
+    const double exact = indirect_->near(*solved.the_case.problem, *solved.trajectory).cost();
+    measured.objective_error = std::abs(solved.trajectory->cost - exact) / std::abs(exact);
   }
 
   void finish(Table& table, FurtherOutput& output) override {
