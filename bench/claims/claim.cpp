@@ -224,6 +224,14 @@ Selection midpoint(const Selection& rows, const std::string& method) {
   return rows.where(is_midpoint).where("method", method);
 }
 
+Claims about(const Problems& problems, Whose whose, Claims claims) {
+  for (Claim& claim : claims) {
+    claim.problems = problems;
+    claim.whose = whose;
+  }
+  return claims;
+}
+
 void add_claims(Claims claims) { added_chapters().push_back(std::move(claims)); }
 
 std::vector<JudgedClaim> judge_claims(const ResultTables& tables) {
