@@ -1,10 +1,6 @@
 #include "bench/claims/claim.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <concepts>
-#include <iterator>
 
 namespace dmocbench {
 

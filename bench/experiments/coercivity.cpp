@@ -1,6 +1,5 @@
 // Coercivity of the discrete optimum over the number of intervals: the assumption of (main_theorem), section 3.5.
 #include <memory>
-#include <utility>
 
 #include "bench/experiments/kkt_eigenvalues.hpp"
 #include "bench/run/column.hpp"

@@ -26,7 +26,6 @@
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
-#include "problems/registry.hpp"
 
 namespace dmocbench::cold_start_program {
 

@@ -1,9 +1,7 @@
 // Error constants: the limits of errors times N^p, predicted by the local errors of the exact optimum and measured.
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -13,9 +11,7 @@
 #include "bench/tables/selection.hpp"
 #include "methods/diagnostics/leading_errors.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
-#include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
-#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench::error_constants_program {
 

@@ -11,7 +11,6 @@
 #include "bench/run/experiment.hpp"
 #include "bench/run/indirect_reference.hpp"
 #include "bench/tables/ratios.hpp"
-#include "methods/error.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
 namespace dmocbench::savings_by_solver_program {

@@ -1,7 +1,6 @@
 // Whether collocation is dearer by its size or by the solver, judged on doctored ratios.
 
 #include <cmath>
-#include <initializer_list>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "bench/experiments/closed_loop/plant.hpp"

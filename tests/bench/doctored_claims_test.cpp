@@ -6,7 +6,6 @@
 #include <random>
 #include <ranges>
 #include <set>
-#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

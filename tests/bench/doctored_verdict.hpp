@@ -4,8 +4,6 @@
 #include <map>
 #include <string>
 
-#include <gtest/gtest.h>
-
 #include "tests/bench/all_tables_for_claims.hpp"
 
 namespace dmocbench::tests {

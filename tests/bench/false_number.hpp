@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/claims/claim.hpp"
 #include "tests/bench/all_tables_for_claims.hpp"
 
 namespace dmocbench::tests {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"

@@ -1,15 +1,11 @@
 #include "problems/cart_pole.hpp"
 
-#include <map>
-
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
-#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {

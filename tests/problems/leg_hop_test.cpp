@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/transcription/motions/phase_trajectories.hpp"
 #include "problems/chaplygin_sleigh_cartesian.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"

@@ -1,12 +1,10 @@
 #include "problems/orbital_transfer.hpp"
 
-#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "tests/support/problem_values.hpp"
 

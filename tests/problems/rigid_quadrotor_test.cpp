@@ -6,7 +6,6 @@
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
-#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {

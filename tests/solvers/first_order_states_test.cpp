@@ -15,7 +15,6 @@
 #include "methods/mechanics/first_order_problem.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/phased_problem.hpp"
-#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/control_rate.hpp"
 #include "problems/orbital_transfer_with_mass.hpp"

@@ -4,10 +4,8 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <vector>
 
-#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/conserved_quantities.hpp"
@@ -17,7 +15,6 @@
 #include "methods/mechanics/motion_constraints.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
-#include "methods/transcription/trajectory_reader.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
 #include "tests/solvers/constrained_motions.hpp"

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/conserved_quantities.hpp"

@@ -1,7 +1,6 @@
 // What a problem may state besides the class of section 3.1, by Ipopt and by the interior-point method that eliminates
 // interval by interval: closed forms, prices and refusals.
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>

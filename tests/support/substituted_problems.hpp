@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <memory>
 #include <numbers>
 
 #include "tests/support/problems_for_tests.hpp"

@@ -1,6 +1,5 @@
 // An integration that leaves the domain of a formula is a trial point that solvers reject, not the end of a solve.
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>

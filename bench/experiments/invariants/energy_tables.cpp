@@ -4,7 +4,6 @@
 #include <array>
 #include <compare>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -16,7 +15,6 @@
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/modified_energy.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
-#include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/transcription/elements/element.hpp"

@@ -7,7 +7,6 @@
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/error.hpp"
-#include "methods/extensions/step_control/extended_action.hpp"
 #include "methods/extensions/step_control/step_control_program.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/transcription/start.hpp"
