@@ -1,10 +1,6 @@
 #include "bench/claims/claim.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <concepts>
-#include <iterator>
 
 namespace dmocbench {
 
@@ -222,6 +218,14 @@ Words unsolved_behind(const ResultTables& tables, std::string_view table, const 
 
 Selection midpoint(const Selection& rows, const std::string& method) {
   return rows.where(is_midpoint).where("method", method);
+}
+
+Claims about(const Problems& problems, Whose whose, Claims claims) {
+  for (Claim& claim : claims) {
+    claim.problems = problems;
+    claim.whose = whose;
+  }
+  return claims;
 }
 
 void add_claims(Claims claims) { added_chapters().push_back(std::move(claims)); }

@@ -158,6 +158,8 @@ struct JudgedClaim {
 
 /// Claims of one topic.
 using Claims = std::vector<Claim>;
+/// Claims about the same problems, made by the same.
+[[nodiscard]] Claims about(const Problems& problems, Whose whose, Claims claims);
 
 /// From now on `judge_claims` judges these claims too, in a chapter of their own at the end of the written table. For
 /// extensions and for experiments of your own: call it in `main`, before a program runs.

@@ -5,9 +5,7 @@
 #include <functional>
 #include <map>
 #include <ranges>
-#include <string_view>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,6 @@
 // Galerkin variational integrators: which control space (section 2.2) costs order, and what they keep of DMOC.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "bench/claims/claim.hpp"
 #include "methods/transcription/elements/galerkin_element.hpp"

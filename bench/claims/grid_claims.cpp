@@ -1,7 +1,6 @@
 // Section 4.2 over the grids: "for all three methods the convergence rate ... is O(h^2)", "DMOC only uses 3/5 (2/3) of
 // the number of variables", the optimal cost over N, and the reference grids.
 #include <cmath>
-#include <numeric>
 
 #include "bench/claims/claim.hpp"
 #include "bench/run/solve_case.hpp"

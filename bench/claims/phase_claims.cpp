@@ -96,39 +96,32 @@ Finding energy_at_impacts(const ResultTables& tables, const std::string& /*probl
 /// Phases.
 Claims phase_claims() {
   const Problems phases{"phases"};
-  return {
-      {.id = "equal_solutions",
-       .problems = phases,
-       .where = "section 1, hybrid systems; th:equi",
-       .whose = Whose::extension,
-       .states = "across switches with free switching times, DMOC and Hamiltonian collocation have equal solutions",
-       .judge = equal_across_switches,
-       .evidence = {"equivalence_phases.csv"}},
-      {.id = "momentum",
-       .problems = phases,
-       .where = "section 1, nonsmooth integrators; eq:noether_force_d",
-       .whose = Whose::extension,
-       .states = "across an impact whose guard has the symmetry, the change in momentum equals the work of the forces "
-                 "for DMOC and Hamiltonian collocation, not for tangent-space collocation",
-       .judge = momentum_across_impacts,
-       .evidence = {"consistency_phases.csv"}},
-      {.id = "orders",
-       .problems = phases,
-       .where = "section 1, hybrid systems; main_theorem",
-       .whose = Whose::extension,
-       .states = "with free switching times, states, momenta, costates and cost keep the order 2s",
-       .judge = orders_with_free_times,
-       .evidence = {"convergence_phases_slopes.csv"}},
-      {.id = "energy_at_impacts",
-       .problems = phases,
-       .where = "section 1, nonsmooth integrators",
-       .whose = Whose::extension,
-       .states = "as soon as forces act, the condition of variational collision integrators, equal discrete energies "
-                 "of the two steps next to an elastic impact, has order 1, and with half of the forces' work it has "
-                 "order 2; the impact law for the Legendre-transformed momenta has order 2s and conserves the energy",
-       .judge = energy_at_impacts,
-       .condition = "without forces, equal energies of the steps are a correct condition, of order 2s",
-       .evidence = {"invariants_impacts.csv", "invariants_impacts_slopes.csv"}}};
+  return about(
+      phases, Whose::extension,
+      {{.id = "equal_solutions",
+        .where = "section 1, hybrid systems; th:equi",
+        .states = "across switches with free switching times, DMOC and Hamiltonian collocation have equal solutions",
+        .judge = equal_across_switches,
+        .evidence = {"equivalence_phases.csv"}},
+       {.id = "momentum",
+        .where = "section 1, nonsmooth integrators; eq:noether_force_d",
+        .states = "across an impact whose guard has the symmetry, the change in momentum equals the work of the forces "
+                  "for DMOC and Hamiltonian collocation, not for tangent-space collocation",
+        .judge = momentum_across_impacts,
+        .evidence = {"consistency_phases.csv"}},
+       {.id = "orders",
+        .where = "section 1, hybrid systems; main_theorem",
+        .states = "with free switching times, states, momenta, costates and cost keep the order 2s",
+        .judge = orders_with_free_times,
+        .evidence = {"convergence_phases_slopes.csv"}},
+       {.id = "energy_at_impacts",
+        .where = "section 1, nonsmooth integrators",
+        .states = "as soon as forces act, the condition of variational collision integrators, equal discrete energies "
+                  "of the two steps next to an elastic impact, has order 1, and with half of the forces' work it has "
+                  "order 2; the impact law for the Legendre-transformed momenta has order 2s and conserves the energy",
+        .judge = energy_at_impacts,
+        .condition = "without forces, equal energies of the steps are a correct condition, of order 2s",
+        .evidence = {"invariants_impacts.csv", "invariants_impacts_slopes.csv"}}});
 }
 
 }  // namespace dmocbench

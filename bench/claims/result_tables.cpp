@@ -1,8 +1,6 @@
 #include "bench/claims/result_tables.hpp"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,7 +8,6 @@
 
 #include "bench/run/described_tables.hpp"
 #include "bench/run/json_place.hpp"
-#include "bench/run/result_file.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 
 // Reads the tables by which claims are judged, each with the metadata of its run.

@@ -1,5 +1,4 @@
 // Sequences of problems that start from each other's answers: does DMOC start warm better than collocation?
-#include <algorithm>
 #include <cmath>
 
 #include "bench/claims/claim.hpp"

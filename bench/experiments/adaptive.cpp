@@ -10,7 +10,6 @@
 #include "bench/experiments/adaptive/needed_intervals.hpp"
 #include "bench/run/options.hpp"
 #include "bench/run/table_run.hpp"
-#include "methods/error.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 

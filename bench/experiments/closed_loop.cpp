@@ -128,7 +128,6 @@ class Loops {
   [[nodiscard]] Replanner controller(const std::string& method, int stages, long long intervals) {
     const Case the_case{.problem = problem_,
                         .method = method,
-                        .tableau = "gauss",
                         .stages = stages,
                         .solver = "interior_point",
                         .grid = Grid::uniform(intervals)};

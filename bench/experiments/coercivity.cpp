@@ -1,6 +1,5 @@
 // Coercivity of the discrete optimum over the number of intervals: the assumption of (main_theorem), section 3.5.
 #include <memory>
-#include <utility>
 
 #include "bench/experiments/kkt_eigenvalues.hpp"
 #include "bench/run/column.hpp"
@@ -40,11 +39,7 @@ class Coercivity {
     const bool has_fixed_end = bounds.last.all_fixed() && !bounds.horizon.is_free();
     for (const std::string& method : paper_families()) {
       for (const long long intervals : {12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256, 512}) {
-        const Case the_case{.problem = problem,
-                            .method = method,
-                            .tableau = "gauss",
-                            .solver = "ipopt",
-                            .grid = Grid::uniform(intervals)};
+        const Case the_case{.problem = problem, .method = method, .solver = "ipopt", .grid = Grid::uniform(intervals)};
         const Start start = starts_.start_for(the_case);
         run_.show(the_case.label());
         const SolvedCase solved = solve_case(the_case, start, *solver_, options_.tolerance, 1, true);

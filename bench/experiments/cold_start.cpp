@@ -26,7 +26,6 @@
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
-#include "problems/registry.hpp"
 
 namespace dmocbench::cold_start_program {
 
@@ -222,7 +221,7 @@ class ColdStart final : public Experiment {
                                                   long long starts) const {
     constexpr long long intervals = 64;
     constexpr double agreement = 1e-6;
-    const Case grid{.problem = problem, .method = "dmoc", .tableau = "gauss", .grid = Grid::uniform(intervals)};
+    const Case grid{.problem = problem, .method = "dmoc", .grid = Grid::uniform(intervals)};
     const std::unique_ptr<Transcription> program = grid.transcribe();
     const Motion guess = guessed_motion(*problem);
     const auto& reference = problem->card().reference;

@@ -173,20 +173,16 @@ class Convergence final : public ExperimentOf<Measured> {
     const Trajectory& trajectory = *solved.trajectory;
     const std::string active = active_bounds(problem, trajectory);
     if (active != "nothing") measured.active = active;
-    try {
-      if (indirect_) {
-        reference_trajectory_ = indirect_->near(problem, trajectory).sampled_like(trajectory);
-      } else if (is_reference || (reference_ == 0 && !reference_trajectory_)) {
-        if (is_usable(solved)) reference_trajectory_ = trajectory;
-        return;
-      }
-      if (!reference_trajectory_) return;
-      measured.error = trajectory_error(trajectory, *reference_trajectory_);
-      if (!measured.error->costate) return;
-      measured.control_from_costate_error = node_control_error(problem, trajectory, *reference_trajectory_);
-    } catch (const Error& failure) {
-      solved.note(failure.what());
+    if (indirect_) {
+      reference_trajectory_ = indirect_->near(problem, trajectory).sampled_like(trajectory);
+    } else if (is_reference || (reference_ == 0 && !reference_trajectory_)) {
+      if (is_usable(solved)) reference_trajectory_ = trajectory;
+      return;
     }
+    if (!reference_trajectory_) return;
+    measured.error = trajectory_error(trajectory, *reference_trajectory_);
+    if (!measured.error->costate) return;
+    measured.control_from_costate_error = node_control_error(problem, trajectory, *reference_trajectory_);
   }
 
   void finish(Table& table, FurtherOutput& output) override {

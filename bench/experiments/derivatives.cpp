@@ -133,11 +133,7 @@ class Derivatives final : public ExperimentOf<Measured> {
       measured.answer_difference = (solved.trajectory->q - *q).lpNorm<Eigen::Infinity>() / q->lpNorm<Eigen::Infinity>();
     }
     if (!solved.program) return;
-    try {
-      evaluate(solved, measured);
-    } catch (const Error& failure) {
-      solved.note(failure.what());
-    }
+    evaluate(solved, measured);
   }
 
  private:

@@ -1,9 +1,7 @@
 // Error constants: the limits of errors times N^p, predicted by the local errors of the exact optimum and measured.
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -13,9 +11,7 @@
 #include "bench/tables/selection.hpp"
 #include "methods/diagnostics/leading_errors.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
-#include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
-#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench::error_constants_program {
 
@@ -125,17 +121,13 @@ class ErrorConstants final : public ExperimentOf<Measured> {
     if (!is_usable(solved) || !solved.trajectory) return;
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& trajectory = *solved.trajectory;
-    try {
-      const Trajectory optimum = indirect_->near(problem, trajectory).sampled_like(trajectory);
-      const LeadingErrors predicted = leading_errors(problem, *make_element(solved.the_case.method), optimum);
-      measured = {.state = trajectory_error(trajectory, optimum).state,
-                  .replay = replay_error(problem, trajectory, replay_tolerance).norm(),
-                  .predicted_replay = predicted.replay.norm(),
-                  .objective = trajectory.cost - optimum.cost,
-                  .predicted_objective = predicted.cost};
-    } catch (const Error& failure) {
-      solved.note(failure.what());
-    }
+    const Trajectory optimum = indirect_->near(problem, trajectory).sampled_like(trajectory);
+    const LeadingErrors predicted = leading_errors(problem, *make_element(solved.the_case.method), optimum);
+    measured = {.state = trajectory_error(trajectory, optimum).state,
+                .replay = replay_error(problem, trajectory, replay_tolerance).norm(),
+                .predicted_replay = predicted.replay.norm(),
+                .objective = trajectory.cost - optimum.cost,
+                .predicted_objective = predicted.cost};
   }
 
   void finish(Table& table, FurtherOutput& output) override {

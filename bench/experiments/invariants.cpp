@@ -201,12 +201,7 @@ void add_problems(TableRun& run, const std::vector<std::shared_ptr<const Problem
   for (const auto& problem : problems) {
     run.stage(problem->name(), [&] {
       run.show(problem->name() + ": the symplectic form along an optimal trajectory");
-      const Case fine{.problem = problem,
-                      .method = "dmoc",
-                      .tableau = "gauss",
-                      .stages = 2,
-                      .solver = "ipopt",
-                      .grid = Grid::uniform(256)};
+      const Case fine{.problem = problem, .method = "dmoc", .stages = 2, .solver = "ipopt", .grid = Grid::uniform(256)};
       add_symplecticity(run, {states_along(problem, starts.solve(fine))});
       run.show(problem->name() + ": energies and the work of forces");
       add_energy_against_work(run, {problem});

@@ -99,12 +99,8 @@ Misprint transversality(StartProvider& starts) {
   // The problem's own scale makes the weight so large that rounding of q(T) alone is above the tolerance.
   const auto problem =
       std::make_shared<RestatedProblem>(free, RestatedProblem::Changes{.final_weight = weight, .cost_scale = 1.0});
-  const Trajectory motion = starts.solve({.problem = problem,
-                                          .method = "dmoc",
-                                          .tableau = "gauss",
-                                          .stages = 4,
-                                          .solver = "ipopt",
-                                          .grid = Grid::uniform(128)});
+  const Trajectory motion =
+      starts.solve({.problem = problem, .method = "dmoc", .stages = 4, .solver = "ipopt", .grid = Grid::uniform(128)});
   const double v = motion.v(motion.intervals(), 1);
   const double control = weight * free->parameter("damping") * v * v / free->parameter("mass_2");
   return {.problem = problem->name(),
@@ -369,8 +365,8 @@ int evaluate_misprints(CommandLine& line) {
   TableRun run("misprints", line);
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
   StartProvider starts({}, TableRun::solver_options());
-  const Trajectory motion = starts.solve(
-      {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
+  const Trajectory motion =
+      starts.solve({.problem = orbit, .method = "dmoc", .solver = "ipopt", .grid = Grid::uniform(128)});
   std::vector<Misprint> misprints{potential_without_sine(),
                                   swapped_momenta(*orbit, motion),
                                   mayer_gradient(*orbit, motion),

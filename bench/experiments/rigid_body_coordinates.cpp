@@ -146,20 +146,16 @@ class RigidBodyCoordinates final : public ExperimentOf<Measured> {
     if (solved.the_case.intervals() <= finest_with_condition) {
       measured.condition = kkt_condition(*solved.program, solved.solution);
     }
-    try {
-      const Eigen::VectorXd last = problem.final_state().q;
-      const double horizon = problem.horizon();
-      measured.replay = angle_between(attitude(problem, last + replay_error(problem, trajectory).q, horizon),
-                                      attitude(problem, last, horizon));
-      if (solved.the_case.is_reference && is_usable(solved)) compare_optima(solved, measured);
-      if (optimum_.solution == nullptr) return;
-      measured.objective = std::abs(trajectory.cost - optimum_.solution->cost());
-      measured.attitude = largest_angle(trajectory.node_times, optimum_, [&](Eigen::Index k) {
-        return attitude(problem, trajectory.q.row(k), trajectory.node_times[k]);
-      });
-    } catch (const Error& failure) {
-      solved.note(failure.what());
-    }
+    const Eigen::VectorXd last = problem.final_state().q;
+    const double horizon = problem.horizon();
+    measured.replay = angle_between(attitude(problem, last + replay_error(problem, trajectory).q, horizon),
+                                    attitude(problem, last, horizon));
+    if (solved.the_case.is_reference && is_usable(solved)) compare_optima(solved, measured);
+    if (optimum_.solution == nullptr) return;
+    measured.objective = std::abs(trajectory.cost - optimum_.solution->cost());
+    measured.attitude = largest_angle(trajectory.node_times, optimum_, [&](Eigen::Index k) {
+      return attitude(problem, trajectory.q.row(k), trajectory.node_times[k]);
+    });
   }
 
   void finish(Table& table, FurtherOutput& output) override {

@@ -48,11 +48,8 @@ std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std:
   const auto solver = make_solver("auto", solver_options);
   std::vector<SolvedCase> answers;
   for (const std::string& method : options.methods) {
-    const Case the_case{.problem = problem,
-                        .method = method,
-                        .tableau = "gauss",
-                        .solver = "interior_point",
-                        .grid = Grid::uniform(options.intervals)};
+    const Case the_case{
+        .problem = problem, .method = method, .solver = "interior_point", .grid = Grid::uniform(options.intervals)};
     answers.push_back(solve_case(the_case, starts.start_for(the_case), *solver, solver_options.tolerance, 1));
     throw_if_interrupted();
     const SolvedCase& answer = answers.back();

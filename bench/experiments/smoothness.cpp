@@ -105,7 +105,6 @@ class Smoothness {
                                     long long intervals) {
     return {.problem = situation.problem,
             .method = method,
-            .tableau = "gauss",
             .stages = stages,
             .solver = "interior_point",
             .grid = Grid::uniform(intervals)};

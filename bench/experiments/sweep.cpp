@@ -1,8 +1,6 @@
 // A study of parameters: one problem with other masses, lengths, weights or end states, instance by instance.
-#include <algorithm>
 #include <map>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

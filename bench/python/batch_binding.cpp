@@ -19,7 +19,6 @@
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/lane_transcription.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"

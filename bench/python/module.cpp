@@ -1,5 +1,3 @@
-#include <string>
-
 #include <pybind11/pybind11.h>
 
 #include "bench/programs.hpp"

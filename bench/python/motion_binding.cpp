@@ -3,7 +3,6 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>

@@ -1,7 +1,6 @@
 #include "bench/python/python_object.hpp"
 
 #include <algorithm>
-#include <map>
 #include <new>
 #include <tuple>
 

@@ -7,7 +7,6 @@
 #include <pybind11/stl.h>
 
 #include "bench/python/bindings.hpp"
-#include "methods/error.hpp"
 
 namespace dmocbench::python {
 

@@ -1,7 +1,6 @@
 #include "bench/python/python_problem.hpp"
 
 #include <algorithm>
-#include <new>
 #include <utility>
 
 #include <fmt/format.h>

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "bench/run/json_place.hpp"
-#include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 #include "methods/program/status.hpp"
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstddef>
 
 #include <fmt/format.h>
 

@@ -203,7 +203,8 @@ SolvedCase CaseScheduler::solve(std::size_t number, int repeats) {
   return unsolved;
 }
 
-/// The row of a solved case with the experiment's measurements; if memory or time run out, its message reports this.
+/// The row of a solved case with the experiment's measurements; its message reports one that fails, and if memory or
+/// time run out.
 Row CaseScheduler::completed(SolvedCase& solved) {
   MeasuredCase measured{solved, own_columns_.not_measured};
   try {
@@ -211,8 +212,8 @@ Row CaseScheduler::completed(SolvedCase& solved) {
     if (own_columns_.measure) own_columns_.measure(measured);
   } catch (const Stopped&) {
     note_stop(solved, "Measurements of the solution are missing");
-  } catch (const Error&) {
-    throw;
+  } catch (const Error& error) {
+    solved.note(error.what());
   } catch (const std::exception& error) {
     solved.note(fmt::format("Measurements of the solution are missing: {}.", sentence_of(error)));
   }

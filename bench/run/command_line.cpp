@@ -4,13 +4,9 @@
 #include <array>
 #include <cmath>
 #include <csignal>
-#include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <new>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 

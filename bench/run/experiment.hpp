@@ -154,7 +154,8 @@ class ExperimentOf : public Experiment {
   /// Columns after the core columns. Called for `--help` and, when `cases` has returned, for the table.
   [[nodiscard]] virtual Columns<Measured> columns() const = 0;
   /// Measures a case, solved or not, in the order of solving: cases in their order, references of curves first. Values
-  /// filled in before time or memory run out go to the row. May add to the message of the row.
+  /// filled in before it fails, or before time or memory run out, go to the row. May add to the message of the row; the
+  /// sentence of an `Error` that it throws is added, too.
   virtual void measure(SolvedCase& solved, Measured& measured) = 0;
 
   /// The columns of the record.

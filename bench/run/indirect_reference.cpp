@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "bench/run/result_file.hpp"
 #include "bench/run/solve_case.hpp"

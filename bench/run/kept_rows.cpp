@@ -10,7 +10,6 @@
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
-#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

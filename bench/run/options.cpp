@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -12,7 +11,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/run/command_line.hpp"
 #include "bench/run/interrupt.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/result_file.hpp"

@@ -20,7 +20,6 @@
 #include "bench/run/result_file.hpp"
 #include "bench/run/run_plan.hpp"
 #include "bench/run/run_summary.hpp"
-#include "methods/error.hpp"
 #include "methods/mechanics/first_order_problem.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 #include "methods/tables/motion_file.hpp"

@@ -4,11 +4,9 @@
 #include <iterator>
 #include <map>
 #include <ranges>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "bench/run/solve_case.hpp"
 #include "methods/program/status.hpp"

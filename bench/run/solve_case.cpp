@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "methods/adaptive/error_estimate.hpp"
-#include "methods/diagnostics/accuracy.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/undefined_point.hpp"
-#include "methods/diagnostics/violation_between_stages.hpp"
 #include "methods/error.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/polish.hpp"

@@ -33,7 +33,7 @@ struct Variant {
 struct Case {
   std::shared_ptr<const Problem> problem;          ///< the problem to solve; shared between cases
   std::string method;                              ///< family of elements, as `make_element` takes it
-  std::string tableau;                             ///< family of Butcher tableaus, as `make_tableau` takes it
+  std::string tableau = "gauss";                   ///< family of Butcher tableaus, as `make_tableau` takes it
   int stages = 1;                                  ///< s
   std::string solver = {};                         ///< as `make_solver` takes it
   std::string derivatives = "tape";                ///< the back end that the solver sees

@@ -3,7 +3,6 @@
 #include <exception>
 #include <string_view>
 
-#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

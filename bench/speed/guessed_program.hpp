@@ -27,7 +27,6 @@ struct GuessedProgram {
     const Clock::time_point begin = Clock::now();
     program = Case{.problem = problem,
                    .method = method,
-                   .tableau = "gauss",
                    .stages = stages,
                    .derivatives = derivatives,
                    .grid = Grid::uniform(intervals)}

@@ -1,6 +1,5 @@
 // Compiled once per instruction set, see kernels.hpp.
 // q = (r, φ), L = ½(V² + R²W²) + 1/R, f = (0, R u), C = u²
-#include <array>
 #include <cstddef>
 
 #include "bench/speed/kernels.hpp"

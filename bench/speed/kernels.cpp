@@ -1,7 +1,5 @@
 #include "bench/speed/kernels.hpp"
 
-#include <array>
-
 namespace dmocbench::speed {
 
 namespace kernels_baseline {

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
-
-#include "bench/tables/ratio_interval.hpp"
 
 namespace dmocbench {
 

@@ -25,6 +25,13 @@ AdaptiveTask task_of(const Problem& problem, const std::string& method, int stag
           .start = guessed_motion(problem)};
 }
 
+AdaptiveOptions accurate_to(double accuracy, Refinement refinement = Refinement::h) {
+  AdaptiveOptions options;
+  options.accuracy = accuracy;
+  options.refinement = refinement;
+  return options;
+}
+
 /// The largest error of the forced oscillator's q, which ranges from 0 to 1.
 double error_of_oscillation(const Trajectory& motion) {
   constexpr double pi = 3.14159265358979323846;
@@ -40,8 +47,7 @@ TEST(AdaptiveSolve, ReachesTheAccuracyAskedForByEveryFamilyAndSolver) {
   const auto problem = make_problem("forced_oscillator");
   for (const std::string solver : {"interior_point", "ipopt"}) {
     for (const std::string& method : paper_families()) {
-      AdaptiveOptions options;
-      options.accuracy = 1e-7;
+      AdaptiveOptions options = accurate_to(1e-7);
       options.solver = solver;
       const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, method, 2, 8), options);
       ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
@@ -54,9 +60,7 @@ TEST(AdaptiveSolve, ReachesTheAccuracyAskedForByEveryFamilyAndSolver) {
 
 TEST(AdaptiveSolve, MakesStepsSmallWhereTheMotionIsFast) {
   const auto problem = make_problem("hypersensitive");
-  AdaptiveOptions options;
-  options.accuracy = 1e-6;
-  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 2, 32), options);
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 2, 32), accurate_to(1e-6));
   ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
   const Eigen::VectorXd& widths = answer.program->grid().relative_widths();
   EXPECT_GT(widths[widths.size() / 2], 5.0 * widths[0]);
@@ -69,9 +73,7 @@ TEST(AdaptiveSolve, MakesStepsSmallWhereTheMotionIsFast) {
 TEST(AdaptiveSolve, FindsTheCertifiedCostFromTheGuess) {
   for (const char* name : {"eccentric_transfer", "hypersensitive"}) {
     const auto problem = make_problem(name);
-    AdaptiveOptions options;
-    options.accuracy = 1e-10;
-    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 3, 32), options);
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 3, 32), accurate_to(1e-10));
     ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
     const double certified = tests::value_of(problem->card().reference).objective;
     EXPECT_NEAR(answer.trajectory.cost, certified, 1.1e-10 * certified) << name;
@@ -80,10 +82,7 @@ TEST(AdaptiveSolve, FindsTheCertifiedCostFromTheGuess) {
 
 TEST(AdaptiveSolve, RaisesTheNumberOfStagesUpToThreeWhereStepsAloneWouldTakeMany) {
   const auto problem = make_problem("forced_oscillator");
-  AdaptiveOptions options;
-  options.accuracy = 1e-9;
-  options.refinement = Refinement::hp;
-  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 8), options);
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 8), accurate_to(1e-9, Refinement::hp));
   ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
   EXPECT_EQ(answer.grids.back().stages, 3);
   EXPECT_LT(error_of_oscillation(answer.trajectory), 2e-9);
@@ -91,10 +90,8 @@ TEST(AdaptiveSolve, RaisesTheNumberOfStagesUpToThreeWhereStepsAloneWouldTakeMany
 
 TEST(AdaptiveSolve, CountsTheWorkOnAllGrids) {
   const auto problem = make_problem("two_link_manipulator");
-  AdaptiveOptions options;
-  options.accuracy = 1e-5;
   int iterations = 0;
-  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 8), options,
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 8), accurate_to(1e-5),
                                                  [&](const GridAttempt& grid) { iterations += grid.iterations; });
   ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
   ASSERT_GT(answer.grids.size(), 2U);
@@ -106,9 +103,7 @@ TEST(AdaptiveSolve, CountsTheWorkOnAllGrids) {
 
 TEST(AdaptiveSolve, SaysWhereAnAccuracyIsMoreThanDoublesCanGive) {
   const auto problem = make_problem("orbital_transfer");
-  AdaptiveOptions options;
-  options.accuracy = 1e-14;
-  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 3, 16), options);
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 3, 16), accurate_to(1e-14));
   EXPECT_EQ(answer.outcome, AdaptiveOutcome::rounding);
   EXPECT_NE(answer.message.find("Double precision cannot reach"), std::string::npos) << answer.message;
 }
@@ -117,9 +112,7 @@ TEST(AdaptiveSolve, SaysWhereAnAccuracyIsMoreThanDoublesCanGive) {
 TEST(AdaptiveSolve, ReachesTheAccuracyAskedForWithEveryKindOfStatement) {
   for (const char* name : {"waypoints", "two_link_with_motors", "hanging_chain", "spring_arm"}) {
     const auto problem = make_problem(name);
-    AdaptiveOptions options;
-    options.accuracy = 1e-4;
-    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 32), options);
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 32), accurate_to(1e-4));
     ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << name << ": " << answer.message;
     // Not the stated optimum: two_link_with_motors has several minima.
     const double least =
@@ -132,10 +125,7 @@ TEST(AdaptiveSolve, ReachesTheAccuracyAskedForWithEveryKindOfStatement) {
 TEST(AdaptiveSolve, ReachesTheAccuracyAskedForWithAFreeHorizonToo) {
   const auto problem = make_problem("brachistochrone");
   for (const Refinement refinement : {Refinement::h, Refinement::hp}) {
-    AdaptiveOptions options;
-    options.accuracy = 1e-6;
-    options.refinement = refinement;
-    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 2, 16), options);
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 2, 16), accurate_to(1e-6, refinement));
     ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
     EXPECT_NE(answer.message.find("comparison"), std::string::npos) << answer.message;
     const double least = tests::value_of(problem->card().reference).objective;
@@ -146,10 +136,8 @@ TEST(AdaptiveSolve, ReachesTheAccuracyAskedForWithAFreeHorizonToo) {
 /// Three torques of the robot arm switch, five times in all.
 TEST(AdaptiveSolve, NarrowsAllIntervalsInWhichControlsSwitchAtOnce) {
   const auto problem = make_problem("robot_arm");
-  AdaptiveOptions options;
-  options.accuracy = 1e-3;
   for (const std::string& method : paper_families()) {
-    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, method, 2, 32), options);
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, method, 2, 32), accurate_to(1e-3));
     ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << method << ": " << answer.message;
     EXPECT_EQ(answer.grids.front().status, Status::violates_between_stages) << method;
     EXPECT_LE(answer.grids.size(), 8U) << method;
@@ -159,11 +147,8 @@ TEST(AdaptiveSolve, NarrowsAllIntervalsInWhichControlsSwitchAtOnce) {
 /// The winch of the crane is at its bounds, and no longer, on most of the way: narrower intervals do not end that.
 TEST(AdaptiveSolve, TakesControlsThatKeepTheirBoundsWhereNarrowIntervalsDoNotHelp) {
   const auto problem = make_problem("container_crane");
-  AdaptiveOptions options;
-  options.accuracy = 0.1;
   for (const Refinement refinement : {Refinement::h, Refinement::hp}) {
-    options.refinement = refinement;
-    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 2, 16), options);
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 2, 16), accurate_to(0.1, refinement));
     ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
     EXPECT_EQ(answer.grids.front().status, Status::violates_between_stages);
     EXPECT_EQ(answer.grids.back().stages, 1);
@@ -184,8 +169,7 @@ TEST(AdaptiveSolve, KeepsTheLastAnswerWhereItIsStopped) {
   const auto problem = make_problem("brachistochrone");
   std::size_t grids = 0;
   bool must_stop = false;
-  AdaptiveOptions options;
-  options.accuracy = 1e-9;
+  AdaptiveOptions options = accurate_to(1e-9);
   options.solver_options.stop_requested = [&] { return must_stop; };
   const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 16), options,
                                                  [&](const GridAttempt&) { must_stop = ++grids == 3; });
@@ -203,8 +187,7 @@ TEST(AdaptiveSolve, KeepsTheLastAnswerWhereItIsStopped) {
 TEST(AdaptiveSolve, EndsWithTheTimeOfAllGridsTogether) {
   const auto problem = make_problem("robot_arm");
   for (const double seconds : {1e-9, 0.5}) {
-    AdaptiveOptions options;
-    options.accuracy = 1e-10;
+    AdaptiveOptions options = accurate_to(1e-10);
     options.solver_options.most_seconds = seconds;
     const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "tangent", 1, 256), options);
     EXPECT_EQ(answer.outcome, AdaptiveOutcome::stopped) << answer.message;
@@ -215,10 +198,9 @@ TEST(AdaptiveSolve, EndsWithTheTimeOfAllGridsTogether) {
 TEST(AdaptiveSolve, RefusesAccuraciesThatAreNone) {
   const auto problem = make_problem("forced_oscillator");
   for (const double accuracy : {0.0, -1.0, 1e-30, 0.5, std::numeric_limits<double>::quiet_NaN()}) {
-    AdaptiveOptions options;
-    options.accuracy = accuracy;
-    tests::expect_error_naming({"1e-14", "0.1"},
-                               [&] { static_cast<void>(solve_adaptively(task_of(*problem, "dmoc", 1, 8), options)); });
+    tests::expect_error_naming({"1e-14", "0.1"}, [&] {
+      static_cast<void>(solve_adaptively(task_of(*problem, "dmoc", 1, 8), accurate_to(accuracy)));
+    });
   }
   tests::expect_error_naming({"\"p\"", "h, hp"}, [] { static_cast<void>(refinement_named("p")); });
 }

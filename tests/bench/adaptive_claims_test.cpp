@@ -25,11 +25,7 @@ ResultTables tables_of(const AdaptiveOutcome& outcome) {
   tests::Rows effectivities;
   tests::Rows grids;
   for (const std::string& method : paper_families()) {
-    Row row;
-    row.set("problem", "hypersensitive");
-    row.set("method", method);
-    row.set("tableau", "gauss");
-    row.set("stages", 2LL);
+    Row row = tests::scheme_row(method, "hypersensitive", 2);
     Row effectivity = row;
     effectivity.set("status", "solved");
     effectivity.set("quantity", "state");
@@ -45,28 +41,17 @@ ResultTables tables_of(const AdaptiveOutcome& outcome) {
       grids.push_back(row);
     }
   }
-  ResultTables tables;
-  tables.add("adaptive_effectivity", tests::declared_table("adaptive_effectivity", effectivities));
-  tables.add("adaptive", tests::declared_table("adaptive", grids));
-  return tables;
-}
-
-JudgedClaim judged_adaptive(const std::string& id, const AdaptiveOutcome& outcome) {
-  for (const JudgedClaim& claim : judge_claims(tables_of(outcome))) {
-    if (claim.id() == id) return claim;
-  }
-  ADD_FAILURE() << "no claim " << id;
-  return {};
+  return tests::results_of({{"adaptive_effectivity", effectivities}, {"adaptive", grids}});
 }
 
 ClaimVerdict effective(const AdaptiveOutcome& outcome) {
-  return judged_adaptive("examples/error_estimate_is_effective", outcome).verdict;
+  return tests::judged_claim("examples/error_estimate_is_effective", tables_of(outcome)).verdict;
 }
 ClaimVerdict fewer(const AdaptiveOutcome& outcome) {
-  return judged_adaptive("hypersensitive/adapted_grids_need_fewer_intervals", outcome).verdict;
+  return tests::judged_claim("hypersensitive/adapted_grids_need_fewer_intervals", tables_of(outcome)).verdict;
 }
 ClaimVerdict ahead(const AdaptiveOutcome& outcome) {
-  return judged_adaptive("hypersensitive/dmoc_keeps_its_advantage_on_adapted_grids", outcome).verdict;
+  return tests::judged_claim("hypersensitive/dmoc_keeps_its_advantage_on_adapted_grids", tables_of(outcome)).verdict;
 }
 
 TEST(AdaptiveClaims, HoldByTablesThatSayTheSame) {
@@ -84,7 +69,8 @@ TEST(AdaptiveClaims, DifferWhereOneEffectivityIsOutside) {
 
 TEST(AdaptiveClaims, StateHowManyTimesAsManyIntervalsUniformGridsNeed) {
   const std::string measured =
-      judged_adaptive("hypersensitive/adapted_grids_need_fewer_intervals", {.uniform = 600.0}).measured();
+      tests::judged_claim("hypersensitive/adapted_grids_need_fewer_intervals", tables_of({.uniform = 600.0}))
+          .measured();
   EXPECT_NE(measured.find("150 (s = 2) instead of 600 (s = 2), ratio 4.00"), std::string::npos) << measured;
   EXPECT_EQ(fewer({.adapted = 0.0}), ClaimVerdict::not_judged);
 }
@@ -101,7 +87,7 @@ TEST(AdaptiveClaims, DifferWhereAKindOfCollocationNeedsNoMoreVariables) {
 
 TEST(AdaptiveClaims, AreAboutAnExtension) {
   for (const char* id : {"examples/error_estimate_is_effective", "hypersensitive/adapted_grids_need_fewer_intervals"}) {
-    EXPECT_EQ(judged_adaptive(id, {}).whose, Whose::extension);
+    EXPECT_EQ(tests::judged_claim(id, tables_of({})).whose, Whose::extension);
   }
 }
 

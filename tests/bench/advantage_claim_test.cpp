@@ -1,7 +1,6 @@
 // Whether collocation is dearer by its size or by the solver, judged on doctored ratios.
 
 #include <cmath>
-#include <initializer_list>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -13,11 +12,7 @@ namespace dmocbench {
 namespace {
 
 Row ratio(const std::string& factorisation, const std::string& quantity, int intervals, double value) {
-  Row row;
-  row.set("problem", "orbital_transfer");
-  row.set("method", "hamiltonian");
-  row.set("tableau", "gauss");
-  row.set("stages", 1LL);
+  Row row = tests::scheme_row("hamiltonian");
   row.set("solver", factorisation.empty() ? "ipopt" : "interior_point");
   row.set("factorisation", factorisation);
   row.set("intervals", static_cast<long long>(intervals));
@@ -29,19 +24,9 @@ Row ratio(const std::string& factorisation, const std::string& quantity, int int
   return row;
 }
 
-ResultTables tables_of(std::initializer_list<Row> rows) {
-  ResultTables tables;
-  tables.add("savings_by_solver_ratios", tests::declared_table("savings_by_solver_ratios", rows));
-  return tables;
-}
-
 /// What is said of the orbit.
-JudgedClaim judged(const std::string& claim, std::initializer_list<Row> rows) {
-  for (const JudgedClaim& judged : judge_claims(tables_of(rows))) {
-    if (judged.id() == "orbital_transfer/" + claim) return judged;
-  }
-  ADD_FAILURE() << "no claim " << claim;
-  return {};
+JudgedClaim judged(const std::string& claim, const tests::Rows& rows) {
+  return tests::judged_claim("orbital_transfer/" + claim, tests::results_of({{"savings_by_solver_ratios", rows}}));
 }
 
 TEST(ExpenseClaim, IsJudgedByTheTimesOfEverySolver) {

@@ -17,9 +17,6 @@ class Moved final : public tests::SmallProblem {
   Moved(double distance, std::string unit)
       : SmallProblem("moved", at(0.0, 0.0), at(distance, 0.0), 1.0, 1), unit_(std::move(unit)) {}
   [[nodiscard]] ProblemCard card() const override { return {.configuration_units = {unit_}}; }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 
  private:
   std::string unit_;
@@ -32,11 +29,6 @@ class MovedInPlane final : public tests::SmallProblem {
       : SmallProblem("moved_in_plane", BoundaryState::at_rest(Eigen::Vector2d::Zero()),
                      BoundaryState::at_rest(Eigen::Vector2d(x, y)), 1.0, 2) {}
   [[nodiscard]] ProblemCard card() const override { return {.configuration_units = {"m", "m"}}; }
-  [[nodiscard]] Expression lagrangian(const State& x) const override {
-    return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]);
-  }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
 std::string advice(std::shared_ptr<const Problem> problem, Status status, const std::string& solver,
@@ -61,8 +53,6 @@ class Turned final : public tests::SmallProblem {
  public:
   explicit Turned(double angle) : SmallProblem("turned", at(0.0, 0.0), at(angle, 0.0), 1.0, 1) {}
   [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] + cos(x.q[0]); }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 };
 
 TEST(Advice, DoubtsTheUnitOfASolvedProblemOnlyWhereTheCoordinateIsAnAngle) {

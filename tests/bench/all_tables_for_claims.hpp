@@ -460,8 +460,8 @@ inline Rows first_order_rows() {
   return rows;
 }
 
-inline std::map<std::string, Rows> all_rows() {
-  std::map<std::string, Rows> rows = rows_of_tables();
+inline TableRows all_rows() {
+  TableRows rows = rows_of_tables();
   rows["convergence_512_slopes"] = rows["convergence_slopes"];
   for (Row& row : rows["convergence_512_slopes"]) row.set("problem", two_link);
   add_rows_of(rows["convergence_indirect_slopes"], two_link,

@@ -17,11 +17,7 @@ using tests::solved_row;
 using tests::tables;
 
 ClaimVerdict verdict_on(const std::string& claim, const ResultTables& results) {
-  for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id() == std::string(orbit) + "/" + claim) return judged.verdict;
-  }
-  ADD_FAILURE() << "no claim " << claim;
-  return ClaimVerdict::not_judged;
+  return tests::judged_claim(std::string(orbit) + "/" + claim, results).verdict;
 }
 
 bool is(const Row& row, const std::string& method) { return row.text("method") == method; }
@@ -39,7 +35,6 @@ TEST(Claims, TablesThatAgreeWithThePaperAreReproduced) {
 
 TEST(Claims, StageControlsAndAConstantMassAreJudgedOnTheirOwnProblems) {
   const auto judged = [](double slope, double difference) {
-    ResultTables results;
     Row row = tests::scheme_row("dmoc");
     row.set("problem", "two_link_manipulator");
     row.set("quantity", "control");
@@ -47,16 +42,16 @@ TEST(Claims, StageControlsAndAConstantMassAreJudgedOnTheirOwnProblems) {
     row.set("slope", slope);
     row.set("standard_error", 0.02);
     row.set("verdict", "slope");
-    results.add("convergence_indirect_slopes", tests::declared_table("convergence_indirect_slopes", {row}));
     Row solve = solved_row("tangent", 64);
     solve.set("problem", "forced_oscillator");
     for (const char* column : {"configuration_difference", "momentum_difference", "control_difference",
                                "costate_difference", "objective_difference"}) {
       solve.set(column, difference);
     }
-    results.add("equivalence", tests::declared_table("equivalence", {solve}));
     std::map<std::string, ClaimVerdict> verdicts;
-    for (const JudgedClaim& claim : judge_claims(results)) verdicts[claim.id()] = claim.verdict;
+    for (const JudgedClaim& claim :
+         judge_claims(tests::results_of({{"convergence_indirect_slopes", {row}}, {"equivalence", {solve}}})))
+      verdicts[claim.id()] = claim.verdict;
     return verdicts;
   };
   auto good = judged(2.95, 1e-13);
@@ -219,14 +214,9 @@ bool is_difference(const Row& row) { return row.text("derivatives").ends_with("d
 
 /// The verdict where forward differences, or the tape, solve nothing, some or all.
 ClaimVerdict robustness(const std::string& derivatives, const std::function<bool(const Row&)>& is_solved) {
-  ResultTables results;
-  for (const auto& [name, rows] : tests::rows_of_tables()) {
-    tests::Rows changed = rows;
-    for (Row& row : changed) {
-      if (row.text("derivatives") == derivatives) row.set("status", is_solved(row) ? "solved" : "step failed");
-    }
-    results.add(name, tests::declared_table(name, changed));
-  }
+  const ResultTables results = tests::results_of(tests::rows_of_tables(), [&](const std::string&, Row& row) {
+    if (row.text("derivatives") == derivatives) row.set("status", is_solved(row) ? "solved" : "step failed");
+  });
   return verdict_on("automatic_differentiation_more_robust", results);
 }
 
@@ -257,14 +247,9 @@ TEST(Claims, TimesAreJudgedByWholeIntervals) {
 }
 
 TEST(Claims, DifferencesThatSolveNothingAreNotSlower) {
-  ResultTables results;
-  for (const auto& [name, rows] : tests::rows_of_tables()) {
-    tests::Rows changed = rows;
-    for (Row& row : changed) {
-      if (is_difference(row)) row.set("status", "acceptable");
-    }
-    results.add(name, tests::declared_table(name, changed));
-  }
+  const ResultTables results = tests::results_of(tests::rows_of_tables(), [](const std::string&, Row& row) {
+    if (is_difference(row)) row.set("status", "acceptable");
+  });
   EXPECT_EQ(verdict_on("automatic_differentiation_saves_time", results), ClaimVerdict::not_judged);
 }
 
@@ -277,17 +262,13 @@ TEST(Claims, AMissingFieldIsNotYetJudged) {
 }
 
 TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
-  ResultTables results;
   Row row;
   row.set("problem", orbit);
   row.set("misprint", "boundary_momenta");
   row.set("value_as_printed", 1.02);
   row.set("value_as_meant", 1.0);
   row.set("required_value", 1.0);
-  const auto verdict = [&] {
-    results.add("misprints", tests::declared_table("misprints", {row}));
-    return verdict_on("boundary_momenta", results);
-  };
+  const auto verdict = [&] { return verdict_on("boundary_momenta", tests::results_of({{"misprints", {row}}})); };
   EXPECT_EQ(verdict(), ClaimVerdict::differs);
   row.set("value_as_printed", 1.0);
   EXPECT_EQ(verdict(), ClaimVerdict::reproduced);
@@ -301,14 +282,12 @@ TEST(Claims, ASlipTellsTheRowThatItWasJudgedBy) {
   results.add("misprints",
               Table::from_csv("problem,misprint,where,printed,meant,quantity,value_as_printed,value_as_meant,"
                               "required_value\norbit,first,,,,,2,1,1\norbit,second,,,,,3,1,1\n"));
-  const std::vector<JudgedClaim> judged =
-      judge_claims(results, [](const std::string& id) { return id == "orbit/second"; });
-  ASSERT_EQ(judged.size(), 1U);
-  ASSERT_EQ(judged.front().rows.size(), 1U);
-  EXPECT_EQ(judged.front().rows.front().table, "misprints.csv");
-  EXPECT_EQ(judged.front().rows.front().records, std::vector<std::size_t>{3});
+  const std::vector<ReadRows> read = tests::judged_claim("orbit/second", results).rows;
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read.front().table, "misprints.csv");
+  EXPECT_EQ(read.front().records, std::vector<std::size_t>{3});
   for (const char* const column : {"value_as_printed", "value_as_meant", "required_value"})
-    EXPECT_EQ(std::ranges::count(judged.front().rows.front().columns, column), 1) << column;
+    EXPECT_EQ(std::ranges::count(read.front().columns, column), 1) << column;
 }
 
 TEST(Claims, OfOursHaveOneStatementThatHoldsOnSomeProblemsAndNotOnOthers) {

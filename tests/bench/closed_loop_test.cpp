@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "bench/experiments/closed_loop/plant.hpp"
@@ -13,11 +11,8 @@ namespace {
 class ClosedLoop : public testing::Test {
  protected:
   Replanner replanner(int intervals) {
-    const Case the_case{.problem = problem_,
-                        .method = "dmoc",
-                        .tableau = "gauss",
-                        .solver = "interior_point",
-                        .grid = Grid::uniform(intervals)};
+    const Case the_case{
+        .problem = problem_, .method = "dmoc", .solver = "interior_point", .grid = Grid::uniform(intervals)};
     return {the_case, tests::common_start(*problem_), {}};
   }
   std::shared_ptr<Problem> problem_ = make_problem("two_link_manipulator");

@@ -23,11 +23,7 @@ JudgedClaim judged_cold(const ColdOutcome& outcome, const std::string& id = "col
   tests::Rows shares;
   for (const auto& [method, hits] : {std::tuple("dmoc", outcome.dmoc), std::tuple("hamiltonian", outcome.hamiltonian),
                                      std::tuple("tangent", outcome.tangent)}) {
-    Row row;
-    row.set("problem", "orbital_transfer");
-    row.set("method", method);
-    row.set("tableau", "gauss");
-    row.set("stages", 1LL);
+    Row row = tests::scheme_row(method);
     row.set("solver", "interior_point");
     row.set("derivatives", "tape");
     row.set("intervals", 64LL);
@@ -37,13 +33,7 @@ JudgedClaim judged_cold(const ColdOutcome& outcome, const std::string& id = "col
     row.set("best", hits);
     shares.push_back(row);
   }
-  ResultTables results;
-  results.add("cold_start_shares", tests::declared_table("cold_start_shares", shares));
-  for (const JudgedClaim& claim : judge_claims(results)) {
-    if (claim.id() == "orbital_transfer/" + id) return claim;
-  }
-  ADD_FAILURE() << "no claim " << id;
-  return {};
+  return tests::judged_claim("orbital_transfer/" + id, tests::results_of({{"cold_start_shares", shares}}));
 }
 
 ClaimVerdict verdict_cold(const ColdOutcome& outcome) { return judged_cold(outcome).verdict; }

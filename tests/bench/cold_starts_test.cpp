@@ -5,16 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "bench/tables/ratio_interval.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench {
 namespace {
 
 Row cold_answer(const char* problem, const char* method, const char* status, double objective, double evaluations) {
-  Row row;
-  row.set("problem", problem);
-  row.set("method", method);
-  row.set("tableau", "gauss");
-  row.set("stages", 1LL);
+  Row row = tests::scheme_row(method, problem);
   row.set("solver", "interior_point");
   row.set("derivatives", "tape");
   row.set("intervals", 64LL);

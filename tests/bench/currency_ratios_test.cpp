@@ -1,19 +1,14 @@
-#include <string>
-
 #include <gtest/gtest.h>
 
 #include "bench/tables/ratios.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench {
 namespace {
 
 /// A row of iterations by Ipopt on N intervals, with an error of order 2.
 Row solved(const char* method, const char* derivatives, double tolerance, int intervals, int iterations) {
-  Row row;
-  row.set("problem", "pendulum");
-  row.set("method", method);
-  row.set("tableau", "gauss");
-  row.set("stages", 1);
+  Row row = tests::scheme_row(method, "pendulum");
   row.set("solver", "ipopt");
   row.set("derivatives", derivatives);
   row.set("tolerance", tolerance);

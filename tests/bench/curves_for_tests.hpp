@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "methods/tables/table.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench::tests {
 
@@ -28,11 +29,7 @@ inline Table convergence_of(const std::vector<MadeUpMethod>& methods, const std:
   for (const MadeUpMethod& method : methods) {
     for (const long long count : intervals) {
       const auto n = static_cast<double>(count);
-      Row row;
-      row.set("problem", "pendulum");
-      row.set("method", Cell(method.name));
-      row.set("tableau", "gauss");
-      row.set("stages", Cell(method.stages));
+      Row row = scheme_row(method.name, "pendulum", method.stages);
       row.set("solver", Cell(method.solver));
       row.set("derivatives", Cell(method.derivatives));
       row.set("intervals", count);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/run/result_file.hpp"
+#include "bench/claims/claim.hpp"
 #include "bench/tables/selection.hpp"
 
 // Tables for tests, with the columns that the experiments declare. Binaries.runs_every_experiment compares the file of
@@ -63,6 +65,39 @@ inline Table declared_table(const std::string& name, const Rows& rows) {
     table.append(row);
   }
   return table;
+}
+
+/// The row of a scheme by Gauss points.
+inline Row scheme_row(const std::string& method, const std::string& problem = orbit, const Cell& stages = 1) {
+  Row row;
+  row.set("problem", problem);
+  row.set("method", method);
+  row.set("tableau", "gauss");
+  row.set("stages", stages);
+  return row;
+}
+
+/// Rows of tables, by the tables' names.
+using TableRows = std::map<std::string, Rows>;
+
+/// The tables of all rows, each doctored by `change`.
+inline ResultTables results_of(TableRows all,
+                               const std::function<void(const std::string& table, Row& row)>& change = {}) {
+  ResultTables results;
+  for (auto& [name, rows] : all) {
+    for (Row& row : rows) {
+      if (change) change(name, row);
+    }
+    results.add(name, declared_table(name, rows));
+  }
+  return results;
+}
+
+/// The claim of an id as the tables lead to it.
+inline JudgedClaim judged_claim(const std::string& id, const ResultTables& tables) {
+  const std::vector<JudgedClaim> judged = judge_claims(tables, [&](const std::string& other) { return other == id; });
+  EXPECT_EQ(judged.size(), 1U) << id;
+  return judged.empty() ? JudgedClaim() : judged.front();
 }
 
 }  // namespace dmocbench::tests

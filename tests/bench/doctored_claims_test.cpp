@@ -6,7 +6,6 @@
 #include <random>
 #include <ranges>
 #include <set>
-#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,7 @@
 #include "bench/run/described_tables.hpp"
 #include "bench/run/result_file.hpp"
 #include "tests/bench/all_tables_for_claims.hpp"
+#include "tests/support/sentence_of_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dmocbench {
@@ -24,6 +24,10 @@ namespace {
 using tests::Rows;
 
 using Judgements = std::map<std::string, JudgedClaim>;
+
+bool reads(const std::vector<ReadRows>& read, const std::string& table) {
+  return std::ranges::count(read, table + ".csv", &ReadRows::table) > 0;
+}
 
 class DoctoredClaims : public tests::InTemporaryFolder {
  protected:
@@ -47,9 +51,7 @@ class DoctoredClaims : public tests::InTemporaryFolder {
   }
   /// Whether a claim reads the table.
   [[nodiscard]] bool is_read(const std::string& name) const {
-    return std::ranges::any_of(std::views::values(whole_), [&](const JudgedClaim& claim) {
-      return std::ranges::count(claim.rows, name + ".csv", &ReadRows::table) > 0;
-    });
+    return std::ranges::any_of(std::views::values(whole_), [&](const auto& claim) { return reads(claim.rows, name); });
   }
   /// Writes a table without telling its run.
   void slip_in(const std::string& name, const ColumnNames& columns, const Rows& rows) const {
@@ -90,7 +92,7 @@ class DoctoredClaims : public tests::InTemporaryFolder {
     tables_.forget(name);
     Judgements judged = judgements_of(tables_, [&](const std::string& id) {
       const std::vector<ReadRows>& read = whole_.at(id).rows;
-      return read.empty() || std::ranges::count(read, name + ".csv", &ReadRows::table) > 0;
+      return read.empty() || reads(read, name);
     });
     write(name, columns_.at(name), rows_.at(name));
     tables_.forget(name);
@@ -106,7 +108,7 @@ class DoctoredClaims : public tests::InTemporaryFolder {
     return judged;
   }
 
-  std::map<std::string, Rows> rows_ = tests::all_rows();
+  tests::TableRows rows_ = tests::all_rows();
   std::map<std::string, ColumnNames> columns_;
   ResultTables tables_;  ///< as they are
   Judgements whole_;     ///< of them
@@ -222,7 +224,7 @@ TEST_F(DoctoredClaims, SayNotJudgedAndNameTheColumn) {
       EXPECT_EQ(found.verdict, ClaimVerdict::not_judged) << claim << " with " << deciding.column << " " << what;
       EXPECT_NE(found.measured().find(deciding.table + ".csv"), std::string::npos)
           << claim << " with " << deciding.column << " " << what << ": " << found.measured();
-      EXPECT_NE(found.measured().find(deciding.column), std::string::npos) << found.measured();
+      EXPECT_PRED2(tests::says, found.measured(), deciding.column);
     }
   };
   for (const Deciding& deciding : all) {
@@ -239,7 +241,7 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
     Judgements judged = judge();
     const JudgedClaim& claim = judged["examples/local_minima"];
     EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << sentence;
-    EXPECT_NE(claim.measured().find(sentence), std::string::npos) << claim.measured();
+    EXPECT_PRED2(tests::says, claim.measured(), sentence);
     EXPECT_EQ(judged["simulations/symplectic"].verdict, ClaimVerdict::reproduced);
     std::filesystem::remove(file);
     write(name, columns_.at(name), rows_.at(name));
@@ -274,7 +276,7 @@ TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
   const auto expect = [&](const std::string& sentence) {
     const JudgedClaim claim = judge()["orbital_transfer/objective_evolution"];
     EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged) << sentence;
-    EXPECT_NE(claim.measured().find(sentence), std::string::npos) << claim.measured();
+    EXPECT_PRED2(tests::says, claim.measured(), sentence);
     write("objective", columns, rows);
   };
   slip_in("objective", columns, {rows.begin(), rows.end() - 1});
@@ -320,8 +322,7 @@ TEST_F(DoctoredClaims, NameTheOrdersThatOneRowLacks) {
   write(name, columns_.at(name), {rows_.at(name).front()});
   const JudgedClaim claim = judge()["orbital_transfer/order_of_convergence"];
   EXPECT_EQ(claim.verdict, ClaimVerdict::not_judged);
-  EXPECT_NE(claim.measured().find("no order of momentum for orbital_transfer, dmoc, gauss 2"), std::string::npos)
-      << claim.measured();
+  EXPECT_PRED2(tests::says, claim.measured(), "no order of momentum for orbital_transfer, dmoc, gauss 2");
 }
 
 TEST_F(DoctoredClaims, CountTheRowsThatTheyLeaveOutNameThemAndSayWhomThatFavours) {
@@ -331,8 +332,8 @@ TEST_F(DoctoredClaims, CountTheRowsThatTheyLeaveOutNameThemAndSayWhomThatFavours
   const std::string measured =
       with("derivatives", "status", "step failed", is_stray)["orbital_transfer/automatic_differentiation_saves_time"]
           .measured();
-  EXPECT_NE(measured.find("rows left out: not solved with dense_differences or "), std::string::npos) << measured;
-  EXPECT_NE(measured.find("which favours dense_differences with dmoc ("), std::string::npos) << measured;
+  EXPECT_PRED2(tests::says, measured, "rows left out: not solved with dense_differences or ");
+  EXPECT_PRED2(tests::says, measured, "which favours dense_differences with dmoc (");
 }
 
 /// The predicate of a claim: the same on every problem.
@@ -379,10 +380,7 @@ struct Doctoring {
 /// Predicates with the verdicts that tables lead them to.
 class ReachedVerdicts {
  public:
-  ReachedVerdicts() {
-    for (const auto& [name, rows] : rows_) tables_.add(name, tests::declared_table(name, rows));
-    note(judge_claims(tables_));
-  }
+  ReachedVerdicts() { note(judge_claims(tables_)); }
   /// Doctors every column that a predicate without both verdicts reads, group by group.
   void doctor() {
     for (const auto& [name, rows] : rows_) {
@@ -442,8 +440,8 @@ class ReachedVerdicts {
     }
   }
 
-  std::map<std::string, Rows> rows_ = tests::all_rows();
-  ResultTables tables_;
+  tests::TableRows rows_ = tests::all_rows();
+  ResultTables tables_ = tests::results_of(rows_);
   std::map<std::string, std::set<ClaimVerdict>> verdicts_;
   std::map<std::string, std::map<std::string, std::set<std::string>>> read_;  ///< columns, by predicate and table
   std::set<std::string> by_counting_;
@@ -463,9 +461,8 @@ TEST(EveryPredicate, IsReproducedByOneTableAndDiffersByAnother) {
 /// The verdicts are exchanged with the rows that agree and those that do not: a mark by which a claim leaves rows out
 /// leaves out either kind.
 TEST(EveryPredicate, LeavesRowsOutWhateverTheirNumbersAre) {
-  const std::map<std::string, Rows> all = tests::all_rows();
-  ResultTables tables;
-  for (const auto& [name, rows] : all) tables.add(name, tests::declared_table(name, rows));
+  const tests::TableRows all = tests::all_rows();
+  ResultTables tables = tests::results_of(all);
   std::map<std::string, std::vector<ReadRows>> read;
   for (const JudgedClaim& claim : judge_claims(tables)) read[claim.id()] = claim.rows;
   ReachedVerdicts reached;
@@ -505,9 +502,8 @@ TEST(EveryPredicate, LeavesRowsOutWhateverTheirNumbersAre) {
 
 /// Where solves fail, or end on another branch, a claim is judged by the others or not at all.
 TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
-  const std::map<std::string, Rows> all = tests::all_rows();
-  ResultTables tables;
-  for (const auto& [name, rows] : all) tables.add(name, tests::declared_table(name, rows));
+  const tests::TableRows all = tests::all_rows();
+  ResultTables tables = tests::results_of(all);
   // A claim judges the tables that it reads; one that does not list them might read any.
   std::map<std::string, std::vector<ReadRows>> read;
   for (const JudgedClaim& claim : judge_claims(tables)) {
@@ -527,8 +523,7 @@ TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
         tables.add(name, tests::declared_table(name, doctored));
         ++failed;
         const auto reads_it = [&](const std::string& id) {
-          return read.contains(id) &&
-                 (read[id].empty() || std::ranges::count(read[id], name + ".csv", &ReadRows::table) > 0);
+          return read.contains(id) && (read[id].empty() || reads(read[id], name));
         };
         for (const JudgedClaim& claim : judge_claims(tables, reads_it)) {
           EXPECT_NE(claim.verdict, ClaimVerdict::differs)
@@ -542,9 +537,7 @@ TEST(EveryPredicate, DiffersByNoFailureOfASolver) {
 }
 
 TEST(EveryPredicate, OfAClaimDrawsALineAndOfAFindingDoesNot) {
-  ResultTables tables;
-  for (const auto& [name, rows] : tests::all_rows()) tables.add(name, tests::declared_table(name, rows));
-  for (const JudgedClaim& claim : judge_claims(tables)) {
+  for (const JudgedClaim& claim : judge_claims(tests::results_of(tests::all_rows()))) {
     if (claim.verdict == ClaimVerdict::not_judged) continue;
     EXPECT_EQ(claim.verdict == ClaimVerdict::measured, !claim.has_verdict) << claim.id();
     EXPECT_TRUE(claim.has_verdict || claim.whose != Whose::paper) << claim.id();

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/claims/claim.hpp"
 #include "tests/bench/all_tables_for_claims.hpp"
 
 namespace dmocbench::tests {
@@ -21,19 +20,10 @@ struct FalseNumber {
 
 /// The verdict on the claim where the tables agree with the paper but for that number.
 inline ClaimVerdict verdict_with(const FalseNumber& doctored) {
-  ResultTables results;
-  for (const auto& [name, rows] : all_rows()) {
-    Rows changed = rows;
-    for (Row& row : changed) {
-      if (name == doctored.table && doctored.where(row)) row.set(doctored.column, doctored.number);
-    }
-    results.add(name, declared_table(name, changed));
-  }
-  for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id() == doctored.claim) return judged.verdict;
-  }
-  ADD_FAILURE() << "no claim " << doctored.claim;
-  return ClaimVerdict::not_judged;
+  const ResultTables results = results_of(all_rows(), [&](const std::string& name, Row& row) {
+    if (name == doctored.table && doctored.where(row)) row.set(doctored.column, doctored.number);
+  });
+  return judged_claim(doctored.claim, results).verdict;
 }
 
 /// Each claim is reproduced by the tables as they are, and differs with its false number.

@@ -4,6 +4,8 @@
 
 #include "methods/transcription/elements/families.hpp"
 #include "tests/bench/curves_for_tests.hpp"
+#include "tests/bench/declared_tables.hpp"
+#include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {
 namespace {
@@ -70,11 +72,11 @@ TEST(FittedOrders, AreAgainstTheFinestGridThatIsSolvedAndSayWhyNotTheFinest) {
   EXPECT_NEAR(slope_of(fits, "state").needed("slope"), 2.0, 1e-6);
   ASSERT_EQ(fits.notes.size(), 1U);
   for (const char* word : {"N = 1024", "time limit", "N = 512"}) {
-    EXPECT_NE(fits.notes.front().find(word), std::string::npos) << fits.notes.front();
+    EXPECT_PRED2(tests::says, fits.notes.front(), word);
   }
   const FittedOrders named = fit_orders(failed, std::nullopt, 1024);
   ASSERT_FALSE(named.notes.empty());
-  EXPECT_NE(named.notes.front().find("choose a --reference"), std::string::npos) << named.notes.front();
+  EXPECT_PRED2(tests::says, named.notes.front(), "choose a --reference");
   EXPECT_TRUE(fit_orders(all, std::nullopt, 0).notes.empty());
 }
 
@@ -110,7 +112,7 @@ TEST(FittedOrders, OfACurveWithoutFourGridsAreNoneAndGetANote) {
   EXPECT_EQ(slope_of(none, "state").text("verdict"), "few grids");
   EXPECT_EQ(slope_of(none, "state").text("slope"), "");
   ASSERT_EQ(none.notes.size(), 1U);
-  EXPECT_NE(none.notes[0].find("no order is fitted (few grids: 3 grids"), std::string::npos) << none.notes[0];
+  EXPECT_PRED2(tests::says, none.notes[0], "no order is fitted (few grids: 3 grids");
 }
 
 TEST(FittedOrders, OfErrorsThatStopFallingFarAboveRoundOffAreNoneAndTheNoteNamesTheLevel) {
@@ -119,8 +121,7 @@ TEST(FittedOrders, OfErrorsThatStopFallingFarAboveRoundOffAreNoneAndTheNoteNames
       fit_orders(convergence_of({{.error = stuck}}, sixteen_to_1024), std::nullopt, exact_reference);
   EXPECT_EQ(slope_of(none, "state").text("verdict"), "floor");
   ASSERT_EQ(none.notes.size(), 1U);
-  EXPECT_NE(none.notes[0].find("the state error stops falling at 1.2e-02, and 0 grids are"), std::string::npos)
-      << none.notes[0];
+  EXPECT_PRED2(tests::says, none.notes[0], "the state error stops falling at 1.2e-02, and 0 grids are");
 }
 
 TEST(FittedOrders, OfStatesAtRestAreNoReasonForTheNote) {
@@ -137,7 +138,7 @@ TEST(FittedOrders, OfStatesAtRestAreNoReasonForTheNote) {
        {std::pair(of_controls, "(few grids: 3 grids"), std::pair(of_nothing, "(floor: the errors are 0")}) {
     const FittedOrders none = fit_orders(errors, std::nullopt, exact_reference);
     ASSERT_EQ(none.notes.size(), 1U);
-    EXPECT_NE(none.notes[0].find(reason), std::string::npos) << none.notes[0];
+    EXPECT_PRED2(tests::says, none.notes[0], reason);
   }
 }
 
@@ -196,11 +197,7 @@ TEST(FittedOrders, OfDifferencesEndAboveThoseOfHamiltonianCollocation) {
                "branch", "configuration_difference"});
   for (const std::string& method : paper_families()) {
     for (const long long n : dense_grids) {
-      Row row;
-      row.set("problem", "pendulum");
-      row.set("method", method);
-      row.set("tableau", "gauss");
-      row.set("stages", "1");
+      Row row = tests::scheme_row(method, "pendulum");
       row.set("intervals", n);
       row.set("step", 1.0 / static_cast<double>(n));
       row.set("status", "solved");

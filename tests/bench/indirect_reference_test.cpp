@@ -20,8 +20,6 @@ class HeavierIntegrator final : public tests::SmallProblem {
  public:
   HeavierIntegrator() : SmallProblem("double_integrator", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
   [[nodiscard]] Expression lagrangian(const State& x) const override { return x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 };
 
 Trajectory direct_solution(const Problem& problem) {

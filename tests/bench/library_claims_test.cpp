@@ -10,15 +10,6 @@
 namespace dmocbench {
 namespace {
 
-/// The verdict on a claim by its whole id.
-ClaimVerdict verdict_of_claim(const ResultTables& results, const std::string& id) {
-  for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id() == id) return judged.verdict;
-  }
-  ADD_FAILURE() << "no claim " << id;
-  return ClaimVerdict::not_judged;
-}
-
 /// The minima of both of the paper's problems: on the two-link a second one that tangent-space collocation finds too,
 /// or not.
 ResultTables minima_of(double second_by_tangent, const char* is_motion = "yes", double solved = 60.0) {
@@ -46,14 +37,13 @@ ResultTables minima_of(double second_by_tangent, const char* is_motion = "yes", 
       shares.push_back(row);
     }
   }
-  ResultTables results;
-  results.add("local_minima_minima", tests::declared_table("local_minima_minima", minima));
-  results.add("local_minima_shares", tests::declared_table("local_minima_shares", shares));
-  return results;
+  return tests::results_of({{"local_minima_minima", minima}, {"local_minima_shares", shares}});
 }
 
 TEST(LibraryClaims, DifferentGuessesLeadToDifferentSolutionsIfOneProblemHasTwoThatMoreThanOneMethodFinds) {
-  const auto verdict = [](const ResultTables& tables) { return verdict_of_claim(tables, "examples/local_minima"); };
+  const auto verdict = [](const ResultTables& tables) {
+    return tests::judged_claim("examples/local_minima", tables).verdict;
+  };
   EXPECT_EQ(verdict(minima_of(1.0)), ClaimVerdict::reproduced);
   EXPECT_EQ(verdict(minima_of(0.0)), ClaimVerdict::differs);
   EXPECT_EQ(verdict(minima_of(1.0, "no")), ClaimVerdict::differs) << "artefacts of the grid are no minima";
@@ -86,13 +76,7 @@ JudgedClaim judged_library(int dmoc_wins, int hamiltonian_wins) {
     profile.push_back(solve(problem, "dmoc", "interior_point", is_better_by_other_solver ? 1.0 : 2.0));
     profile.push_back(solve(problem, "hamiltonian", "interior_point", 1.5));
   }
-  ResultTables results;
-  results.add("profile", tests::declared_table("profile", profile));
-  for (const JudgedClaim& judged : judge_claims(results)) {
-    if (judged.id() == "library/dmoc_best_by_evaluations") return judged;
-  }
-  ADD_FAILURE() << "the library is not judged";
-  return {};
+  return tests::judged_claim("library/dmoc_best_by_evaluations", tests::results_of({{"profile", profile}}));
 }
 
 TEST(LibraryClaims, TheLibraryIsJudgedByWhoIsBestMostOftenBySolver) {

@@ -1,17 +1,14 @@
 #include <gtest/gtest.h>
 
 #include "bench/tables/profile_tables.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench {
 namespace {
 
 Row row_of_library(const char* problem, const char* method, long long intervals, double objective,
                    const char* status = "solved") {
-  Row row;
-  row.set("problem", problem);
-  row.set("method", method);
-  row.set("tableau", "gauss");
-  row.set("stages", 2LL);
+  Row row = tests::scheme_row(method, problem, 2);
   row.set("solver", "ipopt");
   row.set("derivatives", "tape");
   row.set("intervals", intervals);

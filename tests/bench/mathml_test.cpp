@@ -15,6 +15,7 @@
 #include "problems/registry.hpp"
 #include "tests/bench/mathml_value.hpp"
 #include "tests/expression/random_program.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 
 namespace dmocbench {
@@ -193,21 +194,14 @@ TEST(Mathml, TakesNoLongerWhereFewOperationsMakeALongFormula) {
 }
 
 /// A mass whose unit is said in any way.
-class MassInUnit : public Problem {
+class MassInUnit : public tests::SmallProblem {
  public:
   explicit MassInUnit(const std::string& unit)
-      : Problem({{.name = "mass", .value = 2.0, .unit = unit, .meaning = "that is pushed"}}) {}
-  [[nodiscard]] std::string name() const override { return "mass_in_unit"; }
+      : SmallProblem("mass_in_unit", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1,
+                     {{.name = "mass", .value = 2.0, .unit = unit, .meaning = "that is pushed"}}) {}
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"push"}; }
   [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * varying("mass") * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
-  [[nodiscard]] BoundaryState initial_state() const override {
-    return BoundaryState::at_rest(Eigen::VectorXd::Zero(1));
-  }
-  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(Eigen::VectorXd::Ones(1)); }
-  [[nodiscard]] double horizon() const override { return 1.0; }
 };
 
 TEST(Statement, RaisesTheExponentsOfUnits) {

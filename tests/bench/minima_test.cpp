@@ -11,6 +11,7 @@
 #include "bench/run/start_provider.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
+#include "tests/bench/declared_tables.hpp"
 #include "tests/support/restated_problems.hpp"
 
 namespace dmocbench {
@@ -18,11 +19,7 @@ namespace {
 
 Row answer(const char* method, double objective, double relative_jump, double replay_error,
            const char* status = "solved") {
-  Row row;
-  row.set("problem", "p");
-  row.set("method", method);
-  row.set("tableau", "gauss");
-  row.set("stages", 1LL);
+  Row row = tests::scheme_row(method, "p");
   row.set("intervals", 48LL);
   row.set("status", status);
   row.set("objective", objective);

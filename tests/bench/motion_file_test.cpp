@@ -39,7 +39,7 @@ class MotionFile : public tests::InTemporaryFolder {
   /// Asks for the start in the file as an experiment does.
   void provide() const {
     StartProvider starts({.start = nodes_file().string()}, {});
-    const Case the_case{.problem = problem_, .method = "dmoc", .tableau = "gauss", .grid = Grid::uniform(8)};
+    const Case the_case{.problem = problem_, .method = "dmoc", .grid = Grid::uniform(8)};
     starts.check({the_case});
     EXPECT_EQ(starts.start_for(the_case).motion.at(0.5).q[0], 0.5);
   }
@@ -187,13 +187,11 @@ TEST(StageTable, HasTheForceOfTheRodThatCarriesAHangingBob) {
 class Loaded final : public tests::SmallProblem {
  public:
   Loaded()
-      : SmallProblem("loaded", with_charge(0.0), with_charge(1.0), 1.0, 1,
+      : SmallProblem("loaded", at(0.0, 0.0, 0.0), at(1.0, 0.0, 1.0), 1.0, 1,
                      {{"mass", 2.0, "kg", "", 0.1, 10.0, false, true}}) {}
   [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"charge"}; }
   [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * varying("mass") * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return one(varying("mass") * x.y[0]);
   }
@@ -204,13 +202,6 @@ class Loaded final : public tests::SmallProblem {
     bounds.integrals = Bounds::all(1, 0.0, 40.0);
     bounds.horizon = {0.5, 2.0};
     return bounds;
-  }
-
- private:
-  static BoundaryState with_charge(double q) {
-    BoundaryState state = at(q, 0.0);
-    state.y = Eigen::VectorXd::Constant(1, q);
-    return state;
   }
 };
 

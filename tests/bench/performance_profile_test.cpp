@@ -4,17 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "bench/tables/profile_tables.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench {
 namespace {
 
 Row solve(const char* problem, const char* method, double seconds, const char* success = "yes") {
-  Row row;
-  row.set("problem", problem);
+  Row row = tests::scheme_row(method, problem);
   row.set("intervals", 32LL);
-  row.set("method", method);
-  row.set("tableau", "gauss");
-  row.set("stages", 1LL);
   row.set("solver", "ipopt");
   row.set("derivatives", "tape");
   row.set("objective", 1.0);

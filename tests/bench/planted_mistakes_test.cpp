@@ -250,11 +250,9 @@ std::vector<Mistake> mistakes_about_cost() {
   };
 }
 
-std::map<std::string, JudgedClaim> judged(const std::map<std::string, Rows>& rows) {
-  ResultTables tables;
-  for (const auto& [name, of_table] : rows) tables.add(name, tests::declared_table(name, of_table));
+std::map<std::string, JudgedClaim> judged(const tests::TableRows& rows) {
   std::map<std::string, JudgedClaim> claims;
-  for (const JudgedClaim& claim : judge_claims(tables)) claims[claim.id()] = claim;
+  for (const JudgedClaim& claim : judge_claims(tests::results_of(rows))) claims[claim.id()] = claim;
   return claims;
 }
 
@@ -265,7 +263,7 @@ TEST_P(PlantedMistake, TurnsTheVerdict) {
   const Mistake& mistake = GetParam();
   ASSERT_TRUE(before.contains(mistake.claim)) << mistake.claim;
   EXPECT_EQ(before.at(mistake.claim).verdict, ClaimVerdict::reproduced) << before.at(mistake.claim).measured();
-  std::map<std::string, Rows> rows = tests::all_rows();
+  tests::TableRows rows = tests::all_rows();
   ASSERT_TRUE(rows.contains(mistake.table)) << mistake.table;
   mistake.plant(rows[mistake.table]);
   const JudgedClaim claim = judged(rows).at(mistake.claim);

@@ -24,7 +24,7 @@ std::vector<Case> cases_on(std::size_t grids) {
   std::vector<Case> cases;
   for (const char* const method : {"dmoc", "tangent"}) {
     for (std::size_t i = 0; i < grids; ++i) {
-      cases.push_back({.problem = problem, .method = method, .tableau = "gauss"});
+      cases.push_back({.problem = problem, .method = method});
       cases.back().grid = Grid::uniform(static_cast<Eigen::Index>(i) + 2);
     }
   }

@@ -5,16 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "bench/tables/ratios.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench {
 namespace {
 
 Row row_of(const std::string& method, const std::string& factorisation, int intervals, double seconds, double error) {
-  Row row;
-  row.set("problem", "orbital_transfer");
-  row.set("method", method);
-  row.set("tableau", "gauss");
-  row.set("stages", 1LL);
+  Row row = tests::scheme_row(method);
   row.set("solver", "interior_point");
   row.set("factorisation", factorisation);
   row.set("intervals", static_cast<long long>(intervals));

@@ -43,11 +43,8 @@ TEST(OneIntervalLater, GoesOnBeyondTheEndWithTheVelocityThere) {
 class SequenceOfProblems : public testing::Test {
  protected:
   SolvedCase solved_first(const std::string& method) {
-    const Case the_case{.problem = problem_,
-                        .method = method,
-                        .tableau = "gauss",
-                        .solver = "interior_point",
-                        .grid = Grid::uniform(intervals_)};
+    const Case the_case{
+        .problem = problem_, .method = method, .solver = "interior_point", .grid = Grid::uniform(intervals_)};
     const Motion start = tests::common_start(*problem_);
     return solve_case(the_case, {start}, *make_solver("interior_point"), 1e-10, 1);
   }

@@ -33,8 +33,6 @@ TEST(SmallestCurvature, CountsTheTrueCostAndNotTheScaledOne) {
 class Repelled final : public tests::SmallProblem {
  public:
   explicit Repelled(double c) : SmallProblem("repelled", at(0.0, 0.0), at(0.0, 0.0), 1.0, 1), c_(c) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     return 0.5 * (x.u[0] * x.u[0] - c_ * x.q[0] * x.q[0]);
   }

@@ -20,7 +20,7 @@ class StartProviders : public testing::Test {
         base_, [](tests::Restated::Statement& s) { s.u = tests::all_between(1, -0.1, 0.1); });
   }
   [[nodiscard]] Case with(const char* method) const {
-    return {.problem = out_of_reach_, .method = method, .tableau = "gauss", .stages = 1, .solver = "ipopt"};
+    return {.problem = out_of_reach_, .method = method, .stages = 1, .solver = "ipopt"};
   }
   [[nodiscard]] StartProvider provider(StartProvider::Rules rules, SolverOptions options = {}) {
     StartProvider source(std::move(rules), std::move(options));

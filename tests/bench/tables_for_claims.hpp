@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bench/claims/claim.hpp"
@@ -15,15 +14,6 @@
 namespace dmocbench::tests {
 
 inline const std::vector<std::string> methods = paper_families();
-
-inline Row scheme_row(const std::string& method) {
-  Row row;
-  row.set("problem", orbit);
-  row.set("method", method);
-  row.set("tableau", "gauss");
-  row.set("stages", 1LL);
-  return row;
-}
 
 inline Row solved_row(const std::string& method, long long intervals) {
   Row row = scheme_row(method);
@@ -224,7 +214,7 @@ inline Rows reference_rows() {
 }
 
 /// Tables as a run that reproduces the paper writes them.
-inline std::map<std::string, Rows> rows_of_tables() {
+inline TableRows rows_of_tables() {
   return {{"convergence_slopes", slope_rows()},
           {"consistency", rows_on_grids([](Row& row, bool tangent, double h) {
              row.set("largest_force", 1.0);
@@ -256,13 +246,9 @@ inline std::map<std::string, Rows> rows_of_tables() {
 
 /// These tables; `change` doctors every row of the named one.
 inline ResultTables tables(const std::string& doctored = "", const std::function<void(Row&)>& change = {}) {
-  ResultTables result;
-  for (const auto& [name, rows] : rows_of_tables()) {
-    Rows changed = rows;
-    if (name == doctored) std::ranges::for_each(changed, change);
-    result.add(name, declared_table(name, changed));
-  }
-  return result;
+  return results_of(rows_of_tables(), [&](const std::string& table, Row& row) {
+    if (table == doctored) change(row);
+  });
 }
 
 /// A row from texts in the order of columns.

@@ -93,14 +93,11 @@ TEST(TheoryClaims, SecondOrderReplayHasASentenceForEachDirection) {
   for (Row& row : rows) {
     if (row.text("problem") == "kepler_cartesian" && row.text("method") == "second_order") row.set("constant", 0.3);
   }
-  ResultTables results;
-  results.add("error_constants_limits", tests::declared_table("error_constants_limits", rows));
-  const std::vector<JudgedClaim> judged =
-      judge_claims(results, [](const std::string& id) { return id == "examples/second_order_replay"; });
-  ASSERT_EQ(judged.size(), 1U);
-  ASSERT_EQ(judged.front().clauses.size(), 2U);
-  const std::string more = judged.front().clauses[0].text;
-  const std::string less = judged.front().clauses[1].text;
+  const JudgedClaim judged =
+      tests::judged_claim("examples/second_order_replay", tests::results_of({{"error_constants_limits", rows}}));
+  ASSERT_EQ(judged.clauses.size(), 2U);
+  const std::string more = judged.clauses[0].text;
+  const std::string less = judged.clauses[1].text;
   EXPECT_NE(more.find("by more than DMOC's"), std::string::npos) << more;
   EXPECT_NE(more.find(orbit), std::string::npos) << more;
   EXPECT_EQ(more.find("kepler_cartesian"), std::string::npos) << more;

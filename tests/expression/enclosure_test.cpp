@@ -11,7 +11,6 @@
 
 #include "methods/expression/expression.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/expression/smooth.hpp"
 
 namespace dmocbench {
 namespace {

@@ -25,126 +25,103 @@ double value_of_schedule(const Schedule& schedule, const std::vector<double>& po
   return replay<double>(schedule, std::span<const double>(point))[0];
 }
 
-TEST(Lifetime, TracingEndsWithItsStopScopeAndLeavesNothing) {
-  const std::size_t before = live_nodes();
-  {
-    const StopScope scope(nullptr, 1e-9);
-    const Expression x = Expression::input(0);
-    Expression sum;
-    const auto add_many = [&] {
-      for (int i = 0; i < million; ++i) sum += i * sin(i * x);
-    };
-    EXPECT_THROW(add_many(), Stopped);
-  }
-  EXPECT_EQ(live_nodes(), before);
+/// Every test leaves as many nodes as it found.
+class Lifetime : public testing::Test {
+ protected:
+  void TearDown() override { EXPECT_EQ(live_nodes(), before_); }
+  const std::size_t before_ = live_nodes();
+};
+
+TEST_F(Lifetime, TracingEndsWithItsStopScopeAndLeavesNothing) {
+  const StopScope scope(nullptr, 1e-9);
+  const Expression x = Expression::input(0);
+  Expression sum;
+  const auto add_many = [&] {
+    for (int i = 0; i < million; ++i) sum += i * sin(i * x);
+  };
+  EXPECT_THROW(add_many(), Stopped);
 }
 
-TEST(Lifetime, NodesGoWithTheLastExpressionThatReadsThem) {
-  const std::size_t before = live_nodes();
-  {
-    const ExpressionVector x = input_vector(0, 3);
-    EXPECT_EQ(live_nodes(), before + 3);
-    Expression f = sin(x[0]) * x[1];
-    EXPECT_EQ(live_nodes(), before + 5);
-    f = x[2];
-    EXPECT_EQ(live_nodes(), before + 3);
-    const ExpressionMatrix second = hessian(exp(x[0] * x[1]) / (1.0 + x[2] * x[2]), x);
-    EXPECT_GT(live_nodes(), before + 3);
-  }
-  EXPECT_EQ(live_nodes(), before);
+TEST_F(Lifetime, NodesGoWithTheLastExpressionThatReadsThem) {
+  const ExpressionVector x = input_vector(0, 3);
+  EXPECT_EQ(live_nodes(), before_ + 3);
+  Expression f = sin(x[0]) * x[1];
+  EXPECT_EQ(live_nodes(), before_ + 5);
+  f = x[2];
+  EXPECT_EQ(live_nodes(), before_ + 3);
+  const ExpressionMatrix second = hessian(exp(x[0] * x[1]) / (1.0 + x[2] * x[2]), x);
+  EXPECT_GT(live_nodes(), before_ + 3);
 }
 
-TEST(Lifetime, CopiesAndMovesKeepExactlyWhatTheyRead) {
-  const std::size_t before = live_nodes();
-  {
-    Expression f = sin(Expression::input(0));
-    Expression copy = f;
-    Expression moved = std::move(f);
-    EXPECT_TRUE(moved.is_same(copy));
-    Expression& alias = copy;
-    copy = alias;
-    EXPECT_TRUE(moved.is_same(copy));
-    EXPECT_EQ(live_nodes(), before + 2);
-    copy = Expression::input(0);
-    EXPECT_EQ(live_nodes(), before + 2);
-    moved = copy;
-    EXPECT_EQ(live_nodes(), before + 1);
-  }
-  EXPECT_EQ(live_nodes(), before);
+TEST_F(Lifetime, CopiesAndMovesKeepExactlyWhatTheyRead) {
+  Expression f = sin(Expression::input(0));
+  Expression copy = f;
+  Expression moved = std::move(f);
+  EXPECT_TRUE(moved.is_same(copy));
+  Expression& alias = copy;
+  copy = alias;
+  EXPECT_TRUE(moved.is_same(copy));
+  EXPECT_EQ(live_nodes(), before_ + 2);
+  copy = Expression::input(0);
+  EXPECT_EQ(live_nodes(), before_ + 2);
+  moved = copy;
+  EXPECT_EQ(live_nodes(), before_ + 1);
 }
 
-TEST(Lifetime, SchedulesAndTapesKeepNothingAlive) {
-  const std::size_t before = live_nodes();
+TEST_F(Lifetime, SchedulesAndTapesKeepNothingAlive) {
   const Tape tape(Schedule(ExpressionVector{{sin(Expression::input(0)) + 1.5}}));
-  EXPECT_EQ(live_nodes(), before);
+  EXPECT_EQ(live_nodes(), before_);
 }
 
-TEST(Lifetime, AnErrorLeavesNoNodesBehind) {
-  const std::size_t before = live_nodes();
-  {
-    const ExpressionVector x = input_vector(0, 2);
-    EXPECT_THROW(static_cast<void>(gradient(x[0] * x[1], ExpressionVector{{x[0] + x[1]}})), Error);
-  }
-  EXPECT_EQ(live_nodes(), before);
+TEST_F(Lifetime, AnErrorLeavesNoNodesBehind) {
+  const ExpressionVector x = input_vector(0, 2);
+  EXPECT_THROW(static_cast<void>(gradient(x[0] * x[1], ExpressionVector{{x[0] + x[1]}})), Error);
 }
 
-TEST(Lifetime, AChainOfAMillionOperationsIsScheduledAndDestroyed) {
-  const std::size_t before = live_nodes();
-  {
-    const ExpressionVector x = input_vector(0, 2);
-    Expression f = x[0];
-    for (int i = 0; i < million / 2; ++i) f = sin(f) + x[1];
-    const Schedule schedule(std::span(&f, 1));
-    EXPECT_EQ(schedule.operation_count(), static_cast<std::size_t>(million));
-    EXPECT_LE(Tape(schedule).slot_count(), 2U);
-    double expected = 0.3;
-    for (int i = 0; i < million / 2; ++i) expected = std::sin(expected) + 0.1;
-    EXPECT_NEAR(value_of_schedule(schedule, {0.3, 0.1}), expected, 1e-14);
-  }
-  EXPECT_EQ(live_nodes(), before);
+TEST_F(Lifetime, AChainOfAMillionOperationsIsScheduledAndDestroyed) {
+  const ExpressionVector x = input_vector(0, 2);
+  Expression f = x[0];
+  for (int i = 0; i < million / 2; ++i) f = sin(f) + x[1];
+  const Schedule schedule(std::span(&f, 1));
+  EXPECT_EQ(schedule.operation_count(), static_cast<std::size_t>(million));
+  EXPECT_LE(Tape(schedule).slot_count(), 2U);
+  double expected = 0.3;
+  for (int i = 0; i < million / 2; ++i) expected = std::sin(expected) + 0.1;
+  EXPECT_NEAR(value_of_schedule(schedule, {0.3, 0.1}), expected, 1e-14);
 }
 
-TEST(Lifetime, AChainOfAMillionOperationsIsDifferentiated) {
-  const std::size_t before = live_nodes();
-  {
-    const ExpressionVector x = input_vector(0, 2);
-    Expression f = x[0];
-    for (int i = 0; i < million / 2; ++i) f = 3.0 * x[1] - (f + 1.0);
-    const ExpressionVector first = gradient(f, x);
-    EXPECT_EQ(first[0].constant_value(), 1.0);  // half a million changes of sign
-    EXPECT_EQ(first[1].constant_value(), 0.0);
-  }
-  EXPECT_EQ(live_nodes(), before);
+TEST_F(Lifetime, AChainOfAMillionOperationsIsDifferentiated) {
+  const ExpressionVector x = input_vector(0, 2);
+  Expression f = x[0];
+  for (int i = 0; i < million / 2; ++i) f = 3.0 * x[1] - (f + 1.0);
+  const ExpressionVector first = gradient(f, x);
+  EXPECT_EQ(first[0].constant_value(), 1.0);  // half a million changes of sign
+  EXPECT_EQ(first[1].constant_value(), 0.0);
 }
 
-TEST(Lifetime, ALongProductIsTracedAndDifferentiated) {
-  const std::size_t before = live_nodes();
-  {
-    // The adjoints of this chain are products of up to 200 000 factors.
-    Expression f = Expression::input(0);
-    constexpr int length = 200'000;
-    for (int i = 0; i < length; ++i) f = sin(f);
-    const Expression slope = gradient(f, ExpressionVector{{Expression::input(0)}})[0];
-    double expected = 1.0;
-    double at = 1e-3;
-    for (int i = 0; i < length; ++i) {
-      expected *= std::cos(at);
-      at = std::sin(at);
-    }
-    EXPECT_NEAR(value_of_schedule(Schedule(std::span(&slope, 1)), {1e-3}), expected, 1e-12 * expected);
-  }
-  EXPECT_EQ(live_nodes(), before);
-}
-
-TEST(Lifetime, RepeatedSquaringTakesOneNodePerSquare) {
+TEST_F(Lifetime, ALongProductIsTracedAndDifferentiated) {
+  // The adjoints of this chain are products of up to 200 000 factors.
   Expression f = Expression::input(0);
-  const std::size_t before = live_nodes();
+  constexpr int length = 200'000;
+  for (int i = 0; i < length; ++i) f = sin(f);
+  const Expression slope = gradient(f, ExpressionVector{{Expression::input(0)}})[0];
+  double expected = 1.0;
+  double at = 1e-3;
+  for (int i = 0; i < length; ++i) {
+    expected *= std::cos(at);
+    at = std::sin(at);
+  }
+  EXPECT_NEAR(value_of_schedule(Schedule(std::span(&slope, 1)), {1e-3}), expected, 1e-12 * expected);
+}
+
+TEST_F(Lifetime, RepeatedSquaringTakesOneNodePerSquare) {
+  Expression f = Expression::input(0);
   for (int i = 0; i < 100; ++i) f *= f;
-  EXPECT_EQ(live_nodes(), before + 100);
+  EXPECT_EQ(live_nodes(), before_ + 1 + 100);
   EXPECT_EQ(Schedule(std::span(&f, 1)).operation_count(), 100U);
 }
 
-TEST(Lifetime, ManyDistinctNegativeFactorsAreScheduledInReasonableTime) {
+TEST_F(Lifetime, ManyDistinctNegativeFactorsAreScheduledInReasonableTime) {
   Expression f;
   constexpr int length = 100'000;
   for (int i = 0; i < length; ++i) f = f * f - (2.0 + i) * Expression::input(static_cast<std::size_t>(i));

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "tests/expression/random_program.hpp"

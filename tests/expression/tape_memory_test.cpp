@@ -9,7 +9,6 @@
 #include <memory>
 #include <new>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -13,8 +13,6 @@ namespace {
 class HyperbolicCost final : public tests::SmallProblem {
  public:
   HyperbolicCost() : SmallProblem("hyperbolic_cost", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return cosh(x.u[0]); }
 };
 

@@ -25,7 +25,6 @@ class ForcedOscillator final : public SmallProblem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return 0.5 * (x.v[0] * x.v[0] - x.q[0] * x.q[0]);
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
@@ -34,8 +33,6 @@ class WithCost final : public SmallProblem {
  public:
   explicit WithCost(std::function<Expression(const Expression&)> cost)
       : SmallProblem("with_cost", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1), cost_(std::move(cost)) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return cost_(x.u[0]); }
 
  private:

@@ -68,8 +68,6 @@ class GrowingMass final : public tests::SmallProblem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return 0.5 * (1.0 + x.t * x.t) * x.v[0] * x.v[0] + sin(x.t) * x.q[0] * x.v[0];
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
 TEST(EquationsOfMotion, CountTheExplicitChangeOfMomentumWithTime) {

@@ -91,8 +91,6 @@ TEST(LegendreTransform, SaysSoWhereNoVelocityHasTheMomentum) {
    public:
     Bounded() : SmallProblem("bounded", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
     [[nodiscard]] Expression lagrangian(const State& x) const override { return log(cosh(x.v[0])); }
-    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   };
   LegendreTransform legendre{TracedProblem(Bounded())};
   const auto number = [](double x) { return Eigen::VectorXd(Eigen::VectorXd::Constant(1, x)); };

@@ -76,8 +76,6 @@ class FreeFlightUpwards : public FreeFlight {
 class Costly final : public tests::SmallProblem {
  public:
   Costly(double a, double b) : SmallProblem("costly", at(0.0, 0.0), at(0.0, 0.0), 1.0, 1), a_(a), b_(b) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     return a_ * (1.0 + x.u[0] * x.u[0]);
   }

@@ -162,7 +162,6 @@ class Wrong final : public tests::SmallProblem {
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return kind_ == Kind::force ? ExpressionVector(x.u.head(1)) : ExpressionVector(x.u);
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector&) const override {
     return ExpressionVector(kind_ == Kind::symmetry ? 3 : 2);
   }

@@ -4,6 +4,7 @@
 
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/value_of.hpp"
 
@@ -43,14 +44,7 @@ TEST(Acrobot, ObeysTheEquationsOfTheGuideAndWithThePhysicalLever) {
   }
 }
 
-TEST(Acrobot, BeginsAndEndsInEquilibriumAtRest) {
-  const Acrobot problem;
-  EquationsOfMotion motion{TracedProblem(problem)};
-  for (const BoundaryState& state : {problem.initial_state(), problem.final_state()}) {
-    EXPECT_EQ(state.v.norm(), 0.0);
-    EXPECT_LT(motion.acceleration(state.q, state.v, Eigen::VectorXd::Zero(1), 0.0).norm(), 1e-13);
-  }
-}
+TEST(Acrobot, BeginsAndEndsInEquilibriumAtRest) { tests::expect_equilibrium_at_ends(Acrobot(), 1e-13); }
 
 TEST(Acrobot, CannotBeAsCheapAsPublished) {
   // 2 · 9.81 (1.5 + 2) J are gained, of which every joule costs at least 4 · 0.1.

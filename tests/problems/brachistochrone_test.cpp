@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/value_of.hpp"
 
@@ -13,13 +13,10 @@ namespace {
 
 TEST(Brachistochrone, IsDrivenByAReactionThatDoesNoWork) {
   const Brachistochrone problem;
-  PointFunction power(
-      2, 1, [&](const ControlledState& x) { return ExpressionVector::Constant(1, problem.force(x).dot(x.v)); });
   tests::RandomPoints random;
   for (int trial = 0; trial < 10; ++trial) {
-    Eigen::VectorXd value(1);
-    power.evaluate(random.vector(2), random.vector(2, -5.0, 5.0), random.vector(1, -9.0, 9.0), 0.0, value);
-    EXPECT_NEAR(value[0], 0.0, 1e-13);
+    const MotionPoint at{random.vector(2), random.vector(2, -5.0, 5.0), random.vector(1, -9.0, 9.0)};
+    EXPECT_NEAR(tests::force_at(problem, at).dot(at.v), 0.0, 1e-13);
   }
 }
 

@@ -1,14 +1,11 @@
 #include "problems/cart_pole.hpp"
 
-#include <map>
-
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
-#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -40,14 +37,7 @@ TEST(CartPole, ObeysTheEquationsOfTheTutorial) {
   }
 }
 
-TEST(CartPole, BeginsAndEndsInEquilibriumAtRest) {
-  const CartPole problem;
-  EquationsOfMotion motion{TracedProblem(problem)};
-  for (const BoundaryState& state : {problem.initial_state(), problem.final_state()}) {
-    EXPECT_EQ(state.v.norm(), 0.0);
-    EXPECT_LT(motion.acceleration(state.q, state.v, Eigen::VectorXd::Zero(1), 0.0).norm(), 1e-14);
-  }
-}
+TEST(CartPole, BeginsAndEndsInEquilibriumAtRest) { tests::expect_equilibrium_at_ends(CartPole(), 1e-14); }
 
 TEST(CartPole, DropsItsBoundsByOption) {
   CartPole problem;
@@ -59,30 +49,11 @@ TEST(CartPole, DropsItsBoundsByOption) {
   EXPECT_TRUE(problem.bounds().q.empty());
 }
 
-TEST(CartPole, IsSymmetricUnderTranslationsOfTheCart) {
-  const CartPole problem;
-  const State x{input_vector(0, 2), input_vector(2, 2), Expression::input(5)};
-  State moved = x;
-  moved.q = x.q + Expression::input(6) * tests::value_of(problem.symmetry(x.q));
-  EXPECT_TRUE(problem.lagrangian(moved).is_same(problem.lagrangian(x)));
-}
+TEST(CartPole, IsSymmetricUnderTranslationsOfTheCart) { tests::expect_translation(CartPole()); }
 
 TEST(CartPole, PicturesABobAtTheLengthOfThePole) {
-  const CartPole problem;
-  std::vector<std::string> names;
-  PointFunction picture(2, 1, [&](const ControlledState& x) {
-    const auto quantities = pictured_quantities(problem, x);
-    ExpressionVector values(static_cast<Eigen::Index>(quantities.size()));
-    for (const PictureQuantity& quantity : quantities) {
-      values[static_cast<Eigen::Index>(names.size())] = quantity.value;
-      names.push_back(quantity.name);
-    }
-    return values;
-  });
-  Eigen::VectorXd values(picture.output_count());
-  picture.evaluate(Eigen::Vector2d(0.4, 2.0), Eigen::Vector2d::Zero(), Eigen::VectorXd::Constant(1, 3.0), 0.0, values);
-  std::map<std::string, double> named;
-  for (std::size_t i = 0; i < names.size(); ++i) named[names[i]] = values[static_cast<Eigen::Index>(i)];
+  auto named = tests::picture_at(
+      CartPole(), {Eigen::Vector2d(0.4, 2.0), Eigen::Vector2d::Zero(), Eigen::VectorXd::Constant(1, 3.0)});
   EXPECT_NEAR(std::hypot(named["bob_x"] - named["cart_x"], named["bob_y"]), 0.5, 1e-15);
   EXPECT_GT(named["bob_y"], 0.0);  // above the cart beyond π/2
   EXPECT_EQ(named["force"], 3.0);

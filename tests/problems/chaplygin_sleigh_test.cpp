@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/transcription/elements/families.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
 #include "tests/support/value_of.hpp"
 
@@ -18,10 +19,12 @@ using tests::Scheme;
 Expression across(const ControlledState& x) { return cos(x.q[2]) * x.v[1] - sin(x.q[2]) * x.v[0]; }
 
 /// The sleigh by (x, y, θ), with the force λ of the blade as a formula.
-class SleighByForce : public Problem {
+class SleighByForce : public tests::SmallProblem {
  public:
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y", "theta"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"push", "torque"}; }
+  SleighByForce()
+      : SmallProblem("sleigh_by_force", BoundaryState::at_rest(Eigen::Vector3d::Zero()),
+                     BoundaryState::at_rest(Eigen::Vector3d(1.0, 1.0, 0.5 * std::numbers::pi)),
+                     ChaplyginSleigh().horizon(), 2) {}
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     const Expression centre_x = x.v[0] - a * sin(x.q[2]) * x.v[2];
     const Expression centre_y = x.v[1] + a * cos(x.q[2]) * x.v[2];
@@ -36,11 +39,6 @@ class SleighByForce : public Problem {
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     return 0.5 * (x.u[0] * x.u[0] + x.u[1] * x.u[1]);
   }
-  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector3d::Zero()); }
-  [[nodiscard]] BoundaryState final_state() const override {
-    return BoundaryState::at_rest(Eigen::Vector3d(1.0, 1.0, 0.5 * std::numbers::pi));
-  }
-  [[nodiscard]] double horizon() const override { return sleigh.horizon(); }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
     bounds.last.free_velocity(0);  // across the blade

@@ -85,9 +85,7 @@ TEST_P(FormationBy, PricesOfDistancesAreTheSlopeOfTheLeastCost) {
 INSTANTIATE_TEST_SUITE_P(All, FormationBy,
                          testing::Values(Scheme{"dmoc", 1}, Scheme{"dmoc", 2}, Scheme{"hamiltonian", 1},
                                          Scheme{"hamiltonian", 2}, Scheme{"tangent", 1}, Scheme{"tangent", 2}),
-                         [](const auto& instance) {
-                           return instance.param.method + std::to_string(instance.param.stages);
-                         });
+                         tests::by_label);
 
 }  // namespace
 }  // namespace dmocbench

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/transcription/motions/phase_trajectories.hpp"
 #include "problems/chaplygin_sleigh_cartesian.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
+#include "tests/support/problem_values.hpp"
 #include "tests/support/solving.hpp"
 #include "tests/support/value_of.hpp"
 
@@ -30,13 +30,11 @@ TEST(ConstraintMultipliers, AreThoseOfTheEquationsOfMotion) {
                                  static_cast<const Problem*>(&stance)}) {
     const Eigen::Index n = problem->configuration_size();
     EquationsOfMotion motion{TracedProblem(*problem)};
-    PointFunction formula(n, problem->control_size(),
-                          [&](const ControlledState& x) { return constraint_multipliers(*problem, x); });
     const MotionPoint point{.q = Eigen::VectorXd::LinSpaced(n, 0.3, 0.9),
                             .v = Eigen::VectorXd::LinSpaced(n, 1.0, -0.7),
                             .u = Eigen::Vector2d(0.4, -1.3)};
-    Eigen::VectorXd found(formula.output_count());
-    formula.evaluate(point, 0.2, found);
+    const Eigen::VectorXd found = tests::formulas_at(
+        *problem, point, 0.2, [&](const ControlledState& x) { return constraint_multipliers(*problem, x); });
     EXPECT_LT((found - motion.multipliers(point, 0.2)).norm(), 1e-13) << problem->name();
   }
 }

@@ -1,15 +1,12 @@
 #include "problems/orbital_transfer.hpp"
 
-#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "tests/support/random_points.hpp"
-#include "tests/support/value_of.hpp"
+#include "tests/support/problem_values.hpp"
 
 namespace dmocbench {
 namespace {
@@ -72,12 +69,7 @@ TEST(OrbitalTransfer, LastsTheRevolutionsOnTheEllipseThatTouchesBothCircles) {
 
 TEST(OrbitalTransfer, IsSymmetricUnderRotations) {
   // Neither L nor its Legendre transform knows φ: ξ = (0, 1) moves nothing but φ.
-  const OrbitalTransfer problem;
-  const State x{input_vector(0, 2), input_vector(2, 2), Expression::input(5)};
-  State rotated = x;
-  const auto generator = tests::value_of(problem.symmetry(x.q));
-  rotated.q = x.q + Expression::input(6) * generator;
-  EXPECT_TRUE(problem.lagrangian(rotated).is_same(problem.lagrangian(x)));
+  tests::expect_translation(OrbitalTransfer());
 }
 
 TEST(OrbitalTransfer, PushesAlongTheOrbitAlone) {
@@ -90,23 +82,9 @@ TEST(OrbitalTransfer, PushesAlongTheOrbitAlone) {
 
 TEST(OrbitalTransfer, PicturesPositionsInKilometresAndThrustAcrossTheRadius) {
   const OrbitalTransfer problem;
-  Picture quantities;
-  PointFunction picture(2, 1, [&](const ControlledState& x) {
-    quantities = pictured_quantities(problem, x);
-    ExpressionVector values(static_cast<Eigen::Index>(quantities.size()));
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-      values[static_cast<Eigen::Index>(i)] = quantities[i].value;
-    }
-    return values;
-  });
   const auto at = [&](double r, double phi, double u) {
-    Eigen::VectorXd values(picture.output_count());
-    picture.evaluate(Eigen::Vector2d(r, phi), Eigen::Vector2d::Zero(), Eigen::VectorXd::Constant(1, u), 0.0, values);
-    std::map<std::string, double> named;
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-      named[quantities[i].name] = values[static_cast<Eigen::Index>(i)];
-    }
-    return named;
+    return tests::picture_at(problem,
+                             {Eigen::Vector2d(r, phi), Eigen::Vector2d::Zero(), Eigen::VectorXd::Constant(1, u)});
   };
   auto start = at(1.0, 0.0, 1.0);
   EXPECT_NEAR(start["x"], 6401.0, 1e-9);

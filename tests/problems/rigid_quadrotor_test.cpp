@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
-#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -50,13 +50,7 @@ TEST(RigidQuadrotor, HoversUnderItsGuessedThrust) {
   EXPECT_LT(motion.acceleration(point.q, point.v, point.u, 0.0).norm(), 1e-13);
 }
 
-TEST(RigidQuadrotor, IsSymmetricUnderHorizontalTranslations) {
-  const RigidQuadrotor problem;
-  const State x{input_vector(0, 6), input_vector(6, 6), Expression::input(12)};
-  State moved = x;
-  moved.q = x.q + Expression::input(13) * tests::value_of(problem.symmetry(x.q));
-  EXPECT_TRUE(problem.lagrangian(moved).is_same(problem.lagrangian(x)));
-}
+TEST(RigidQuadrotor, IsSymmetricUnderHorizontalTranslations) { tests::expect_translation(RigidQuadrotor()); }
 
 }  // namespace
 }  // namespace dmocbench

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench {
@@ -38,23 +39,17 @@ TEST_P(SpringArmBy, FindsTheStiffnessOfLeastCost) {
   const Trajectory best = solved(problem, 32);
   const double stiffness = best.unknowns[0];
   const auto cost_with = [&](double k) {
-    class Given final : public Problem {
+    class Given final : public tests::SmallProblem {
      public:
       Given(const Problem& base, double k)
-          : Problem({{"stiffness", k, "N m", "of the spring"}, {"damping", 0.5, "N m s", "of the joint"}}),
+          : SmallProblem("given", base.initial_state(), base.final_state(), base.horizon(), 1,
+                         {{"stiffness", k, "N m", "of the spring"}, {"damping", 0.5, "N m s", "of the joint"}}),
             base_(base) {}
-      [[nodiscard]] std::vector<std::string> configuration_names() const override {
-        return base_.configuration_names();
-      }
-      [[nodiscard]] std::vector<std::string> control_names() const override { return base_.control_names(); }
       [[nodiscard]] Expression lagrangian(const State& x) const override {
         return 0.5 * x.v[0] * x.v[0] - 0.5 * varying("stiffness") * x.q[0] * x.q[0];
       }
       [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return base_.force(x); }
       [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return base_.running_cost(x); }
-      [[nodiscard]] BoundaryState initial_state() const override { return base_.initial_state(); }
-      [[nodiscard]] BoundaryState final_state() const override { return base_.final_state(); }
-      [[nodiscard]] double horizon() const override { return base_.horizon(); }
 
      private:
       const Problem& base_;
@@ -66,9 +61,7 @@ TEST_P(SpringArmBy, FindsTheStiffnessOfLeastCost) {
   EXPECT_GT(cost_with(stiffness - 0.2), best.cost + 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SpringArmBy, testing::ValuesIn(tests::all_schemes(2)), [](const auto& instance) {
-  return instance.param.method + "_" + instance.param.family + std::to_string(instance.param.stages);
-});
+INSTANTIATE_TEST_SUITE_P(All, SpringArmBy, testing::ValuesIn(tests::all_schemes(2)), tests::by_label);
 
 }  // namespace
 }  // namespace dmocbench

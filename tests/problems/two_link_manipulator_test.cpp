@@ -6,12 +6,10 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
-#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -64,14 +62,6 @@ std::unique_ptr<TwoLinkManipulator> uneven() {
   return problem;
 }
 
-double lagrangian(const Problem& problem, const Eigen::Vector2d& q, const Eigen::Vector2d& v) {
-  PointFunction function(
-      2, 2, [&](const ControlledState& x) { return ExpressionVector::Constant(1, problem.lagrangian(x.state())); });
-  Eigen::VectorXd value(1);
-  function.evaluate(q, v, Eigen::VectorXd(), 0.0, value);
-  return value[0];
-}
-
 TEST(TwoLinkManipulator, HasTheEnergiesOfTwoRodsComputedFromTheirCentres) {
   const auto problem = uneven();
   const TwoRods rods(*problem);
@@ -79,8 +69,8 @@ TEST(TwoLinkManipulator, HasTheEnergiesOfTwoRodsComputedFromTheirCentres) {
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Vector2d q = random.vector(2, -3.0, 3.0);
     const Eigen::Vector2d v = random.vector(2, -4.0, 4.0);
-    EXPECT_NEAR(lagrangian(*problem, q, v), rods.kinetic(q, v) - rods.potential(q), 1e-9);
-    EXPECT_NEAR(lagrangian(*problem, q, Eigen::Vector2d::Zero()), -rods.potential(q), 1e-13);
+    EXPECT_NEAR(tests::lagrangian_at(*problem, q, v), rods.kinetic(q, v) - rods.potential(q), 1e-9);
+    EXPECT_NEAR(tests::lagrangian_at(*problem, q, Eigen::Vector2d::Zero()), -rods.potential(q), 1e-13);
   }
 }
 
@@ -96,11 +86,7 @@ TEST(TwoLinkManipulator, HasAPositiveDefiniteMassEverywhere) {
 
 TEST(TwoLinkManipulator, BeginsAndEndsInEquilibriumAtRest) {
   const auto problem = uneven();
-  EquationsOfMotion motion{TracedProblem(*problem)};
-  for (const BoundaryState& state : {problem->initial_state(), problem->final_state()}) {
-    EXPECT_EQ(state.v.norm(), 0.0);
-    EXPECT_LT(motion.acceleration(state.q, state.v, Eigen::Vector2d::Zero(), 0.0).norm(), 1e-13);
-  }
+  tests::expect_equilibrium_at_ends(*problem, 1e-13);
   const TwoRods rods(*problem);
   EXPECT_LT(rods.potential(problem->initial_state().q), rods.potential(Eigen::Vector2d(0.1, -0.2)));
   EXPECT_GT(rods.potential(problem->final_state().q), rods.potential(Eigen::Vector2d(1.2, 1.9)));
@@ -109,52 +95,33 @@ TEST(TwoLinkManipulator, BeginsAndEndsInEquilibriumAtRest) {
 TEST(TwoLinkManipulator, HasAKineticEnergyThatRotationsLeaveAlone) {
   const auto problem = uneven();
   problem->set_parameter("gravity", 0.0);
-  const ExpressionVector generator = tests::value_of(problem->symmetry(input_vector(0, 2)));
-  const Eigen::Vector2d xi(tests::value_of(generator[0].constant_value()),
-                           tests::value_of(generator[1].constant_value()));
+  const Eigen::Vector2d xi = tests::generator_at(*problem, Eigen::Vector2d::Zero());
   tests::RandomPoints random;
   for (int trial = 0; trial < 10; ++trial) {
     const Eigen::Vector2d q = random.vector(2, -3.0, 3.0);
     const Eigen::Vector2d v = random.vector(2, -4.0, 4.0);
-    const double turned = lagrangian(*problem, q + random.number() * xi, v);
-    EXPECT_NEAR(turned, lagrangian(*problem, q, v), 1e-13);
+    const double turned = tests::lagrangian_at(*problem, q + random.number() * xi, v);
+    EXPECT_NEAR(turned, tests::lagrangian_at(*problem, q, v), 1e-13);
   }
   // Turning one link alone is no symmetry.
   const Eigen::Vector2d v(1.0, 2.0);
-  EXPECT_GT(std::abs(lagrangian(*problem, {0.5, 0.0}, v) - lagrangian(*problem, {0.0, 0.0}, v)), 1e-2);
+  const double turned = tests::lagrangian_at(*problem, Eigen::Vector2d(0.5, 0.0), v);
+  EXPECT_GT(std::abs(turned - tests::lagrangian_at(*problem, Eigen::Vector2d::Zero(), v)), 1e-2);
 }
 
 TEST(TwoLinkManipulator, DoesTheWorkOfItsTwoMotors) {
   // Motor 1 turns link 1 against the base, motor 2 link 2 against link 1: power τ₁ω₁ + τ₂(ω₂ - ω₁).
-  const TwoLinkManipulator problem;
-  PointFunction power(
-      2, 2, [&](const ControlledState& x) { return ExpressionVector::Constant(1, problem.force(x).dot(x.v)); });
-  Eigen::VectorXd value(1);
-  power.evaluate(Eigen::Vector2d(0.3, 0.4), Eigen::Vector2d(2.0, -3.0), Eigen::Vector2d(5.0, 7.0), 0.0, value);
-  EXPECT_NEAR(value[0], 5.0 * 2.0 + 7.0 * (-3.0 - 2.0), 1e-14);
+  const MotionPoint at{Eigen::Vector2d(0.3, 0.4), Eigen::Vector2d(2.0, -3.0), Eigen::Vector2d(5.0, 7.0)};
+  EXPECT_NEAR(tests::force_at(TwoLinkManipulator(), at).dot(at.v), 5.0 * 2.0 + 7.0 * (-3.0 - 2.0), 1e-14);
 }
 
 TEST(TwoLinkManipulator, PicturesAnElbowAndATipAtTheLengthsOfTheLinks) {
   const auto problem = uneven();
-  Picture quantities;
-  PointFunction picture(2, 2, [&](const ControlledState& x) {
-    quantities = pictured_quantities(*problem, x);
-    ExpressionVector values(static_cast<Eigen::Index>(quantities.size()));
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-      values[static_cast<Eigen::Index>(i)] = quantities[i].value;
-    }
-    return values;
-  });
   const TwoRods rods(*problem);
   tests::RandomPoints random;
   for (int trial = 0; trial < 10; ++trial) {
     const Eigen::Vector2d q = random.vector(2, -3.0, 3.0);
-    Eigen::VectorXd values(picture.output_count());
-    picture.evaluate(q, Eigen::Vector2d::Zero(), Eigen::Vector2d(3.0, 4.0), 0.0, values);
-    std::map<std::string, double> named;
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-      named[quantities[i].name] = values[static_cast<Eigen::Index>(i)];
-    }
+    auto named = tests::picture_at(*problem, {q, Eigen::Vector2d::Zero(), Eigen::Vector2d(3.0, 4.0)});
     const Eigen::Vector2d elbow(named["elbow_x"], named["elbow_y"]);
     const Eigen::Vector2d tip(named["tip_x"], named["tip_y"]);
     EXPECT_NEAR(elbow.norm(), rods.l1, 1e-14);

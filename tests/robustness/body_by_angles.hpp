@@ -41,7 +41,6 @@ class BodyByAngles final : public SmallProblem {
     return ExpressionVector{
         {x.u[0], cos(x.q[0]) * x.u[1] - sin(x.q[0]) * x.u[2], cos(x.q[1]) * across - sin(x.q[1]) * x.u[0]}};
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
   [[nodiscard]] double cost_scale() const override { return 1e-1; }
 
  private:

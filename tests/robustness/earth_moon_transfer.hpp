@@ -23,8 +23,6 @@ class EarthMoonTransfer final : public SmallProblem {
     return 0.5 * x.v.dot(x.v) + turning + 0.5 * x.q.dot(x.q) + (1.0 - moon) / distance(x.q, -moon) +
            moon / distance(x.q, 1.0 - moon);
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
   /// Round the Earth on a spiral, radius and angle on straight lines.
   [[nodiscard]] MotionPoint guess(double t) const override {
     const double part = t / horizon();

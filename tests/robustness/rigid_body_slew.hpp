@@ -44,7 +44,6 @@ class RigidBodySlew final : public SmallProblem {
         {factor * (-q[1] * u[0] - q[2] * u[1] - q[3] * u[2]), factor * (q[0] * u[0] - q[3] * u[1] + q[2] * u[2]),
          factor * (q[3] * u[0] + q[0] * u[1] - q[1] * u[2]), factor * (-q[2] * u[0] + q[1] * u[1] + q[0] * u[2])}};
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
   [[nodiscard]] double cost_scale() const override { return 1e-1; }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();

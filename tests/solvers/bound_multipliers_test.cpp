@@ -137,9 +137,7 @@ TEST_P(BoundMultipliersOf, NothingNeedNoEvaluation) {
   EXPECT_EQ(prices.horizon, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BoundMultipliersOf, testing::ValuesIn(every_scheme()), [](const auto& instance) {
-  return instance.param.method + "_" + instance.param.family + std::to_string(instance.param.stages);
-});
+INSTANTIATE_TEST_SUITE_P(All, BoundMultipliersOf, testing::ValuesIn(every_scheme()), tests::by_label);
 
 }  // namespace
 }  // namespace dmocbench

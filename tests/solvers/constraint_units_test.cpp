@@ -127,14 +127,12 @@ TEST_P(ConstraintsTimes, AnyNumberAreNotSolvedWhereAnIntegralCannotBeReached) {
 class ReachedByARate final : public tests::SmallProblem {
  public:
   ReachedByARate(double factor, double reached)
-      : SmallProblem("reached", with(0.0, 0.0), with(1.0, factor * reached), 1.0, 2), factor_(factor) {}
+      : SmallProblem("reached", at(0.0, 0.0, 0.0), at(1.0, 0.0, factor * reached), 1.0, 2), factor_(factor) {}
   [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"y"}; }
   [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
     return one(factor_ * x.u[1]);
   }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(x.u[0]); }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
     bounds.u = {.lower = Eigen::Vector2d(-100.0, -1.0), .upper = Eigen::Vector2d(100.0, 1.0)};
@@ -142,12 +140,6 @@ class ReachedByARate final : public tests::SmallProblem {
   }
 
  private:
-  static BoundaryState with(double q, double y) {
-    BoundaryState state = at(q, 0.0);
-    state.y = Eigen::VectorXd::Constant(1, y);
-    return state;
-  }
-
   double factor_;
 };
 

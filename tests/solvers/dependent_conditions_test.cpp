@@ -1,8 +1,6 @@
 // Boundary conditions that repeat each other change no solution, and contradictions have none.
-#include <cmath>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <vector>
 

@@ -15,11 +15,11 @@
 #include "methods/mechanics/first_order_problem.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/phased_problem.hpp"
-#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/control_rate.hpp"
 #include "problems/orbital_transfer_with_mass.hpp"
 #include "problems/two_link_with_motors.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
@@ -139,8 +139,7 @@ INSTANTIATE_TEST_SUITE_P(All, OrdersOfFirstOrderStates,
                          testing::Combine(testing::Values("orbit", "arm"), testing::ValuesIn(tests::all_schemes())),
                          [](const auto& instance) {
                            const Scheme& scheme = std::get<1>(instance.param);
-                           return std::get<0>(instance.param) + "_" + scheme.method + "_" + scheme.family +
-                                  std::to_string(scheme.stages);
+                           return std::get<0>(instance.param) + "_" + scheme.label();
                          });
 
 class FirstOrderStates : public testing::TestWithParam<Scheme> {};
@@ -250,27 +249,16 @@ TEST_P(FirstOrderStates, BoundedRateOfAForceHasItsClosedForm) {
 }
 
 TEST_P(FirstOrderStates, BoundsOnThemHoldAtEveryNode) {
-  class Limited final : public Problem {
+  class Limited final : public tests::SmallProblem {
    public:
-    [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
-    [[nodiscard]] std::vector<std::string> control_names() const override { return {"rate"}; }
+    Limited() : SmallProblem("limited", at(0.0, 0.0, 0.0), at(1.0, 0.0, 0.0), 1.0, 1) {}
     [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"force"}; }
     [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
     [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.y; }
-    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-    [[nodiscard]] BoundaryState initial_state() const override { return at(0.0); }
-    [[nodiscard]] BoundaryState final_state() const override { return at(1.0); }
-    [[nodiscard]] double horizon() const override { return 1.0; }
     [[nodiscard]] ProblemBounds bounds() const override {
       ProblemBounds bounds = Problem::bounds();
       bounds.y = Bounds::all(1, -5.0, 5.0);
       return bounds;
-    }
-
-   private:
-    static BoundaryState at(double q) {
-      return {.q = Eigen::VectorXd::Constant(1, q), .v = Eigen::VectorXd::Zero(1), .y = Eigen::VectorXd::Zero(1)};
     }
   };
   const Limited problem;
@@ -291,9 +279,7 @@ TEST_P(FirstOrderStates, BothInteriorPointMethodsAgreeOnCoarseAndFineGrids) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FirstOrderStates, testing::ValuesIn(tests::all_schemes()), [](const auto& instance) {
-  return instance.param.method + "_" + instance.param.family + std::to_string(instance.param.stages);
-});
+INSTANTIATE_TEST_SUITE_P(All, FirstOrderStates, testing::ValuesIn(tests::all_schemes()), tests::by_label);
 
 class EqualFirstOrderStates : public testing::TestWithParam<std::tuple<std::string, int>> {};
 
@@ -381,20 +367,16 @@ TEST(FirstOrderStatesAlone, MayHavePhases) {
 }
 
 TEST(FirstOrderStatesRefused, WithRatesOfAnotherSize) {
-  class Short final : public Problem {
+  class Short final : public tests::SmallProblem {
    public:
-    [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
-    [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+    Short() : SmallProblem("short", of_two(), of_two(), 1.0, 1) {}
     [[nodiscard]] std::vector<std::string> first_order_names() const override { return {"a", "b"}; }
     [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-    [[nodiscard]] BoundaryState initial_state() const override {
+
+   private:
+    static BoundaryState of_two() {
       return {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(2)};
     }
-    [[nodiscard]] BoundaryState final_state() const override { return initial_state(); }
-    [[nodiscard]] double horizon() const override { return 1.0; }
   };
   EXPECT_EQ(tests::sentence_of_error([] {
               static_cast<void>(tests::transcribe(Short(), {"dmoc", 1}, Grid::uniform(8)));

@@ -4,10 +4,8 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <vector>
 
-#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/conserved_quantities.hpp"
@@ -17,9 +15,10 @@
 #include "methods/mechanics/motion_constraints.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
-#include "methods/transcription/trajectory_reader.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/spherical_pendulum_cartesian.hpp"
+#include "tests/solvers/constrained_motions.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
@@ -66,54 +65,14 @@ std::vector<Scheme> schemes() {
   return all;
 }
 
-std::string label_of(const Scheme& scheme) {
-  return scheme.method + "_" + scheme.family + std::to_string(scheme.stages);
-}
-
 class HolonomicConstraintsBy : public testing::TestWithParam<Scheme> {};
 
-template <class Redundant>
-class WithEnds final : public Redundant {
- public:
-  enum class Ends : std::uint8_t { given, free_last_velocity, free_last, free_first_velocity };
-  explicit WithEnds(Ends ends) : ends_(ends) {}
-  [[nodiscard]] std::string name() const override { return "with_ends"; }
-  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return Problem::clone(); }
-  [[nodiscard]] ProblemBounds bounds() const override {
-    ProblemBounds bounds = Redundant::bounds();
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      if (ends_ == Ends::free_last_velocity || ends_ == Ends::free_last) bounds.last.free_velocity(i);
-      if (ends_ == Ends::free_last) bounds.last.free_configuration(i);
-      if (ends_ == Ends::free_first_velocity) bounds.first.free_velocity(i);
-    }
-    return bounds;
-  }
-  /// How many conditions the ends have.
-  [[nodiscard]] Eigen::Index conditions() const {
-    const Eigen::Index freedom = 2;  // n - c
-    if (ends_ == Ends::free_last) return 2 * freedom;
-    return (ends_ == Ends::given ? 4 : 3) * freedom;
-  }
-
- private:
-  Ends ends_;
-};
-
 TEST_P(HolonomicConstraintsBy, LeaveRowsOfFullRankAndAsManyFreedomsAsTheMinimalStatement) {
-  using Pendulum = WithEnds<SphericalPendulumCartesian>;
-  constexpr Eigen::Index intervals = 6;
-  for (const auto ends : {Pendulum::Ends::given, Pendulum::Ends::free_last_velocity, Pendulum::Ends::free_last,
-                          Pendulum::Ends::free_first_velocity}) {
-    const Pendulum problem(ends);
-    const auto program = tests::transcribe(problem, GetParam(), Grid::uniform(intervals));
-    const Eigen::MatrixXd jacobian = tests::free_columns(*program, sample(*program, guessed_motion(problem)));
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(jacobian);
-    factors.setThreshold(1e-9);
-    EXPECT_EQ(factors.rank(), jacobian.rows()) << static_cast<int>(ends);
-    // m N s and both ends' states, less their conditions: given momenta of the ends take the place of states.
-    const Eigen::Index freedoms = 2 * intervals * GetParam().stages + 2 * 2 - problem.conditions();
-    EXPECT_EQ(jacobian.cols() - jacobian.rows(), freedoms) << static_cast<int>(ends);
-  }
+  // Both ends' states in two coordinates, less their conditions: given momenta of the ends take the place of states.
+  tests::expect_full_rank<SphericalPendulumCartesian>(GetParam(), {{tests::Ends::given, 4 - 8},
+                                                                   {tests::Ends::free_last_velocity, 4 - 6},
+                                                                   {tests::Ends::free_last, 4 - 4},
+                                                                   {tests::Ends::free_first_velocity, 4 - 6}});
 }
 
 /// The errors at the nodes of a motion in redundant coordinates: q, p, cost, and costates along motions.
@@ -219,8 +178,7 @@ TEST_P(HolonomicConstraintsBy, AreSolvedAlikeByIpoptAndByTheEliminationOfInterva
   EXPECT_NEAR(solved(problem, GetParam(), 48, start, "ipopt").motion.cost, by_intervals, 1e-8 * by_intervals);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, HolonomicConstraintsBy, testing::ValuesIn(schemes()),
-                         [](const auto& instance) { return label_of(instance.param); });
+INSTANTIATE_TEST_SUITE_P(All, HolonomicConstraintsBy, testing::ValuesIn(schemes()), tests::by_label);
 
 class EqualWithConstraints : public testing::TestWithParam<Scheme> {};
 
@@ -239,13 +197,12 @@ TEST_P(EqualWithConstraints, SolutionOfDmocSolvesTheProgramOfHamiltonianCollocat
 
 INSTANTIATE_TEST_SUITE_P(All, EqualWithConstraints,
                          testing::Values(Scheme{"dmoc", 1}, Scheme{"dmoc", 2, "lobatto"}, Scheme{"dmoc", 3, "lobatto"}),
-                         [](const auto& instance) { return label_of(instance.param); });
+                         tests::by_label);
 
 /// A bead on the parabola z = x², whose height has no inertia: L_vv is singular.
-class Bead final : public Problem {
+class Bead final : public tests::SmallProblem {
  public:
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "z"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  Bead() : SmallProblem("bead", on_parabola(-1.0), on_parabola(1.5), 1.0, 1) {}
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override {
     return ExpressionVector{{q[1] - q[0] * q[0]}};
   }
@@ -253,29 +210,16 @@ class Bead final : public Problem {
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{x.u[0], 0.0}};
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-  [[nodiscard]] BoundaryState initial_state() const override { return at(-1.0); }
-  [[nodiscard]] BoundaryState final_state() const override { return at(1.5); }
-  [[nodiscard]] double horizon() const override { return 1.0; }
 
  private:
-  static BoundaryState at(double x) { return BoundaryState::at_rest(Eigen::Vector2d(x, x * x)); }
+  static BoundaryState on_parabola(double x) { return BoundaryState::at_rest(Eigen::Vector2d(x, x * x)); }
 };
 
 /// The same in its one coordinate: a linear-quadratic problem.
-class BeadInOneCoordinate final : public Problem {
+class BeadInOneCoordinate final : public tests::SmallProblem {
  public:
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  BeadInOneCoordinate() : SmallProblem("bead_in_one_coordinate", at(-1.0, 0.0), at(1.5, 0.0), 1.0, 1) {}
   [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] - x.q[0] * x.q[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-  [[nodiscard]] BoundaryState initial_state() const override { return at(-1.0); }
-  [[nodiscard]] BoundaryState final_state() const override { return at(1.5); }
-  [[nodiscard]] double horizon() const override { return 1.0; }
-
- private:
-  static BoundaryState at(double x) { return BoundaryState::at_rest(Eigen::VectorXd::Constant(1, x)); }
 };
 
 TEST(HolonomicConstraintsWithoutInertia, HaveOrderTwoByDmocWithOneGaussStage) {
@@ -296,28 +240,19 @@ TEST(HolonomicConstraintsWithoutInertia, AreRefusedByOtherMethods) {
 }
 
 /// A particle on a line, stated with constraints that may be wrong.
-class Misstated final : public Problem {
+class Misstated final : public tests::SmallProblem {
  public:
-  Misstated(ExpressionVector (*g)(const ExpressionVector&), double last_y) : constraints_(g), last_y_(last_y) {}
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  Misstated(ExpressionVector (*g)(const ExpressionVector&), double last_y)
+      : SmallProblem("misstated", BoundaryState::at_rest(Eigen::Vector2d::Zero()),
+                     BoundaryState::at_rest(Eigen::Vector2d(1.0, last_y)), 1.0, 1),
+        constraints_(g) {}
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override { return constraints_(q); }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{x.u[0], 0.0}};
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-  [[nodiscard]] BoundaryState initial_state() const override {
-    return BoundaryState::at_rest(Eigen::Vector2d(0.0, 0.0));
-  }
-  [[nodiscard]] BoundaryState final_state() const override {
-    return BoundaryState::at_rest(Eigen::Vector2d(1.0, last_y_));
-  }
-  [[nodiscard]] double horizon() const override { return 1.0; }
 
  private:
   ExpressionVector (*constraints_)(const ExpressionVector&);
-  double last_y_;
 };
 
 std::string refusal(ExpressionVector (*constraints)(const ExpressionVector&), double last_y = 1.0,
@@ -363,10 +298,11 @@ TEST(HolonomicConstraintsRefused, ByTableausThatAreNotOffered) {
 }
 
 /// A particle on a line whose inertia grows with its speed.
-class FasterIsHeavier final : public Problem {
+class FasterIsHeavier final : public tests::SmallProblem {
  public:
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  FasterIsHeavier()
+      : SmallProblem("faster_is_heavier", BoundaryState::at_rest(Eigen::Vector2d::Zero()),
+                     BoundaryState::at_rest(Eigen::Vector2d::Ones()), 1.0, 1) {}
   [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override { return on_diagonal(q); }
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     const Expression squared = x.v.dot(x.v);
@@ -375,12 +311,6 @@ class FasterIsHeavier final : public Problem {
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{x.u[0], 0.0}};
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-  [[nodiscard]] BoundaryState initial_state() const override {
-    return BoundaryState::at_rest(Eigen::Vector2d(0.0, 0.0));
-  }
-  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(Eigen::Vector2d(1.0, 1.0)); }
-  [[nodiscard]] double horizon() const override { return 1.0; }
 };
 
 TEST(HolonomicConstraintsRefused, ByHamiltonianCollocationWhereInertiaDependsOnTheVelocity) {

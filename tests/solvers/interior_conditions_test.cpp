@@ -27,12 +27,7 @@ using tests::Restated;
 using tests::Scheme;
 using Statement = Restated::Statement;
 
-struct InteriorWay {
-  Scheme scheme;
-  std::string solver;
-};
-
-class InteriorConditions : public testing::TestWithParam<InteriorWay> {
+class InteriorConditions : public testing::TestWithParam<tests::Way> {
  protected:
   static Trajectory solved(const Problem& problem, Eigen::Index intervals) {
     return solved(problem, intervals, guessed_motion(problem));
@@ -136,9 +131,6 @@ class ThroughACircle final : public tests::SmallProblem {
   [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
     return one(2.0 * (x.q[0] * x.v[0] + (x.q[1] - 1.0) * x.v[1]));
   }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
     bounds.last.free_first_order(0);
@@ -195,18 +187,8 @@ TEST_P(InteriorConditions, WorkOnTheMotorsOfAnArmAndLeaveAMotion) {
   EXPECT_LT(accuracy(program->traced_problem(), motion).relative_jump, order() == 2 ? 2e-2 : 1e-3);
 }
 
-std::vector<InteriorWay> interior_ways() {
-  std::vector<InteriorWay> ways;
-  for (const Scheme& scheme : tests::all_schemes()) {
-    for (const std::string solver : {"ipopt", "interior_point", "auto"}) ways.push_back({scheme, solver});
-  }
-  return ways;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, InteriorConditions, testing::ValuesIn(interior_ways()), [](const auto& instance) {
-  const Scheme& scheme = instance.param.scheme;
-  return scheme.method + "_" + scheme.family + std::to_string(scheme.stages) + "_" + instance.param.solver;
-});
+INSTANTIATE_TEST_SUITE_P(All, InteriorConditions,
+                         testing::ValuesIn(tests::ways_by({"ipopt", "interior_point", "auto"})), tests::by_label);
 
 TEST(InteriorConditionsRefused, OutsideOfTheHorizonTwiceOrAgainstOtherBounds) {
   const tests::DoubleIntegrator base;
@@ -220,34 +202,31 @@ TEST(InteriorConditionsRefused, OutsideOfTheHorizonTwiceOrAgainstOtherBounds) {
     return InteriorBounds{.relative_time = time, .q = std::move(q), .v = std::move(v)};
   };
   for (const double time : {0.0, 1.0, 1.5, unbound}) {
-    EXPECT_NE(sentence([&](Statement& s) { s.interior = {at(time)}; }).find("bounds().interior[0].relative_time"),
-              std::string::npos);
+    EXPECT_PRED2(tests::says, sentence([&](Statement& s) { s.interior = {at(time)}; }),
+                 "bounds().interior[0].relative_time");
   }
-  EXPECT_NE(sentence([&](Statement& s) {
-              s.interior = {at(0.5), at(0.2), at(0.5)};
-            }).find("two entries"),
-            std::string::npos);
-  EXPECT_NE(sentence([&](Statement& s) { s.interior = {at(0.5, Bounds::all(2, 0.0, 1.0))}; }).find("expected 1"),
-            std::string::npos);
-  EXPECT_NE(sentence([&](Statement& s) { s.interior = {at(0.5, Bounds::all(1, 2.0, 1.0))}; }).find("above the upper"),
-            std::string::npos);
-  EXPECT_NE(sentence([&](Statement& s) {
-              s.q = Bounds::all(1, -1.0, 1.0);
-              s.interior = {at(0.5, Bounds::all(1, 2.0, 3.0))};
-            }).find("leave no value for q[0]"),
-            std::string::npos);
-  EXPECT_NE(sentence([&](Statement& s) {
-              s.v = Bounds::all(1, -1.0, 1.0);
-              s.interior = {at(0.5, {}, Bounds::all(1, 2.0, 3.0))};
-            }).find("leave no value for v[0]"),
-            std::string::npos);
-  EXPECT_NE(sentence(
-                [&](Statement& s) {
-                  s.interior = {at(0.3), at(0.5)};
-                },
-                2)
-                .find("at least 3 intervals"),
-            std::string::npos);
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) { s.interior = {at(0.5), at(0.2), at(0.5)}; }), "two entries");
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) { s.interior = {at(0.5, Bounds::all(2, 0.0, 1.0))}; }),
+               "expected 1");
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) { s.interior = {at(0.5, Bounds::all(1, 2.0, 1.0))}; }),
+               "above the upper");
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) {
+                 s.q = Bounds::all(1, -1.0, 1.0);
+                 s.interior = {at(0.5, Bounds::all(1, 2.0, 3.0))};
+               }),
+               "leave no value for q[0]");
+  EXPECT_PRED2(tests::says, sentence([&](Statement& s) {
+                 s.v = Bounds::all(1, -1.0, 1.0);
+                 s.interior = {at(0.5, {}, Bounds::all(1, 2.0, 3.0))};
+               }),
+               "leave no value for v[0]");
+  EXPECT_PRED2(tests::says,
+               sentence(
+                   [&](Statement& s) {
+                     s.interior = {at(0.3), at(0.5)};
+                   },
+                   2),
+               "at least 3 intervals");
 }
 
 }  // namespace

@@ -6,12 +6,12 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "methods/transcription/motions/phase_trajectories.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
@@ -21,40 +21,33 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A driven mass on a spring, with an end for each number that is given.
-class Sprung final : public Problem {
+class Sprung final : public tests::SmallProblem {
  public:
   struct Ends {
     double q, v;
     bool is_open = false;
   };
   Sprung(Ends first, Ends last, double horizon, HorizonBounds duration = {})
-      : Problem({{"stiffness", 2.0, "", "of the spring", 0.0, 10.0}}),
-        first_(first),
-        last_(last),
-        horizon_(horizon),
+      : SmallProblem("sprung", at(first.q, first.v), at(last.q, last.v), horizon, 1,
+                     {{"stiffness", 2.0, "", "of the spring", 0.0, 10.0}}),
+        first_is_open_(first.is_open),
+        last_is_open_(last.is_open),
         duration_(duration) {}
-  [[nodiscard]] std::string name() const override { return "sprung"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return 0.5 * mass * x.v[0] * x.v[0] - 0.5 * varying("stiffness") * x.q[0] * x.q[0];
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{x.u[0] - 0.3 * x.v[0] + (with_wind ? Expression(x.t) : Expression(0.0))}};
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     if (most_x < infinity) return ExpressionVector{{most_x - x.q[0]}};
     return least_control > -infinity ? ExpressionVector{{x.u[0] - least_control}} : ExpressionVector();
   }
-  [[nodiscard]] BoundaryState initial_state() const override { return state(first_); }
-  [[nodiscard]] BoundaryState final_state() const override { return state(last_); }
-  [[nodiscard]] double horizon() const override { return horizon_; }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
-    if (first_.is_open) bounds.first.free_configuration(0).free_velocity(0);
-    if (last_.is_open) bounds.last.free_configuration(0).free_velocity(0);
+    if (first_is_open_) bounds.first.free_configuration(0).free_velocity(0);
+    if (last_is_open_) bounds.last.free_configuration(0).free_velocity(0);
     if (duration_.is_free()) bounds.horizon = duration_;
     if (velocity.any()) bounds.v = velocity;
     if (last_velocity.any()) bounds.last.v = last_velocity;
@@ -69,11 +62,8 @@ class Sprung final : public Problem {
   Bounds last_velocity = Bounds::none(1);
 
  private:
-  static BoundaryState state(const Ends& ends) {
-    return {.q = Eigen::VectorXd::Constant(1, ends.q), .v = Eigen::VectorXd::Constant(1, ends.v)};
-  }
-  Ends first_, last_;
-  double horizon_;
+  bool first_is_open_;
+  bool last_is_open_;
   HorizonBounds duration_;
 };
 
@@ -194,7 +184,7 @@ TEST(PhasedProblem, HoldsBoundsOfVelocitiesWhateverTheDuration) {
     SCOPED_TRACE(scheme.label());
     const Trajectory motion = solved(phased, scheme, 8);
     const std::vector<std::size_t> unknowns = phased.unknowns();
-    ASSERT_EQ(phased.parameters()[unknowns[1]].name, "v_a_x_at_end");
+    ASSERT_EQ(phased.parameters()[unknowns[1]].name, "v_a_q1_at_end");
     const double shares[] = {motion.unknowns[0] / phased.horizon(), motion.unknowns[2] / phased.horizon()};
     EXPECT_NEAR(motion.v(8, 0) / shares[0], motion.unknowns[1], 1e-11);
     EXPECT_LE(motion.v(8, 0) / shares[0], 0.9 + 1e-9);
@@ -203,21 +193,14 @@ TEST(PhasedProblem, HoldsBoundsOfVelocitiesWhateverTheDuration) {
 }
 
 /// In a plane from rest to rest, slowly along the second axis.
-class Plane final : public Problem {
+class Plane final : public tests::SmallProblem {
  public:
   explicit Plane(double longest)
-      : Problem({{.name = "longest", .value = longest, .unit = "s", .meaning = "upper bound", .lower = 0.5}}) {}
-  [[nodiscard]] std::string name() const override { return "plane"; }
+      : SmallProblem("plane", BoundaryState::at_rest(Eigen::Vector2d(0, 0)),
+                     BoundaryState::at_rest(Eigen::Vector2d(1, 1)), 1.0, 2,
+                     {{.name = "longest", .value = longest, .unit = "s", .meaning = "upper bound", .lower = 0.5}}) {}
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override { return {.description = "two masses"}; }
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"f", "g"}; }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
-  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector2d(0, 0)); }
-  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(Eigen::Vector2d(1, 1)); }
-  [[nodiscard]] double horizon() const override { return 1.0; }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
     bounds.horizon = {0.5, parameter("longest")};

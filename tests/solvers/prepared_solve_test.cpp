@@ -44,6 +44,15 @@ void expect_same(const Solution& ours, const Solution& theirs, const std::string
   EXPECT_EQ(ours.constraint_violation, theirs.constraint_violation) << label;
 }
 
+/// On the paper's first problem.
+class PreparedOrbit : public testing::Test {
+ protected:
+  std::unique_ptr<Problem> problem_ = make_problem("orbital_transfer");
+  std::unique_ptr<Transcription> program_ = transcribe(*problem_, "dmoc", 16);
+  Eigen::VectorXd start_ = sample(*program_, guessed_motion(*problem_));
+  PreparedSolve prepared_{*program_};
+};
+
 TEST(PreparedSolve, GivesBitByBitWhatASolveOfItsOwnGivesHoweverOften) {
   for (const std::string name : {"orbital_transfer", "two_link_manipulator", "cart_pole", "brachistochrone",
                                  "two_link_with_motors", "spring_arm", "hanging_chain", "waypoints"}) {
@@ -96,12 +105,9 @@ TEST(PreparedSolve, FollowsTheBoundsOfItsProgram) {
   expect_same(prepared.solve(start), solved_anew(*program, start), "narrower");
 }
 
-TEST(PreparedSolve, TakesItsOwnSolutionAsAStart) {
-  const auto problem = make_problem("orbital_transfer");
-  const auto program = transcribe(*problem, "dmoc", 16);
-  PreparedSolve prepared(*program);
-  const Solution cold = prepared.solve(sample(*program, guessed_motion(*problem)));
-  const Solution& warm = prepared.solve(prepared.solution().primal, prepared.solution().multipliers);
+TEST_F(PreparedOrbit, TakesItsOwnSolutionAsAStart) {
+  const Solution cold = prepared_.solve(start_);
+  const Solution& warm = prepared_.solve(prepared_.solution().primal, prepared_.solution().multipliers);
   EXPECT_TRUE(is_solved(warm.status)) << warm.message;
   EXPECT_LE(*warm.major_iterations, 2);
   EXPECT_NEAR(warm.objective, cold.objective, 1e-12);
@@ -122,66 +128,48 @@ TEST(PreparedSolve, BeginsWithTheBarrierParameterThatItIsGiven) {
   EXPECT_LT(warm.major_iterations, far.major_iterations);
 }
 
-TEST(PreparedSolve, HasNoBarrierParameterWithoutBounds) {
-  const auto problem = make_problem("orbital_transfer");
-  const auto program = transcribe(*problem, "dmoc", 16);
-  PreparedSolve prepared(*program);
-  const Solution cold = prepared.solve(sample(*program, guessed_motion(*problem)));
+TEST_F(PreparedOrbit, HasNoBarrierParameterWithoutBounds) {
+  const Solution cold = prepared_.solve(start_);
   EXPECT_FALSE(cold.barrier_parameter.has_value());
-  const Solution plain = prepared.solve(cold.primal, cold.multipliers);
-  expect_same(prepared.solve(cold.primal, cold.multipliers, 1e-3), plain, "without meaning");
+  const Solution plain = prepared_.solve(cold.primal, cold.multipliers);
+  expect_same(prepared_.solve(cold.primal, cold.multipliers, 1e-3), plain, "without meaning");
 }
 
-TEST(PreparedSolve, JudgesLikeEverySolveOrByResidualsAlone) {
-  const auto problem = make_problem("orbital_transfer");
-  const auto program = transcribe(*problem, "dmoc", 16);
-  const Eigen::VectorXd start = sample(*program, guessed_motion(*problem));
-  PreparedSolve confirmed(*program);
-  PreparedSolve by_residuals(*program, "interior_point", {}, PreparedSolve::Judgement::residuals_only);
-  EXPECT_TRUE(confirmed.solve(start).correction.has_value());
-  EXPECT_FALSE(by_residuals.solve(start).correction.has_value());
-  EXPECT_EQ(by_residuals.solution().kkt_residual, confirmed.solution().kkt_residual);
+TEST_F(PreparedOrbit, JudgesLikeEverySolveOrByResidualsAlone) {
+  PreparedSolve by_residuals(*program_, "interior_point", {}, PreparedSolve::Judgement::residuals_only);
+  EXPECT_TRUE(prepared_.solve(start_).correction.has_value());
+  EXPECT_FALSE(by_residuals.solve(start_).correction.has_value());
+  EXPECT_EQ(by_residuals.solution().kkt_residual, prepared_.solution().kkt_residual);
   EXPECT_TRUE(is_solved(by_residuals.solution().status));
 }
 
-TEST(PreparedSolve, CallsOtherSolversAsTheyAre) {
-  const auto problem = make_problem("orbital_transfer");
-  const auto program = transcribe(*problem, "dmoc", 16);
-  const Eigen::VectorXd start = sample(*program, guessed_motion(*problem));
+TEST_F(PreparedOrbit, CallsOtherSolversAsTheyAre) {
   for (const std::string solver : {"ipopt", "sqp", "auto"}) {
-    PreparedSolve prepared(*program, solver);
-    const Solution theirs = solved_anew(*program, start, {}, solver);
-    for (int i = 0; i < 2; ++i) EXPECT_EQ(prepared.solve(start).primal, theirs.primal) << solver;
+    PreparedSolve prepared(*program_, solver);
+    const Solution theirs = solved_anew(*program_, start_, {}, solver);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(prepared.solve(start_).primal, theirs.primal) << solver;
     EXPECT_TRUE(is_solved(prepared.solve(theirs.primal, theirs.multipliers).status)) << solver;
   }
 }
 
-TEST(PreparedSolve, GoesOnAfterASolveThatFails) {
-  const auto problem = make_problem("orbital_transfer");
-  const auto program = transcribe(*problem, "dmoc", 16);
-  const Eigen::VectorXd start = sample(*program, guessed_motion(*problem));
-  const Eigen::VectorXd nowhere = Eigen::VectorXd::Constant(start.size(), std::nan(""));
-  const Solution theirs = solved_anew(*program, start);
-  PreparedSolve prepared(*program);
-  EXPECT_EQ(prepared.solve(nowhere).status, Status::evaluation_failed);
-  expect_same(prepared.solve(start), theirs, "after NaN");
+TEST_F(PreparedOrbit, GoesOnAfterASolveThatFails) {
+  const Eigen::VectorXd nowhere = Eigen::VectorXd::Constant(start_.size(), std::nan(""));
+  const Solution theirs = solved_anew(*program_, start_);
+  EXPECT_EQ(prepared_.solve(nowhere).status, Status::evaluation_failed);
+  expect_same(prepared_.solve(start_), theirs, "after NaN");
 }
 
-TEST(PreparedSolve, RefusesWrongSizesInASentence) {
-  const auto problem = make_problem("orbital_transfer");
-  const auto program = transcribe(*problem, "dmoc", 16);
-  PreparedSolve prepared(*program);
-  const Eigen::VectorXd start = sample(*program, guessed_motion(*problem));
+TEST_F(PreparedOrbit, RefusesWrongSizesInASentence) {
   tests::expect_error_naming({"start", "3", "variables"},
-                             [&] { static_cast<void>(prepared.solve(Eigen::VectorXd::Zero(3))); });
+                             [&] { static_cast<void>(prepared_.solve(Eigen::VectorXd::Zero(3))); });
   tests::expect_error_naming({"multipliers", "2", "constraints"},
-                             [&] { static_cast<void>(prepared.solve(start, Eigen::VectorXd::Zero(2))); });
+                             [&] { static_cast<void>(prepared_.solve(start_, Eigen::VectorXd::Zero(2))); });
   for (const double mu : {0.0, -1.0, std::nan("")}) {
     tests::expect_error_naming({"barrier parameter", "positive"},
-                               [&] { static_cast<void>(prepared.solve(start, Eigen::VectorXd(), mu)); });
+                               [&] { static_cast<void>(prepared_.solve(start_, Eigen::VectorXd(), mu)); });
   }
   tests::expect_error_naming({"no solver", "simplex"},
-                             [&] { const PreparedSolve none(*program, std::string_view("simplex")); });
+                             [&] { const PreparedSolve none(*program_, std::string_view("simplex")); });
 }
 
 TEST(PreparedSolves, OfOneProblemSolveInSeveralThreads) {

@@ -49,7 +49,6 @@ class Crest : public SmallProblem {
     const Expression kinetic = 0.5 * x.v.dot(x.v);
     return statement_.potential ? kinetic - statement_.potential(x.q) : kinetic;
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     const Expression effort = 0.5 * x.u.dot(x.u);
     return statement_.running_cost ? effort + statement_.running_cost(x) : effort;
@@ -183,7 +182,6 @@ TEST_P(SaddlesOf, ACrestAreLeftOnEveryGrid) {
 class TwoMotors final : public SmallProblem {
  public:
   TwoMotors() : SmallProblem("two_motors", at(0.0, 0.0), at(0.0, 0.0), 2.0, 2) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(x.u[0] + x.u[1]); }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     return 0.5 * (x.u[0] + x.u[1]) * (x.u[0] + x.u[1]);
@@ -209,8 +207,6 @@ class StiffNeighbour final : public SmallProblem {
  public:
   explicit StiffNeighbour(double stiffness)
       : SmallProblem("stiff_neighbour", still(), still(), 2.0, 2), stiffness_(stiffness) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     return 0.5 * (x.u[0] * x.u[0] + stiffness_ * x.u[1] * x.u[1]);
   }

@@ -1,7 +1,6 @@
 // Threads that solve at the same time: MUMPS and Ipopt have global state.
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/conserved_quantities.hpp"
@@ -16,6 +15,8 @@
 #include "methods/mechanics/phased_problem.hpp"
 #include "problems/chaplygin_sleigh_cartesian.hpp"
 #include "problems/rolling_disk.hpp"
+#include "tests/solvers/constrained_motions.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 #include "tests/support/value_of.hpp"
@@ -33,50 +34,14 @@ Answer solved_with_constraints(const Problem& problem, const Scheme& scheme, Eig
 
 double optimum_of(const Problem& problem) { return tests::value_of(problem.card().reference).objective; }
 
-std::string label_of(const Scheme& scheme) {
-  return scheme.method + "_" + scheme.family + std::to_string(scheme.stages);
-}
-
 class VelocityConstraintsBy : public testing::TestWithParam<Scheme> {};
 
-/// The sleigh with an end that is not given completely.
-class WithEnds final : public ChaplyginSleighCartesian {
- public:
-  enum class Ends : std::uint8_t { given, free_last_velocity, free_last, free_first_velocity };
-  explicit WithEnds(Ends ends) : ends_(ends) {}
-  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return Problem::clone(); }
-  [[nodiscard]] ProblemBounds bounds() const override {
-    ProblemBounds bounds = Problem::bounds();
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      if (ends_ == Ends::free_last_velocity || ends_ == Ends::free_last) bounds.last.free_velocity(i);
-      if (ends_ == Ends::free_last) bounds.last.free_configuration(i);
-      if (ends_ == Ends::free_first_velocity) bounds.first.free_velocity(i);
-    }
-    return bounds;
-  }
-  /// How many conditions the ends have: 3 of q and 2 of v each.
-  [[nodiscard]] Eigen::Index conditions() const {
-    if (ends_ == Ends::given) return 10;
-    return ends_ == Ends::free_last ? 5 : 8;
-  }
-
- private:
-  Ends ends_;
-};
-
 TEST_P(VelocityConstraintsBy, LeaveRowsOfFullRankAndAsManyFreedomsAsQuasiVelocities) {
-  constexpr Eigen::Index intervals = 6;
-  for (const auto ends : {WithEnds::Ends::given, WithEnds::Ends::free_last_velocity, WithEnds::Ends::free_last,
-                          WithEnds::Ends::free_first_velocity}) {
-    const WithEnds problem(ends);
-    const auto program = tests::transcribe(problem, GetParam(), Grid::uniform(intervals));
-    const Eigen::MatrixXd jacobian = tests::free_columns(*program, sample(*program, guessed_motion(problem)));
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(jacobian);
-    factors.setThreshold(1e-9);
-    EXPECT_EQ(factors.rank(), jacobian.rows()) << static_cast<int>(ends);
-    const Eigen::Index freedoms = 2 * intervals * GetParam().stages + 5 - problem.conditions();
-    EXPECT_EQ(jacobian.cols() - jacobian.rows(), freedoms) << static_cast<int>(ends);
-  }
+  // The ends have 5 freedoms and conditions on 3 of q and 2 of v each.
+  tests::expect_full_rank<ChaplyginSleighCartesian>(GetParam(), {{tests::Ends::given, 5 - 10},
+                                                                 {tests::Ends::free_last_velocity, 5 - 8},
+                                                                 {tests::Ends::free_last, 5 - 5},
+                                                                 {tests::Ends::free_first_velocity, 5 - 8}});
 }
 
 /// The sleigh in quasi-velocities, solved with order 8.
@@ -244,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(All, VelocityConstraintsBy,
                          testing::Values(Scheme{"dmoc", 1}, Scheme{"hamiltonian", 1}, Scheme{"tangent", 1},
                                          Scheme{"tangent", 2}, Scheme{"tangent", 2, "lobatto"},
                                          Scheme{"tangent", 3, "lobatto"}),
-                         [](const auto& instance) { return label_of(instance.param); });
+                         tests::by_label);
 
 void expect_equal(const Problem& problem, Eigen::Index intervals) {
   SCOPED_TRACE(problem.name());
@@ -322,31 +287,23 @@ TEST(VelocityConstraints, OfTwoPhasesGiveTheSolutionOfOne) {
 }
 
 /// A particle in the plane, stated with velocity constraints that may be wrong.
-class MisstatedRates : public Problem {
+class MisstatedRates : public tests::SmallProblem {
  public:
   using Formula = ExpressionVector (*)(const ExpressionVector& q, const ExpressionVector& v);
-  explicit MisstatedRates(Formula formula, double last_rate = 0.0) : formula_(formula), last_rate_(last_rate) {}
-  [[nodiscard]] std::string name() const override { return "misstated"; }
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  explicit MisstatedRates(Formula formula, double last_rate = 0.0)
+      : SmallProblem("misstated", BoundaryState::at_rest(Eigen::Vector2d::Zero()),
+                     {.q = Eigen::Vector2d(1.0, 1.0), .v = Eigen::Vector2d(0.0, last_rate)}, 1.0, 1),
+        formula_(formula) {}
   [[nodiscard]] ExpressionVector velocity_constraints(const ExpressionVector& q,
                                                       const ExpressionVector& v) const override {
     return formula_(q, v);
   }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{x.u[0], 0.0}};
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector2d::Zero()); }
-  [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::Vector2d(1.0, 1.0), .v = Eigen::Vector2d(0.0, last_rate_)};
-  }
-  [[nodiscard]] double horizon() const override { return 1.0; }
 
  private:
   Formula formula_;
-  double last_rate_;
 };
 
 std::string refusal(MisstatedRates::Formula formula, const Scheme& scheme = {"dmoc", 1}, double last_rate = 0.0) {

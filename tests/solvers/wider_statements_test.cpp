@@ -1,7 +1,6 @@
 // What a problem may state besides the class of section 3.1, by Ipopt and by the interior-point method that eliminates
 // interval by interval: closed forms, prices and refusals.
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -26,21 +25,7 @@ using Statement = Restated::Statement;
 
 ExpressionVector one(const Expression& entry) { return ExpressionVector::Constant(1, entry); }
 
-/// A scheme and the solver that is asked.
-struct Way {
-  Scheme scheme;
-  std::string solver;
-};
-
-std::vector<Way> all_ways() {
-  std::vector<Way> ways;
-  for (const Scheme& scheme : tests::all_schemes()) {
-    for (const std::string solver : {"ipopt", "interior_point"}) ways.push_back({scheme, solver});
-  }
-  return ways;
-}
-
-class WiderStatements : public testing::TestWithParam<Way> {
+class WiderStatements : public testing::TestWithParam<tests::Way> {
  protected:
   static Trajectory solved(const Problem& problem, Eigen::Index intervals) {
     const auto program = tests::transcribe(problem, GetParam().scheme, Grid::uniform(intervals));
@@ -166,10 +151,8 @@ TEST_P(WiderStatements, TwoSidedConstraintAndTwoConstraintsAreTheSameProblem) {
   EXPECT_NEAR(h.minCoeff(), -5.0, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, WiderStatements, testing::ValuesIn(all_ways()), [](const auto& instance) {
-  const Scheme& scheme = instance.param.scheme;
-  return scheme.method + "_" + scheme.family + std::to_string(scheme.stages) + "_" + instance.param.solver;
-});
+INSTANTIATE_TEST_SUITE_P(All, WiderStatements, testing::ValuesIn(tests::ways_by({"ipopt", "interior_point"})),
+                         tests::by_label);
 
 class WiderStatementsRefused : public testing::Test {
  protected:
@@ -186,9 +169,6 @@ TEST_F(WiderStatementsRefused, UnknownThatNoFormulaReads) {
   class Idle final : public tests::SmallProblem {
    public:
     Idle() : SmallProblem("idle", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1, {{"a", 1.0, "", "", 0.0, 2.0, false, true}}) {}
-    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   };
   EXPECT_EQ(sentence(Idle()), "idle: no formula depends on the unknown a; remove it");
 }
@@ -198,8 +178,6 @@ TEST_F(WiderStatementsRefused, UnknownThatAFormulaReadsAsANumber) {
    public:
     Number()
         : SmallProblem("number", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1, {{"a", 1.0, "", "", 0.0, 2.0, false, true}}) {}
-    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
     [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
       return parameter("a") * x.u[0] * x.u[0];
     }

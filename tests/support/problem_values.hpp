@@ -4,8 +4,12 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
+#include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/problem.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "tests/support/value_of.hpp"
 
 namespace dmocbench::tests {
@@ -39,6 +43,26 @@ inline double running_cost_at(const Problem& problem, const MotionPoint& point, 
 inline Eigen::VectorXd generator_at(const Problem& problem, const Eigen::VectorXd& q) {
   return formulas_at(problem, {q, Eigen::VectorXd::Zero(q.size()), {}}, 0.0,
                      [&](const ControlledState& x) { return tests::value_of(problem.symmetry(x.q)); });
+}
+
+/// L is the same formula where the configuration is moved along the generator of the symmetry, which is constant.
+inline void expect_translation(const Problem& problem) {
+  const Eigen::Index n = problem.configuration_size();
+  const auto free = static_cast<std::size_t>(2 * n);
+  const State x{input_vector(0, n), input_vector(n, n), Expression::input(free)};
+  State moved = x;
+  moved.q = x.q + Expression::input(free + 1) * value_of(problem.symmetry(x.q));
+  EXPECT_TRUE(problem.lagrangian(moved).is_same(problem.lagrangian(x)));
+}
+
+/// Both ends are equilibria at rest.
+inline void expect_equilibrium_at_ends(const Problem& problem, double rounding) {
+  EquationsOfMotion motion{TracedProblem(problem)};
+  for (const BoundaryState& state : {problem.initial_state(), problem.final_state()}) {
+    EXPECT_EQ(state.v.norm(), 0.0);
+    EXPECT_LT(motion.acceleration(state.q, state.v, Eigen::VectorXd::Zero(problem.control_size()), 0.0).norm(),
+              rounding);
+  }
 }
 
 /// What a picture shows at a point, by name.

@@ -12,7 +12,8 @@
 
 namespace dmocbench::tests {
 
-/// What every small problem shares: names by number and ends that the constructor is told.
+/// What a small problem states unless it says otherwise: names by number, unit masses, controls that are the forces and
+/// cost half their square.
 class SmallProblem : public Problem {
  public:
   [[nodiscard]] std::string name() const override { return name_; }
@@ -21,6 +22,9 @@ class SmallProblem : public Problem {
   [[nodiscard]] BoundaryState initial_state() const override { return first_; }
   [[nodiscard]] BoundaryState final_state() const override { return last_; }
   [[nodiscard]] double horizon() const override { return horizon_; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
 
  protected:
   SmallProblem(std::string name, BoundaryState first, BoundaryState last, double horizon, Eigen::Index controls,
@@ -34,6 +38,11 @@ class SmallProblem : public Problem {
 
   static BoundaryState at(double q, double v) {
     return {Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, v)};
+  }
+  static BoundaryState at(double q, double v, double y) {
+    BoundaryState state = at(q, v);
+    state.y = Eigen::VectorXd::Constant(1, y);
+    return state;
   }
   static ExpressionVector one(const Expression& entry) { return ExpressionVector::Constant(1, entry); }
 
@@ -55,9 +64,6 @@ class SmallProblem : public Problem {
 class DoubleIntegrator final : public SmallProblem {
  public:
   DoubleIntegrator() : SmallProblem("double_integrator", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
   /// Translations.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector&) const override { return one(1.0); }
 };
@@ -72,8 +78,6 @@ class HarmonicOscillator final : public SmallProblem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return 0.5 * x.v[0] * x.v[0] - 0.5 * omega * omega * x.q[0] * x.q[0];
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 };
 
 /// L = ½v² + cos q, f = u, C = ½u², from hanging to upright at rest. L_vv is constant, L_q is not linear.
@@ -81,8 +85,6 @@ class Pendulum final : public SmallProblem {
  public:
   Pendulum() : SmallProblem("pendulum", at(0.0, 0.0), at(std::numbers::pi, 0.0), 2.0, 1) {}
   [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] + cos(x.q[0]); }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 };
 
 /// A free relativistic particle in a spring, L = -sqrt(1 - v²) - ½q²: not quadratic in v, p = v/sqrt(1 - v²).
@@ -92,8 +94,6 @@ class RelativisticSpring final : public SmallProblem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return -sqrt(1.0 - x.v[0] * x.v[0]) - 0.5 * x.q[0] * x.q[0];
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 };
 
 /// Everything that the paper's two problems lack: L depends on t, L_vv and L_vq on q and t, terms linear in v, damping,
@@ -134,10 +134,6 @@ class CentralForce : public SmallProblem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 1.0 / sqrt(x.q[0] * x.q[0] + x.q[1] * x.q[1]);
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
-    return 0.5 * (x.u[0] * x.u[0] + x.u[1] * x.u[1]);
-  }
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
     ExpressionVector generator(2);
     generator << -q[1], q[0];
@@ -155,11 +151,9 @@ class CentralForce : public SmallProblem {
 class BlowUp final : public SmallProblem {
  public:
   explicit BlowUp(double v) : SmallProblem("blow_up", at(0.0, v), at(1.0, 0.0), 1.0, 1) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return one(x.v[0] * x.v[0] + x.u[0]);
   }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
 /// Another problem with its ends replaced, and nothing else bounded.
@@ -203,8 +197,6 @@ class SingularMass final : public SmallProblem {
     const Expression sum = x.v[0] + x.v[1];
     return 0.5 * sum * sum;
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
 }  // namespace dmocbench::tests

@@ -9,6 +9,11 @@
 
 namespace dmocbench::tests {
 
+/// For `EXPECT_PRED2`, which shows both where the sentence does not contain the part.
+inline bool says(const std::string& sentence, const std::string& part) {
+  return sentence.find(part) != std::string::npos;
+}
+
 /// What the `Error` that a call throws says; the test fails if it throws none.
 template <class Call>
 std::string sentence_of_error(const Call& call) {
@@ -25,9 +30,7 @@ std::string sentence_of_error(const Call& call) {
 template <class Call>
 void expect_error_naming(std::initializer_list<std::string> parts, const Call& call) {
   const std::string sentence = sentence_of_error(call);
-  for (const std::string& part : parts) {
-    EXPECT_NE(sentence.find(part), std::string::npos) << '"' << part << "\" is not in: " << sentence;
-  }
+  for (const std::string& part : parts) EXPECT_PRED2(says, sentence, part);
 }
 
 }  // namespace dmocbench::tests

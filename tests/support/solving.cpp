@@ -20,6 +20,14 @@ std::vector<Scheme> schemes_of(const std::vector<std::string>& families, int mos
 
 std::vector<Scheme> all_schemes(int most_stages) { return schemes_of({"gauss", "lobatto"}, most_stages); }
 
+std::vector<Way> ways_by(const std::vector<std::string>& solvers) {
+  std::vector<Way> ways;
+  for (const Scheme& scheme : all_schemes()) {
+    for (const std::string& solver : solvers) ways.push_back({scheme, solver});
+  }
+  return ways;
+}
+
 std::vector<Scheme> schemes_with_shared_controls(int most_stages) {
   return schemes_of({"lobatto_shared"}, most_stages);
 }

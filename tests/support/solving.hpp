@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -22,15 +21,28 @@ struct Scheme {
   std::string method;
   int stages = 1;
   std::string family = "gauss";
-  [[nodiscard]] std::string label() const { return method + " " + family + " s=" + std::to_string(stages); }
+  [[nodiscard]] std::string label() const { return method + "_" + family + std::to_string(stages); }
   [[nodiscard]] Tableau tableau() const { return make_tableau(family, stages); }
 };
+
+/// Names a test after the label of its parameter.
+inline constexpr auto by_label = [](const auto& instance) { return instance.param.label(); };
 
 /// Every family of elements with every tableau of one of the families of tableaus and up to `most_stages` stages.
 std::vector<Scheme> schemes_of(const std::vector<std::string>& families, int most_stages);
 
 /// Gauss and Lobatto, each stage with a control of its own.
 std::vector<Scheme> all_schemes(int most_stages = 3);
+
+/// A scheme and the solver that is asked.
+struct Way {
+  Scheme scheme;
+  std::string solver;
+  [[nodiscard]] std::string label() const { return scheme.label() + "_" + solver; }
+};
+
+/// All schemes by all of these solvers.
+std::vector<Way> ways_by(const std::vector<std::string>& solvers);
 
 /// Lobatto with one control at each node that two intervals share.
 std::vector<Scheme> schemes_with_shared_controls(int most_stages = 3);

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cmath>
-#include <memory>
 #include <numbers>
 
-#include "methods/mechanics/problem.hpp"
+#include "tests/support/problems_for_tests.hpp"
 
 namespace dmocbench::tests {
 
@@ -12,18 +10,15 @@ namespace dmocbench::tests {
 /// constraints: a state is the velocity of an ignorable coordinate, a parameter a coordinate at rest.
 
 /// `control_rate`: the force is the velocity of `impulse`.
-class SubstitutedControlRate final : public Problem {
+class SubstitutedControlRate final : public SmallProblem {
  public:
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q", "impulse"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"rate"}; }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
+  SubstitutedControlRate()
+      : SmallProblem("substituted_control_rate", BoundaryState::at_rest(Eigen::Vector2d::Zero()),
+                     BoundaryState::at_rest(Eigen::Vector2d::UnitX()), 2.0, 1) {}
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{x.v[1], x.u[0]}};
   }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.v[1] * x.v[1]; }
-  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector2d::Zero()); }
-  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(Eigen::Vector2d(1.0, 0.0)); }
-  [[nodiscard]] double horizon() const override { return 2.0; }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
     bounds.last.free_configuration(1).free_velocity(1);
@@ -33,24 +28,17 @@ class SubstitutedControlRate final : public Problem {
 };
 
 /// `hanging_chain`: height and length are velocities, the slope is the control.
-class SubstitutedHangingChain final : public Problem {
+class SubstitutedHangingChain final : public SmallProblem {
  public:
-  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"area", "integral"}; }
-  [[nodiscard]] std::vector<std::string> control_names() const override { return {"slope"}; }
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.dot(x.v); }
+  SubstitutedHangingChain()
+      : SmallProblem("substituted_hanging_chain", {Eigen::Vector2d::Zero(), Eigen::Vector2d(1.0, 0.0)},
+                     {Eigen::Vector2d(2.0, 2.0), Eigen::Vector2d(3.0, 4.0)}, 1.0, 1) {}
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{x.u[0], sqrt(1.0 + x.u[0] * x.u[0])}};
   }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     return x.v[0] * sqrt(1.0 + x.u[0] * x.u[0]);
   }
-  [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::Vector2d::Zero(), .v = Eigen::Vector2d(1.0, 0.0)};
-  }
-  [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::Vector2d(2.0, 2.0), .v = Eigen::Vector2d(3.0, 4.0)};
-  }
-  [[nodiscard]] double horizon() const override { return 1.0; }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
     bounds.last.free_configuration(0).free_configuration(1);

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "methods/transcription/motions/guess_check.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"

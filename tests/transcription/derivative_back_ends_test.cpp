@@ -42,6 +42,12 @@ Differences operator-(const FilledDerivatives& a, const FilledDerivatives& b) {
   return {relative(a.gradient, b.gradient), relative(a.jacobian, b.jacobian), relative(a.hessian, b.hessian)};
 }
 
+void expect_below(const Differences& found, double limit) {
+  EXPECT_LT(found.gradient, limit);
+  EXPECT_LT(found.jacobian, limit);
+  EXPECT_LT(found.hessian, limit);
+}
+
 bool offers(const std::string& name) {
   const auto names = derivative_back_end_names();
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -95,10 +101,7 @@ TEST_P(BackEnds, AdolcAgreesToRoundingIntervalByIntervalAndAsAWhole) {
   if (!offers("adolc")) GTEST_SKIP() << "ADOL-C is not in this build";
   for (const char* const back_end : {"adolc", "adolc_whole"}) {
     SCOPED_TRACE(back_end);
-    const Differences found = from_exact(back_end);
-    EXPECT_LT(found.gradient, 1e-13);
-    EXPECT_LT(found.jacobian, 1e-13);
-    EXPECT_LT(found.hessian, 1e-13);
+    expect_below(from_exact(back_end), 1e-13);
   }
 }
 
@@ -185,10 +188,7 @@ TEST(BackEndsOfTables, AdolcAgreesOnTablesErrorFunctionsAndInverseHyperbolicSine
     const auto by = [&](const std::string& name) {
       return derivatives_by(name, problem, {method, 2}, Grid::uniform(16), 0.1);
     };
-    const Differences found = by("adolc") - by("tape");
-    EXPECT_LT(found.gradient, 1e-13);
-    EXPECT_LT(found.jacobian, 1e-13);
-    EXPECT_LT(found.hessian, 1e-13);
+    expect_below(by("adolc") - by("tape"), 1e-13);
   }
 }
 
@@ -203,10 +203,7 @@ TEST_P(BackEndsOfTheLibrary, AdolcAgreesToRounding) {
   const auto by = [&](const std::string& name) { return derivatives_by(name, *problem, scheme, grid, 0.01); };
   for (const char* const back_end : {"adolc", "adolc_whole"}) {
     SCOPED_TRACE(back_end);
-    const Differences found = by(back_end) - by("tape");
-    EXPECT_LT(found.gradient, 1e-12);
-    EXPECT_LT(found.jacobian, 1e-12);
-    EXPECT_LT(found.hessian, 1e-12);
+    expect_below(by(back_end) - by("tape"), 1e-12);
   }
 }
 

@@ -14,6 +14,7 @@ namespace {
 using tests::pack;
 using tests::problems;
 using tests::row_residual;
+using tests::Scheme;
 using tests::Solved;
 
 /// What a solution may leave in its own rows: Ipopt stops below this, and so must the other method's rows.
@@ -24,43 +25,33 @@ double allowed(const Transcription& program) {
   return 10.0 * std::max(tolerance, program.rounding_floors().largest) / program.step_inputs().minCoeff();
 }
 
-TEST(Equivalence, ASolutionOfDmocSolvesTheHamiltonianRowsAndBack) {
-  for (const auto& problem : problems()) {
-    for (const int s : {1, 2, 3, 4}) {
-      SCOPED_TRACE(problem->name() + ", s = " + std::to_string(s));
-      const Grid grid = tests::graded_grid(24);
-      const Motion& start = tests::common_start(*problem);
-      const Solved dmoc = tests::solve(*problem, {"dmoc", s}, grid, start, tolerance);
-      const Solved hamiltonian = tests::solve(*problem, {"hamiltonian", s}, grid, start, tolerance);
-      EXPECT_LT(row_residual(*hamiltonian.transcription, pack(*hamiltonian.transcription, dmoc.trajectory)),
-                allowed(*dmoc.transcription));
-      EXPECT_LT(row_residual(*dmoc.transcription, pack(*dmoc.transcription, hamiltonian.trajectory)),
-                allowed(*dmoc.transcription));
-    }
-  }
+/// Solutions of both schemes leave only rounding in the rows of the other one.
+void expect_equal_rows(const Problem& problem, const Scheme& scheme, const Scheme& other, const Grid& grid,
+                       const Motion& start) {
+  SCOPED_TRACE(problem.name() + ", " + scheme.label());
+  const Solved one = tests::solve(problem, scheme, grid, start, tolerance);
+  const Solved two = tests::solve(problem, other, grid, start, tolerance);
+  const double rounding = allowed(*one.transcription);
+  EXPECT_LT(row_residual(*two.transcription, pack(*two.transcription, one.trajectory)), rounding);
+  EXPECT_LT(row_residual(*one.transcription, pack(*one.transcription, two.trajectory)), rounding);
+  EXPECT_NEAR(one.trajectory.cost, two.trajectory.cost, 1e-10 * two.trajectory.cost);
 }
 
-TEST(Equivalence, HoldsForThePairLobattoIIIAAndIIIB) {
-  // Gauss cannot tell A from its conjugate; here A and Ã differ, and only the symplectic pair is variational.
+/// Gauss cannot tell A from its conjugate. With Lobatto IIIA and IIIB, A and Ã differ, and only the symplectic pair is
+/// variational.
+TEST(Equivalence, ASolutionOfDmocSolvesTheHamiltonianRowsAndBack) {
   for (const auto& problem : problems()) {
-    for (const int s : {2, 3, 4}) {
-      SCOPED_TRACE(problem->name() + ", lobatto " + std::to_string(s));
-      const Tableau lobatto = lobatto_tableau(s);
-      const Grid grid = tests::graded_grid(24);
-      const Motion& start = tests::common_start(*problem);
-      const Solved dmoc = tests::solve(*problem, "dmoc", lobatto, grid, start, tolerance);
-      const Solved hamiltonian = tests::solve(*problem, "hamiltonian", lobatto, grid, start, tolerance);
-      EXPECT_LT(row_residual(*hamiltonian.transcription, pack(*hamiltonian.transcription, dmoc.trajectory)),
-                allowed(*dmoc.transcription));
-      EXPECT_LT(row_residual(*dmoc.transcription, pack(*dmoc.transcription, hamiltonian.trajectory)),
-                allowed(*dmoc.transcription));
+    for (const Scheme& scheme : tests::all_schemes(4)) {
+      if (scheme.method != "dmoc") continue;
+      expect_equal_rows(*problem, scheme, {"hamiltonian", scheme.stages, scheme.family}, tests::graded_grid(24),
+                        tests::common_start(*problem));
     }
   }
 }
 
 TEST(Equivalence, DmocAndHamiltonianHaveTheSameOptimum) {
   for (const auto& problem : problems()) {
-    for (const tests::Scheme& scheme : tests::all_schemes()) {
+    for (const Scheme& scheme : tests::all_schemes()) {
       if (scheme.method != "dmoc") continue;
       SCOPED_TRACE(problem->name() + ", " + scheme.label());
       const Grid grid = Grid::uniform(48);
@@ -85,17 +76,8 @@ TEST(Equivalence, TangentSolvesTheHamiltonianRowsIfTheMassIsConstant) {
   const auto oscillator = make_problem("forced_oscillator");
   for (const Problem* problem :
        {static_cast<const Problem*>(&pendulum), static_cast<const Problem*>(oscillator.get())}) {
-    const Motion guess = guessed_motion(*problem);
     for (const int s : {1, 2, 3, 4}) {
-      SCOPED_TRACE(problem->name() + ", s = " + std::to_string(s));
-      const Grid grid = tests::graded_grid(20);
-      const Solved tangent = tests::solve(*problem, {"tangent", s}, grid, guess, tolerance);
-      const Solved hamiltonian = tests::solve(*problem, {"hamiltonian", s}, grid, guess, tolerance);
-      EXPECT_LT(row_residual(*hamiltonian.transcription, pack(*hamiltonian.transcription, tangent.trajectory)),
-                allowed(*tangent.transcription));
-      EXPECT_LT(row_residual(*tangent.transcription, pack(*tangent.transcription, hamiltonian.trajectory)),
-                allowed(*tangent.transcription));
-      EXPECT_NEAR(tangent.trajectory.cost, hamiltonian.trajectory.cost, 1e-9);
+      expect_equal_rows(*problem, {"tangent", s}, {"hamiltonian", s}, tests::graded_grid(20), guessed_motion(*problem));
     }
   }
 }

@@ -1,6 +1,5 @@
 #include "methods/transcription/elements/families.hpp"
 
-#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>

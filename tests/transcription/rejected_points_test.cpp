@@ -1,6 +1,5 @@
 // An integration that leaves the domain of a formula is a trial point that solvers reject, not the end of a solve.
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -19,7 +18,6 @@ class BesideAWall final : public tests::SmallProblem {
  public:
   explicit BesideAWall(bool brakes)
       : SmallProblem("beside_a_wall", at(0.0, 10.0), at(0.0, 0.0), 1.0, 1), brakes_(brakes) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return one(x.u[0] + 0.1 * log(0.5 - x.q[0]));
   }

@@ -36,17 +36,21 @@ int iterations_from(const Trajectory& trajectory, Transcription& program, bool i
   return solution.major_iterations.value();
 }
 
+/// A solve on a graded grid, whose multipliers are those sampled along its answer.
+Trajectory expect_own(const Problem& problem, const Scheme& scheme, const Motion& start, double tolerance) {
+  SCOPED_TRACE(problem.name() + " " + scheme.label());
+  const Solved solved = tests::solve(problem, scheme, tests::graded_grid(16), start);
+  const Eigen::VectorXd sampled = sample_multipliers(*solved.transcription, solved.trajectory);
+  EXPECT_LT(distance(sampled, solved.solution.multipliers),
+            tolerance * largest_multiplier(solved.solution.multipliers));
+  return solved.trajectory;
+}
+
 TEST(SampleMultipliers, OfAProgramsOwnSolutionAreItsOwn) {
   for (const auto& problem : tests::problems()) {
     std::vector<Scheme> schemes = tests::all_schemes(3);
     schemes.push_back({"multiple_shooting_rk4_1", 2});
-    for (const Scheme& scheme : schemes) {
-      SCOPED_TRACE(problem->name() + " " + scheme.label());
-      const Solved solved = tests::solve(*problem, scheme, tests::graded_grid(16), tests::common_start(*problem));
-      const Eigen::VectorXd sampled = sample_multipliers(*solved.transcription, solved.trajectory);
-      EXPECT_LT(distance(sampled, solved.solution.multipliers),
-                1e-10 * largest_multiplier(solved.solution.multipliers));
-    }
+    for (const Scheme& scheme : schemes) expect_own(*problem, scheme, tests::common_start(*problem), 1e-10);
   }
 }
 
@@ -64,10 +68,7 @@ TEST(SampleMultipliers, AreThoseOfTheCostSoFarInMayerForm) {
 TEST(SampleMultipliers, OfFirstOrderStatesAreTheProgramsOwn) {
   const TwoLinkWithMotors problem;
   for (const Scheme& scheme : tests::all_schemes(3)) {
-    SCOPED_TRACE(scheme.label());
-    const Solved solved = tests::solve(problem, scheme, tests::graded_grid(16), tests::common_start(problem));
-    const Eigen::VectorXd sampled = sample_multipliers(*solved.transcription, solved.trajectory);
-    EXPECT_LT(distance(sampled, solved.solution.multipliers), 1e-9 * largest_multiplier(solved.solution.multipliers));
+    expect_own(problem, scheme, tests::common_start(problem), 1e-9);
   }
 }
 
@@ -78,11 +79,8 @@ TEST(SampleMultipliers, OfIntegralsAreTheirPrices) {
     s.integrals = Bounds::all(1, 0.5, 0.5);
   });
   for (const Scheme& scheme : tests::all_schemes(3)) {
-    SCOPED_TRACE(scheme.label());
-    const Solved solved = tests::solve(problem, scheme, tests::graded_grid(16), guessed_motion(problem));
-    const Eigen::VectorXd sampled = sample_multipliers(*solved.transcription, solved.trajectory);
-    EXPECT_LT(distance(sampled, solved.solution.multipliers), 1e-9 * largest_multiplier(solved.solution.multipliers));
-    EXPECT_GT(std::abs(solved.trajectory.integral_prices[0]), 1.0);
+    const Trajectory motion = expect_own(problem, scheme, guessed_motion(problem), 1e-9);
+    EXPECT_GT(std::abs(motion.integral_prices[0]), 1.0);
   }
 }
 

@@ -7,7 +7,6 @@
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
 #include "problems/registry.hpp"
 #include "problems/two_link_manipulator.hpp"

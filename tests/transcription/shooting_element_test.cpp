@@ -138,17 +138,14 @@ TEST(Shooting, IsSolvedByIntervalsAsByIpopt) {
 
 TEST(Shooting, RefusesANameWithoutSubstepsOrWithTooManyInASentence) {
   using tests::sentence_of_error;
-  EXPECT_NE(sentence_of_error([] {
-              static_cast<void>(make_element("multiple_shooting_rk4"));
-            }).find("multiple_shooting_rk4_1"),
-            std::string::npos);
-  EXPECT_NE(sentence_of_error([] { static_cast<void>(make_element("multiple_shooting_rk4_0")); }).find("1 to 64"),
-            std::string::npos);
-  EXPECT_NE(sentence_of_error([] { static_cast<void>(make_element("multiple_shooting_rk4_65")); }).find("1 to 64"),
-            std::string::npos);
-  EXPECT_NE(
-      sentence_of_error([] { static_cast<void>(make_element("multiple_shooting_euler_1")); }).find("rk4, midpoint"),
-      std::string::npos);
+  EXPECT_PRED2(tests::says, sentence_of_error([] { static_cast<void>(make_element("multiple_shooting_rk4")); }),
+               "multiple_shooting_rk4_1");
+  EXPECT_PRED2(tests::says, sentence_of_error([] { static_cast<void>(make_element("multiple_shooting_rk4_0")); }),
+               "1 to 64");
+  EXPECT_PRED2(tests::says, sentence_of_error([] { static_cast<void>(make_element("multiple_shooting_rk4_65")); }),
+               "1 to 64");
+  EXPECT_PRED2(tests::says, sentence_of_error([] { static_cast<void>(make_element("multiple_shooting_euler_1")); }),
+               "rk4, midpoint");
 }
 
 }  // namespace

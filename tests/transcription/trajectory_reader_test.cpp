@@ -62,7 +62,6 @@ class Steered final : public tests::SmallProblem {
                      BoundaryState::at_rest(Eigen::Vector2d::Ones()), 1.0, 1),
         is_angle_(is_angle),
         is_bounded_(is_bounded) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v.squaredNorm(); }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{cos(x.u[0]), sin(x.u[0])}};
   }

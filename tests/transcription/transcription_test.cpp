@@ -107,7 +107,6 @@ TEST(Transcription, RefusesAProblemWithoutControlsAndNamesNoNumberOfIntervals) {
   class Adrift final : public tests::SmallProblem {
    public:
     Adrift() : SmallProblem("adrift", at(0.0, 0.0), at(1.0, 0.0), 1.0, 0) {}
-    [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
     [[nodiscard]] ExpressionVector force(const ControlledState&) const override { return one(0.0); }
     [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.v[0] * x.v[0]; }
   };
@@ -158,9 +157,6 @@ class Ill final : public tests::SmallProblem {
   enum class Kind { none, horizon, short_state, infinite_state };
   Ill(Kind kind)
       : SmallProblem("ill", at(0.0, 0.0), at(1.0, 0.0), kind == Kind::horizon ? -1.0 : 1.0, 1), kind_(kind) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   [[nodiscard]] BoundaryState final_state() const override {
     BoundaryState last = SmallProblem::final_state();
     if (kind_ == Kind::short_state) last.v.resize(0);

@@ -19,12 +19,7 @@ namespace {
 
 /// DMOC with three stages from the guess: any extremal serves.
 Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const SolverOptions& options) {
-  const Case the_case{.problem = problem,
-                      .method = "dmoc",
-                      .tableau = "gauss",
-                      .stages = 3,
-                      .solver = "auto",
-                      .grid = Grid::uniform(96)};
+  const Case the_case{.problem = problem, .method = "dmoc", .stages = 3, .solver = "auto", .grid = Grid::uniform(96)};
   const SolvedCase solved =
       solve_case(the_case, Start{guessed_motion(*problem)}, *make_solver("auto", options), options.tolerance, 1);
   if (solved.trajectory && is_usable(solved)) return *solved.trajectory;

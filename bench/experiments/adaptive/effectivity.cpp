@@ -7,7 +7,6 @@
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/runtime/stop_scope.hpp"
-#include "methods/transcription/sample_multipliers.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

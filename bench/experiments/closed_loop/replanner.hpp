@@ -1,12 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include <Eigen/Core>
 
 #include "bench/run/solve_case.hpp"
-#include "methods/mechanics/traced_problem.hpp"
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/motions/trajectory.hpp"

@@ -4,7 +4,6 @@
 #include <array>
 #include <compare>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -16,7 +15,6 @@
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/modified_energy.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
-#include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/transcription/elements/element.hpp"
@@ -249,7 +247,7 @@ void follow_optimal_motions(const std::shared_ptr<const Problem>& problem, const
                             StartProvider& starts, EnergyWorkRows& rows) {
   const Scheme scheme = midpoint_of(*problem, method);
   const FollowedEnergy followed(*problem, method);
-  Case the_case{.problem = problem, .method = method, .tableau = "gauss", .solver = "auto"};
+  Case the_case{.problem = problem, .method = method, .solver = "auto"};
   Curves curves;
   for (const long long intervals : {16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 128, 192, 256}) {
     throw_if_interrupted();

@@ -182,7 +182,6 @@ Table orthogonal_forces_table(const SolverOptions& options) {
           throw_if_interrupted();
           const Case the_case{.problem = problem,
                               .method = method,
-                              .tableau = "gauss",
                               .stages = stages,
                               .solver = "ipopt",
                               .grid = Grid::uniform(intervals)};

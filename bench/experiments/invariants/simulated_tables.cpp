@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
-#include <vector>
 
 #include "bench/experiments/invariants/example_systems.hpp"
 #include "bench/run/column.hpp"

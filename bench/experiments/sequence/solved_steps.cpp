@@ -1,12 +1,10 @@
 #include "bench/experiments/sequence/solved_steps.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "bench/run/column.hpp"
 #include "methods/numerics/quantile.hpp"
-#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

@@ -52,7 +52,6 @@ Trajectory first_motion(const Problem& problem, const PrimitiveOptions& options)
   constexpr int intervals = 64;
   const Case the_case{.problem = {std::shared_ptr<const Problem>(), &problem},  // not owned
                       .method = "dmoc",
-                      .tableau = "gauss",
                       .grid = Grid::uniform(intervals)};
   const std::unique_ptr<Transcription> program = the_case.transcribe();
   require_primitives(*program);

@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <ranges>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "bench/run/solve_case.hpp"
 #include "bench/run/start_provider.hpp"
 #include "methods/diagnostics/accuracy.hpp"
-#include "methods/extensions/primitives/stored_roadmap.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/point_of_inputs.hpp"
 #include "methods/runtime/clock.hpp"
@@ -30,7 +27,6 @@ namespace {
 Case full_solve_of(const PlannedMotion& planned) {
   return {.problem = planned.problem,
           .method = "dmoc",
-          .tableau = "gauss",
           .stages = planned.system->stages,
           .solver = "interior_point",
           .grid = Grid::uniform(planned.system->intervals)};

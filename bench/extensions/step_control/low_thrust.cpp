@@ -105,7 +105,6 @@ Measured measured(const ReferenceTransfer& reference, const std::string& method,
                   const Solver& solver) {
   const Case the_case{.problem = reference.problem(),
                       .method = method,
-                      .tableau = "gauss",
                       .stages = 1,
                       .solver = "interior_point",
                       .grid = Grid::uniform(static_cast<long long>(revolutions) * steps)};

@@ -104,32 +104,28 @@ Finding order_pays_more(const ResultTables& tables, const std::string& problem) 
 
 Claims low_thrust_claims() {
   const std::vector<std::string> evidence{"low_thrust.csv", "low_thrust_reference.csv", "figures/{}_low_thrust.svg"};
-  return {{.id = "low_thrust_structure_pays_in_momentum_alone",
-           .problems = only_orbit,
-           .where = "section 4.2.1, with many revolutions",
-           .whose = Whose::extension,
-           .states = "differences between tangent-space collocation and DMOC in the errors of cost and replay and in "
-                     "the balance of momentum, in polar coordinates with 8 to 32 steps per revolution",
-           .judge = pays_in_momentum_alone,
-           .evidence = evidence,
-           .has_verdict = false},
-          {.id = "low_thrust_structure_pays_beside_explicit",
-           .problems = only_orbit,
-           .where = "section 4.2.1, with many revolutions",
-           .whose = Whose::extension,
-           .states = "with 8 to 32 steps per revolution, DMOC has a smaller state error than shooting with the "
-                     "explicit midpoint rule, which has the same order",
-           .judge = pays_beside_explicit,
-           .evidence = evidence},
-          {.id = "low_thrust_order_pays_more",
-           .problems = only_orbit,
-           .where = "section 4.2.1, with many revolutions",
-           .whose = Whose::extension,
-           .states = "from 12 steps per revolution on, the order matters more than the structure: shooting with rk4 "
-                     "has a smaller cost error than DMOC",
-           .judge = order_pays_more,
-           .condition = "coordinates in which a circular orbit is a straight line",
-           .evidence = evidence}};
+  return about(
+      only_orbit, Whose::extension,
+      {{.id = "low_thrust_structure_pays_in_momentum_alone",
+        .where = "section 4.2.1, with many revolutions",
+        .states = "differences between tangent-space collocation and DMOC in the errors of cost and replay and in "
+                  "the balance of momentum, in polar coordinates with 8 to 32 steps per revolution",
+        .judge = pays_in_momentum_alone,
+        .evidence = evidence,
+        .has_verdict = false},
+       {.id = "low_thrust_structure_pays_beside_explicit",
+        .where = "section 4.2.1, with many revolutions",
+        .states = "with 8 to 32 steps per revolution, DMOC has a smaller state error than shooting with the "
+                  "explicit midpoint rule, which has the same order",
+        .judge = pays_beside_explicit,
+        .evidence = evidence},
+       {.id = "low_thrust_order_pays_more",
+        .where = "section 4.2.1, with many revolutions",
+        .states = "from 12 steps per revolution on, the order matters more than the structure: shooting with rk4 "
+                  "has a smaller cost error than DMOC",
+        .judge = order_pays_more,
+        .condition = "coordinates in which a circular orbit is a straight line",
+        .evidence = evidence}});
 }
 
 }  // namespace dmocbench

@@ -7,7 +7,6 @@
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/error.hpp"
-#include "methods/extensions/step_control/extended_action.hpp"
 #include "methods/extensions/step_control/step_control_program.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/transcription/start.hpp"
@@ -18,12 +17,8 @@ namespace dmocbench {
 SteppedTransfer::SteppedTransfer(double eccentricity, const SolverOptions& options)
     : problem_(std::make_shared<EllipseTransfer>(eccentricity)), solver_(make_solver("ipopt", options)) {
   constexpr long long intervals = 96;
-  const Case the_case{.problem = problem_,
-                      .method = "dmoc",
-                      .tableau = "gauss",
-                      .stages = 3,
-                      .solver = "ipopt",
-                      .grid = Grid::uniform(intervals)};
+  const Case the_case{
+      .problem = problem_, .method = "dmoc", .stages = 3, .solver = "ipopt", .grid = Grid::uniform(intervals)};
   const SolvedCase solved =
       solve_case(the_case, Start{guessed_motion(*problem_)}, *solver_, solver_->options().tolerance, 1, true);
   if (!solved.trajectory || !is_usable(solved)) throw Error("the transfer is not solved: " + solved.solution.message);
@@ -40,8 +35,7 @@ OptimalSteps SteppedTransfer::solve(StepPolicy rule, const StepFunction& sigma, 
   const Grid grid = rule == StepPolicy::uniform
                         ? Grid::uniform(intervals)
                         : Grid::from_nodes(step_times(sigma, motion_, intervals).times / motion_.horizon);
-  const auto program =
-      Case{.problem = problem_, .method = "dmoc", .tableau = "gauss", .stages = stages, .grid = grid}.transcribe();
+  const auto program = Case{.problem = problem_, .method = "dmoc", .stages = stages, .grid = grid}.transcribe();
   const Solution solution = solver_->solve(*program, sample(*program, motion_));
   return steps_of(solution, program->variable_count(),
                   [&] { return read_trajectory(*program, solution.primal, solution.multipliers); });

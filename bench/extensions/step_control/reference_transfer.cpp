@@ -28,7 +28,6 @@ Trajectory solved_transfer(const std::shared_ptr<const Problem>& problem, const 
                            long long intervals, const Motion& start, const Solver& solver) {
   const Case the_case{.problem = problem,
                       .method = method,
-                      .tableau = "gauss",
                       .stages = stages,
                       .solver = "interior_point",
                       .grid = Grid::uniform(intervals)};

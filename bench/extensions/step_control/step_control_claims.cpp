@@ -131,40 +131,34 @@ Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*p
 }  // namespace
 
 Claims step_control_claims() {
-  return {{.id = "variational_steps_symplectic",
-           .problems = simulated,
-           .where = in_outlook,
-           .whose = Whose::extension,
-           .states = "step sizes that depend on the trajectory keep the extended flow symplectic only if their "
-                     "constraint is part of the variational principle",
-           .judge = symplectic_by_principle,
-           .evidence = {"step_control_symplecticity.csv"}},
-          {.id = "steps_by_the_motion_keep_momentum",
-           .problems = simulated,
-           .where = in_outlook,
-           .whose = Whose::extension,
-           .states = "step sizes that are invariant under the group keep the balance of momentum and forces, whether "
-                     "or not they are part of the variational principle",
-           .judge = momentum_by_every_route,
-           .evidence = {"step_control_momentum.csv"}},
-          {.id = "variational_steps_energy",
-           .problems = simulated,
-           .where = in_outlook,
-           .whose = Whose::extension,
-           .states = "with variational steps, the energy oscillates; with steps computed beforehand, the energy drifts",
-           .judge = energy_by_principle,
-           .evidence = {"step_control_energy_behaviour.csv", "figures/step_control.svg"}},
-          {.id = "variational_steps_accuracy",
-           .problems = simulated,
-           .where = in_outlook,
-           .whose = Whose::extension,
-           .states = "step sizes that depend on the trajectory give smaller errors as part of the variational "
-                     "principle than as an imposed constraint with the same number of steps",
-           .judge = accuracy_by_principle,
-           .condition = "along Kepler ellipses of eccentricity 0.3 to 0.8, with step sizes from distance or "
-                        "acceleration; E_0 is the initial energy",
-           .evidence = {"step_control.csv", "step_control_slopes.csv", "step_control_transfer.csv",
-                        "figures/step_control.svg"}}};
+  return about(
+      simulated, Whose::extension,
+      {{.id = "variational_steps_symplectic",
+        .where = in_outlook,
+        .states = "step sizes that depend on the trajectory keep the extended flow symplectic only if their "
+                  "constraint is part of the variational principle",
+        .judge = symplectic_by_principle,
+        .evidence = {"step_control_symplecticity.csv"}},
+       {.id = "steps_by_the_motion_keep_momentum",
+        .where = in_outlook,
+        .states = "step sizes that are invariant under the group keep the balance of momentum and forces, whether "
+                  "or not they are part of the variational principle",
+        .judge = momentum_by_every_route,
+        .evidence = {"step_control_momentum.csv"}},
+       {.id = "variational_steps_energy",
+        .where = in_outlook,
+        .states = "with variational steps, the energy oscillates; with steps computed beforehand, the energy drifts",
+        .judge = energy_by_principle,
+        .evidence = {"step_control_energy_behaviour.csv", "figures/step_control.svg"}},
+       {.id = "variational_steps_accuracy",
+        .where = in_outlook,
+        .states = "step sizes that depend on the trajectory give smaller errors as part of the variational "
+                  "principle than as an imposed constraint with the same number of steps",
+        .judge = accuracy_by_principle,
+        .condition = "along Kepler ellipses of eccentricity 0.3 to 0.8, with step sizes from distance or "
+                     "acceleration; E_0 is the initial energy",
+        .evidence = {"step_control.csv", "step_control_slopes.csv", "step_control_transfer.csv",
+                     "figures/step_control.svg"}}});
 }
 
 }  // namespace dmocbench

@@ -67,9 +67,7 @@ TEST(AmplSolution, IsRefusedIfItIsSomethingElse) {
 class InAnErrorFunction final : public tests::SmallProblem {
  public:
   InAnErrorFunction() : SmallProblem("in_an_error_function", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(x.u[0] - erf(x.q[0])); }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 };
 
 class AmplAnswerOfSpring : public testing::Test {

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

@@ -139,10 +139,6 @@ class PastACircle final : public tests::SmallProblem {
     bounds.horizon = {.lower = 0.5, .upper = 50.0};
     return bounds;
   }
-  [[nodiscard]] Expression lagrangian(const State& x) const override {
-    return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]);
-  }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& /*x*/) const override { return 0.0; }
   [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/error.hpp"
 #include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"

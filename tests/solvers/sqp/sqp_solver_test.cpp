@@ -46,7 +46,6 @@ class FastestMass final : public tests::SmallProblem {
  public:
   FastestMass() : SmallProblem("fastest_mass", at(0.0, 0.0), at(1.0, 0.0), 2.5, 1) {}
   [[nodiscard]] Expression lagrangian(const State& x) const override { return x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState&) const override { return 0.0; }
   [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
   [[nodiscard]] ProblemBounds bounds() const override {
