@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -77,10 +76,10 @@ struct BatchAsked {
 void require_rows(const Rows& table, std::size_t count, Eigen::Index columns, const char* name) {
   if (table.rows() == 0) return;
   if (static_cast<std::size_t>(table.rows()) != count || table.cols() != columns) {
-    throw Error(fmt::format("solve_batch: {} has shape ({}, {}), expected ({}, {})", name, table.rows(), table.cols(),
-                            count, columns));
+    throw Error("solve_batch: {} has shape ({}, {}), expected ({}, {})", name, table.rows(), table.cols(), count,
+                columns);
   }
-  if (!table.allFinite()) throw Error(fmt::format("solve_batch: {} has an entry that is not a finite number", name));
+  if (!table.allFinite()) throw Error("solve_batch: {} has an entry that is not a finite number", name);
 }
 
 /// The work on one batch.

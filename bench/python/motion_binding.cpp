@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <utility>
 
-#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -119,7 +118,7 @@ auto at(const Trajectory& trajectory, const Eigen::VectorXd& times) {
   constexpr double rounding = 1e-12;
   for (const double t : times) {
     const bool is_inside = t >= -rounding * end && t <= (1.0 + rounding) * end;  // false of NaN
-    if (!is_inside) throw Error(fmt::format("t = {:.6g} lies outside the horizon [0, {:.6g}]", t, end));
+    if (!is_inside) throw Error("t = {:.6g} lies outside the horizon [0, {:.6g}]", t, end);
   }
   const Motion motion = smooth_motion(trajectory);
   const Eigen::Index n = trajectory.q.cols();

@@ -127,8 +127,8 @@ ExpressionVector formulas_in(const py::object& returned) {
   for (const py::handle entry : returned) {
     const auto traced = as_expression(entry);
     if (!traced) {
-      throw Error(fmt::format("entry {} of the returned value is {}, expected a formula or a number", entries.size(),
-                              entry.is_none() ? "None" : type_of(entry)));
+      throw Error("entry {} of the returned value is {}, expected a formula or a number", entries.size(),
+                  entry.is_none() ? "None" : type_of(entry));
     }
     entries.push_back(*traced);
   }

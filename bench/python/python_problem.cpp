@@ -4,7 +4,6 @@
 #include <new>
 #include <utility>
 
-#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -77,8 +76,7 @@ template <class Arguments>
 Expression PythonProblem::single_formula(const char* member, const Arguments& arguments) const {
   const ExpressionVector entries = python_.formula(member, arguments);
   if (entries.size() != 1) {
-    throw Error(fmt::format("{}: {} returns {}, expected one formula", name(), member,
-                            counted(entries.size(), "entry", "entries")));
+    throw Error("{}: {} returns {}, expected one formula", name(), member, counted(entries.size(), "entry", "entries"));
   }
   return entries[0];
 }
@@ -180,7 +178,7 @@ ProblemCard PythonProblem::card() const {
         for (const py::handle quantity : python_.object().attr("_picture")(point(x))) {
           const auto [name, quantity_unit, value] = quantity.cast<std::tuple<std::string, std::string, py::object>>();
           const auto traced = as_expression(value);
-          if (!traced) throw Error(fmt::format("the quantity {} is {}, not a formula", name, type_of(value)));
+          if (!traced) throw Error("the quantity {} is {}, not a formula", name, type_of(value));
           picture.push_back({name, quantity_unit, *traced});
         }
         return picture;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/numerics/quantile.hpp"
 
@@ -17,7 +15,7 @@ void require_times(std::span<const double> times) {
   if (times.empty()) throw Error("a confidence interval of a ratio needs at least one round");
   for (const double time : times) {
     if (std::isfinite(time) && time > 0.0) continue;
-    throw Error(fmt::format("a time or a ratio of times is {:g}; times must be positive", time));
+    throw Error("a time or a ratio of times is {:g}; times must be positive", time);
   }
 }
 

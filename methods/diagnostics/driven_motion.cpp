@@ -1,7 +1,5 @@
 #include "methods/diagnostics/driven_motion.hpp"
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 
@@ -40,10 +38,10 @@ void DrivenMotion::carry(const Control& control, double from, double to) {
     derivative.back() = cost_[0];
   };
   if (!integrate(equations, state_, from, to, to - from, tolerance_)) {
-    throw Error(fmt::format("the step size of the exact motion vanished between t = {} and {}", from, to));
+    throw Error("the step size of the exact motion vanished between t = {} and {}", from, to);
   }
   if (!Eigen::Map<const Eigen::VectorXd>(state_.data(), std::ssize(state_)).allFinite()) {
-    throw Error(fmt::format("the exact motion left the domain of its equations between t = {} and {}", from, to));
+    throw Error("the exact motion left the domain of its equations between t = {} and {}", from, to);
   }
   if (constraints_) {
     constraints_->project(Eigen::Map<Eigen::VectorXd>(state_.data(), n_),

@@ -7,8 +7,6 @@
 #include <string>
 #include <unordered_map>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/expression/tape_kernel.hpp"
 
@@ -265,8 +263,8 @@ Tape::Workspace::Workspace(const Tape& tape)
 void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                     Workspace& workspace) const {
   if (inputs.size() < input_count_ || outputs.size() < output_count_) {
-    throw Error(fmt::format("a tape with {} inputs and {} outputs got {} inputs and {} outputs", input_count_,
-                            output_count_, inputs.size(), outputs.size()));
+    throw Error("a tape with {} inputs and {} outputs got {} inputs and {} outputs", input_count_, output_count_,
+                inputs.size(), outputs.size());
   }
   if (workspace.serial_ != serial_) {
     throw Error("this workspace was created for another tape");

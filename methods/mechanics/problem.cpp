@@ -7,8 +7,6 @@
 #include <typeinfo>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/mechanics/class_name.hpp"
 #include "methods/mechanics/member_name.hpp"
@@ -67,9 +65,9 @@ std::string Problem::name() const {
 std::unique_ptr<Problem> Problem::clone() const {
   const std::string type = class_name(typeid(*this));
   throw Error(
-      fmt::format("{} cannot be copied, because clone() is not overridden; give {} the line \"std::unique_ptr<Problem> "
-                  "clone() const override {{ return copy_of(*this); }}\"",
-                  name(), type));
+      "{} cannot be copied, because clone() is not overridden; give {} the line \"std::unique_ptr<Problem> "
+      "clone() const override {{ return copy_of(*this); }}\"",
+      name(), type);
 }
 
 double Problem::cost_scale() const {

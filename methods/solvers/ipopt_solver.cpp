@@ -30,8 +30,6 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/judgement/stop_rule.hpp"
 #include "methods/kkt/symmetric_factorisation.hpp"
@@ -292,7 +290,7 @@ void pass_on(Ipopt::OptionsList& list, const std::string& name, const std::strin
   const auto number = parsed<double>(value);
   if (number && list.SetNumericValue(name, *number)) return;
   if (list.SetStringValue(name, value)) return;
-  throw Error(fmt::format("Ipopt rejects the option {}={}; the Ipopt manual lists the options", name, value));
+  throw Error("Ipopt rejects the option {}={}; the Ipopt manual lists the options", name, value);
 }
 
 void set_options(Ipopt::IpoptApplication& application, const SolverOptions& options, const NamedOptions& named) {

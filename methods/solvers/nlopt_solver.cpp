@@ -59,8 +59,8 @@ std::pair<const Setting&, double> read_option(const std::string& name, const std
   const double value = parsed<double>(text).value_or(-1.0);
   const bool is_whole = name != "maxeval" || (value == std::floor(value) && value <= std::numeric_limits<int>::max());
   if (!std::isfinite(value) || value < 0.0 || !is_whole) {
-    throw Error(fmt::format("NLopt rejects the option {}={}; give a {}number of at least 0", name, text,
-                            name == "maxeval" ? "whole " : ""));
+    throw Error("NLopt rejects the option {}={}; give a {}number of at least 0", name, text,
+                name == "maxeval" ? "whole " : "");
   }
   return {setting, value};
 }

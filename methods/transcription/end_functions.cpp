@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
@@ -61,9 +59,9 @@ ReleasedComponents released(const Problem& problem, const TracedProblem& traced,
     for (Eigen::Index i = 0; i < bounds.lower.size(); ++i) is_free.push_back(!bounds.is_fixed(i));
     std::vector<Eigen::Index> columns = independent_columns(jacobian, is_free);
     if (std::ssize(columns) < jacobian.rows()) {
-      throw Error(fmt::format("{}: {} are dependent at {}: {} has rank {}, not {}", problem.name(),
-                              has_velocity ? "velocity_constraints" : "constraints", member_name(name),
-                              has_velocity ? "A" : "G = dg/dq", columns.size(), jacobian.rows()));
+      throw Error("{}: {} are dependent at {}: {} has rank {}, not {}", problem.name(),
+                  has_velocity ? "velocity_constraints" : "constraints", member_name(name),
+                  has_velocity ? "A" : "G = dg/dq", columns.size(), jacobian.rows());
     }
     std::erase_if(columns, [&](Eigen::Index i) { return is_free[static_cast<std::size_t>(i)]; });
     return columns;
@@ -245,10 +243,10 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
     const double excess = is_below ? path.lower[entry] - value : value - path.upper[entry];
     if (!(excess > uncertainty(h, x, values))) continue;  // a NaN at an end may be a number inside
     throw Error(
-        fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} at t = {:g}, "
-                    "but must be at {} {:g}",
-                    problem.name(), member_name(point.name), i, names.empty() ? "" : " (" + names[i] + ")", value,
-                    point.time, is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]));
+        "{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} at t = {:g}, "
+        "but must be at {} {:g}",
+        problem.name(), member_name(point.name), i, names.empty() ? "" : " (" + names[i] + ")", value, point.time,
+        is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]);
   }
 }
 
@@ -278,9 +276,9 @@ void require_motion_constraints_at_ends(const Problem& problem, const TracedProb
       if (std::abs(values[i]) <= known_digits * (1.0 + terms[i])) continue;
       const Eigen::Index of_velocity = i - traced.holonomic_count();
       const bool is_holonomic = of_velocity < 0;
-      throw Error(fmt::format("{}: {} violates {}constraints[{}]: {} = {:.3g}, but must be 0", problem.name(),
-                              member_name(name), is_holonomic ? "" : "velocity_", is_holonomic ? i : of_velocity,
-                              is_holonomic ? what : "A v", values[i]));
+      throw Error("{}: {} violates {}constraints[{}]: {} = {:.3g}, but must be 0", problem.name(), member_name(name),
+                  is_holonomic ? "" : "velocity_", is_holonomic ? i : of_velocity, is_holonomic ? what : "A v",
+                  values[i]);
     }
   };
   for (const auto& [end, name] : {std::pair(&bounds.first, "initial_state"), std::pair(&bounds.last, "final_state")}) {

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
@@ -272,7 +270,7 @@ Eigen::VectorXd read_prices(const Transcription& transcription, const Eigen::Vec
 Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& primal,
                            const Eigen::VectorXd& multipliers) {
   if (static_cast<std::size_t>(primal.size()) != transcription.variable_count()) {
-    throw Error(fmt::format("a trajectory needs {} variables, got {}", transcription.variable_count(), primal.size()));
+    throw Error("a trajectory needs {} variables, got {}", transcription.variable_count(), primal.size());
   }
   const ProgramBlocks& blocks = transcription.blocks();
   const Eigen::Index n = transcription.traced_problem().configuration_size();

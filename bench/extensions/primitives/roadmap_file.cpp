@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/run/json_place.hpp"
@@ -125,7 +124,7 @@ RoadmapJson checked_content(std::string_view text) {
   const JsonPlace place(json, "its JSON");
   if (!place.has("format") || json["format"] != roadmap_format) throw Error("it is not a roadmap");
   if (const JsonPlace version = place.at("version"); version.json() != roadmap_version) {
-    throw Error(fmt::format("it has version {}, but this program reads version {}", version.number(), roadmap_version));
+    throw Error("it has version {}, but this program reads version {}", version.number(), roadmap_version);
   }
   const RoadmapJson& content = place.at("content").json();
   if (place.at("crc32").text() != checksum_of(content.dump())) {
@@ -193,7 +192,7 @@ StoredRoadmap read_roadmap(const std::filesystem::path& file, const Problem& pro
   try {
     return roadmap_of(text, problem);
   } catch (const Error& error) {
-    throw Error(fmt::format("{} cannot be used as the roadmap of {}: {}", file.string(), problem.name(), error.what()));
+    throw Error("{} cannot be used as the roadmap of {}: {}", file.string(), problem.name(), error.what());
   }
 }
 

@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -26,9 +24,8 @@ void require_in_place(const PrimitiveLibrary& library, const std::vector<Roadmap
       return;
     }
   }
-  throw Error(
-      fmt::format("the edge of the roadmap from node {} to node {} does not have the same ends as its primitive {}",
-                  edge.from, edge.to, edge.primitive));
+  throw Error("the edge of the roadmap from node {} to node {} does not have the same ends as its primitive {}",
+              edge.from, edge.to, edge.primitive);
 }
 
 /// V(j, t) with the edge by which it is reached, for all nodes and time steps.
@@ -102,11 +99,10 @@ Roadmap::Roadmap(const PrimitiveLibrary& library, std::vector<RoadmapNode> nodes
 std::optional<RoadmapPath> cheapest_path(const Roadmap& roadmap, std::size_t from, std::size_t to, int duration,
                                          Arrival arrival) {
   if (std::max(from, to) >= roadmap.nodes().size()) {
-    throw Error(fmt::format("the roadmap has {} nodes, numbered from 0: there is no path from node {} to node {}",
-                            roadmap.nodes().size(), from, to));
+    throw Error("the roadmap has {} nodes, numbered from 0: there is no path from node {} to node {}",
+                roadmap.nodes().size(), from, to);
   }
-  if (duration < 0)
-    throw Error(fmt::format("a path cannot take {} time steps; the number must not be negative", duration));
+  if (duration < 0) throw Error("a path cannot take {} time steps; the number must not be negative", duration);
   const CostTable table(roadmap, from, duration);
   int best = duration;
   if (arrival == Arrival::at_latest) {

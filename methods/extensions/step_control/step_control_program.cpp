@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/extensions/step_control/extended_action.hpp"
@@ -229,7 +227,7 @@ Eigen::VectorXd StepControlProgram::start(const Motion& motion) const {
 
 Trajectory StepControlProgram::read(const Eigen::VectorXd& x) {
   if (static_cast<std::size_t>(x.size()) != variable_count()) {
-    throw Error(fmt::format("a trajectory needs {} variables, got {}", variable_count(), x.size()));
+    throw Error("a trajectory needs {} variables, got {}", variable_count(), x.size());
   }
   const Tape tape(reading_);
   Tape::Workspace workspace(tape);

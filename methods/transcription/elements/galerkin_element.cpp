@@ -19,14 +19,14 @@ namespace {
 Tableau tableau_of_space(std::string_view family, int stages, std::string_view what) {
   const std::vector<int> offered = tableau_stages(family);
   if (std::ranges::count(offered, stages) > 0) return make_tableau(family, stages);
-  throw Error(fmt::format("galerkin: {} must be one of {}, not {}", what, fmt::join(offered, ", "), stages));
+  throw Error("galerkin: {} must be one of {}, not {}", what, fmt::join(offered, ", "), stages);
 }
 
 /// `space` if the quadrature has enough points for it; `what` names its size, such as "degree 3".
 const Tableau& fit_for(const Tableau& quadrature, const Tableau& space, const std::string& what) {
   if (space.stages() <= quadrature.stages()) return space;
-  throw Error(fmt::format("galerkin with {} needs at least {} quadrature points, got {}", what, space.stages(),
-                          quadrature.stages()));
+  throw Error("galerkin with {} needs at least {} quadrature points, got {}", what, space.stages(),
+              quadrature.stages());
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ std::unique_ptr<Element> make_galerkin_element(std::string_view spaces) {
   const auto degree = parsed<int>(numbers.substr(0, bar));
   const auto nodes = bar == std::string_view::npos ? std::nullopt : parsed<int>(numbers.substr(bar + 1));
   if (!degree || !nodes) {
-    throw Error(fmt::format(R"("{}_{}" does not name a degree and a number of control nodes, as "{}" does)",
-                            galerkin_family, spaces, galerkin_name(2, 1, is_continuous)));
+    throw Error(R"("{}_{}" does not name a degree and a number of control nodes, as "{}" does)", galerkin_family,
+                spaces, galerkin_name(2, 1, is_continuous));
   }
   return std::make_unique<GalerkinElement>(*degree, *nodes, is_continuous);
 }

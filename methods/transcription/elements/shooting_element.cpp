@@ -165,7 +165,7 @@ IntervalTrace ShootingElement::trace(const TracedProblem& problem, const Tableau
 void require_substeps(int substeps) {
   constexpr int most = ShootingElement::most_substeps;
   if (substeps >= 1 && substeps <= most) return;
-  throw Error(fmt::format("shooting supports 1 to {} substeps per interval, got {}", most, substeps));
+  throw Error("shooting supports 1 to {} substeps per interval, got {}", most, substeps);
 }
 
 std::string shooting_name(std::string_view family, std::string_view integrator, int substeps) {
@@ -177,7 +177,7 @@ std::unique_ptr<Element> make_shooting_element(Shooting shooting, std::string_vi
   const auto substeps = bar == std::string_view::npos ? std::nullopt : parsed<int>(integration.substr(bar + 1));
   if (!substeps) {
     const std::string name = fmt::format("{}_{}", shooting_family(shooting), integration);
-    throw Error(fmt::format(R"("{}" does not name a number of substeps, as "{}_1" does)", name, name));
+    throw Error(R"("{}" does not name a number of substeps, as "{}_1" does)", name, name);
   }
   return std::make_unique<ShootingElement>(shooting, explicit_integrator(integration.substr(0, bar)), *substeps);
 }
