@@ -43,8 +43,6 @@ class PythonObject {
   ~PythonObject();  // NOLINT(bugprone-exception-escape): see its definition
   PythonObject(const PythonObject&) = delete;
   PythonObject& operator=(const PythonObject&) = delete;
-  PythonObject(PythonObject&&) = delete;
-  PythonObject& operator=(PythonObject&&) = delete;
 
   /// The parameters that an object declares.
   [[nodiscard]] static std::vector<Parameter> parameters_of(const pybind11::object& original);
@@ -86,8 +84,6 @@ class Tracing {
   ~Tracing();
   Tracing(const Tracing&) = delete;
   Tracing& operator=(const Tracing&) = delete;
-  Tracing(Tracing&&) = delete;
-  Tracing& operator=(Tracing&&) = delete;
 };
 
 /// The entries as a list of Python.

@@ -145,8 +145,6 @@ class StartProvider::Search {
   // The options refer to this object.
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
-  Search(Search&&) = delete;
-  Search& operator=(Search&&) = delete;
   ~Search() = default;
 
   [[nodiscard]] FoundStart run() {

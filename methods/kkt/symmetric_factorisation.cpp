@@ -79,8 +79,6 @@ struct SymmetricFactorisation::Mumps {
   ~Mumps() { call_mumps(data, job_end); }
   Mumps(const Mumps&) = delete;
   Mumps& operator=(const Mumps&) = delete;
-  Mumps(Mumps&&) = delete;
-  Mumps& operator=(Mumps&&) = delete;
 
   /// False if the matrix is singular. Where workspace is lacking, tries again with more. If a given order lacks it
   /// again, so many pivots are postponed that the order that MUMPS finds takes less time. In that order about ten times

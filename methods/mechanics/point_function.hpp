@@ -23,8 +23,6 @@ class PointFunction {
   // The tape's inputs point into this object.
   PointFunction(const PointFunction&) = delete;
   PointFunction& operator=(const PointFunction&) = delete;
-  PointFunction(PointFunction&&) = delete;
-  PointFunction& operator=(PointFunction&&) = delete;
   ~PointFunction() = default;
 
   /// The outputs at a point; `result` has `output_count()` entries. An empty `u` means u = 0; `y` has an entry per

@@ -57,8 +57,6 @@ class NonlinearProgram {
   virtual ~NonlinearProgram() = default;
   NonlinearProgram(const NonlinearProgram&) = delete;
   NonlinearProgram& operator=(const NonlinearProgram&) = delete;
-  NonlinearProgram(NonlinearProgram&&) = delete;
-  NonlinearProgram& operator=(NonlinearProgram&&) = delete;
 
   /// Number of unknowns ξ.
   [[nodiscard]] virtual std::size_t variable_count() const = 0;

@@ -77,8 +77,6 @@ class WorkerTeam {
   }
   WorkerTeam(const WorkerTeam&) = delete;
   WorkerTeam& operator=(const WorkerTeam&) = delete;
-  WorkerTeam(WorkerTeam&&) = delete;
-  WorkerTeam& operator=(WorkerTeam&&) = delete;
   ~WorkerTeam() { dismiss(); }
 
   [[nodiscard]] std::size_t helpers() const noexcept { return threads_.size(); }

@@ -28,8 +28,6 @@ class PreparedRun {
   virtual ~PreparedRun() = default;
   PreparedRun(const PreparedRun&) = delete;
   PreparedRun& operator=(const PreparedRun&) = delete;
-  PreparedRun(PreparedRun&&) = delete;
-  PreparedRun& operator=(PreparedRun&&) = delete;
 
   /// The method itself, from checked arguments of `Solver::solve`. Sets its own status, the last iterate (none
   /// if it rejects the program), the multipliers if it has them, and its counts of iterations; a message only where it
@@ -51,8 +49,6 @@ class Solver {
   virtual ~Solver() = default;
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
-  Solver(Solver&&) = delete;
-  Solver& operator=(Solver&&) = delete;
 
   /// snake_case, as on the command line.
   [[nodiscard]] virtual std::string name() const = 0;

@@ -108,8 +108,6 @@ class Element {
   virtual ~Element() = default;
   Element(const Element&) = delete;
   Element& operator=(const Element&) = delete;
-  Element(Element&&) = delete;
-  Element& operator=(Element&&) = delete;
 
   /// As on the command line.
   [[nodiscard]] virtual std::string name() const = 0;
