@@ -321,14 +321,13 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& o
 }  // namespace
 
 IpoptSolver::IpoptSolver(SolverOptions options, NamedOptions named)
-    : SolverWithoutMemory(std::move(options)), named_(std::move(named)) {
+    : SolverWithoutMemory(
+          "ipopt", "interior-point method with filter line search (Ipopt " IPOPT_VERSION "), exact sparse derivatives",
+          std::move(options)),
+      named_(std::move(named)) {
   if (named_.empty()) return;
   const auto lock = lock_mumps();
   static_cast<void>(application_with(this->options(), named_));
-}
-
-std::string IpoptSolver::description() const {
-  return "interior-point method with filter line search (Ipopt " IPOPT_VERSION "), exact sparse derivatives";
 }
 
 Solution IpoptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {

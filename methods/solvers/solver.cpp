@@ -203,7 +203,10 @@ class RunWithoutMemory final : public PreparedRun {
 
 }  // namespace
 
-Solver::Solver(SolverOptions options) : options_(std::move(options)) { options_.validate(); }
+Solver::Solver(std::string name, std::string description, SolverOptions options)
+    : name_(std::move(name)), description_(std::move(description)), options_(std::move(options)) {
+  options_.validate();
+}
 
 std::unique_ptr<PreparedRun> SolverWithoutMemory::prepare(CountedProgram& program) const {
   return std::make_unique<RunWithoutMemory>(

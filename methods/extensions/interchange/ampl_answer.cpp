@@ -155,7 +155,8 @@ AmplSolution read_ampl_solution(std::string_view text) {
 }
 
 AmplAnswer::AmplAnswer(AmplSolution answer, SolverOptions options)
-    : SolverWithoutMemory(std::move(options)), answer_(std::move(answer)) {}
+    : SolverWithoutMemory("ampl", "solution of another solver, from its .sol file", std::move(options)),
+      answer_(std::move(answer)) {}
 
 void AmplAnswer::require_fit(const NonlinearProgram& program) const {
   if (std::cmp_equal(answer_.variable_count, program.variable_count()) &&

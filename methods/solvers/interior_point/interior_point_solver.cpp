@@ -372,11 +372,10 @@ std::pair<InteriorPointOptions, NamedOptions> interior_point_options_among(const
 }
 
 InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOptions choices)
-    : Solver(std::move(options)), choices_(std::move(choices)) {}
-
-std::string InteriorPointSolver::description() const {
-  return "interior-point method with exact Hessian; solves its linear systems by elimination, interval by interval";
-}
+    : Solver("interior_point",
+             "interior-point method with exact Hessian; solves its linear systems by elimination, interval by interval",
+             std::move(options)),
+      choices_(std::move(choices)) {}
 
 std::unique_ptr<PreparedRun> InteriorPointSolver::prepare(CountedProgram& program) const {
   auto kkt = interior_point::make_kkt(program, choices_);

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <utility>
 
@@ -44,8 +43,6 @@ class InteriorPointSolver final : public Solver {
   /// Throws `Error` if an option is out of range.
   explicit InteriorPointSolver(SolverOptions options = {}, InteriorPointOptions choices = {});
 
-  [[nodiscard]] std::string name() const override { return "interior_point"; }
-  [[nodiscard]] std::string description() const override;
   [[nodiscard]] std::unique_ptr<PreparedRun> prepare(CountedProgram& program) const override;
 
  private:

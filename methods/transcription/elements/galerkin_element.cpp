@@ -32,21 +32,15 @@ const Tableau& fit_for(const Tableau& quadrature, const Tableau& space, const st
 }  // namespace
 
 GalerkinElement::GalerkinElement(int degree, int control_nodes, bool has_continuous_controls)
-    : rates_(tableau_of_space("gauss", degree, "the degree of configurations")),
+    : Element(galerkin_name(degree, control_nodes, has_continuous_controls),
+              fmt::format(
+                  "Galerkin variational integrator with q of degree {}, {} controls of degree {} and any quadrature",
+                  degree, has_continuous_controls ? "continuous" : "discontinuous", control_nodes - 1),
+              NodeState::configuration),
+      rates_(tableau_of_space("gauss", degree, "the degree of configurations")),
       controls_(has_continuous_controls
                     ? tableau_of_space("lobatto_shared", control_nodes, "the number of shared control nodes")
                     : tableau_of_space("gauss", control_nodes, "the number of control nodes")) {}
-
-std::string GalerkinElement::name() const {
-  return galerkin_name(static_cast<int>(rates_.stages()), static_cast<int>(controls_.stages()),
-                       controls_.shares_controls);
-}
-
-std::string GalerkinElement::description() const {
-  return fmt::format("Galerkin variational integrator with q of degree {}, {} controls of degree {} and any quadrature",
-                     rates_.stages(), controls_.shares_controls ? "continuous" : "discontinuous",
-                     controls_.stages() - 1);
-}
 
 Tableau GalerkinElement::rates(const Tableau& quadrature) const {
   return fit_for(quadrature, rates_, fmt::format("degree {}", rates_.stages()));

@@ -119,18 +119,14 @@ State on_cubic(const Flow& left, const Flow& right, const Expression& h, double 
 }  // namespace
 
 ShootingElement::ShootingElement(Shooting shooting, ExplicitIntegrator integrator, int substeps)
-    : shooting_(shooting), integrator_(std::move(integrator)), substeps_(substeps) {
+    : Element(shooting_name(shooting_family(shooting), integrator.name, substeps),
+              fmt::format("direct {} shooting in (q, v) with {} step{} of {} per interval",
+                          shooting == Shooting::single ? "single" : "multiple", substeps, substeps == 1 ? "" : "s",
+                          integrator.name),
+              NodeState::velocity),
+      integrator_(std::move(integrator)),
+      substeps_(substeps) {
   require_substeps(substeps);
-}
-
-std::string ShootingElement::name() const {
-  return shooting_name(shooting_family(shooting_), integrator_.name, substeps_);
-}
-
-std::string ShootingElement::description() const {
-  return fmt::format("direct {} shooting in (q, v) with {} step{} of {} per interval",
-                     shooting_ == Shooting::single ? "single" : "multiple", substeps_, substeps_ == 1 ? "" : "s",
-                     integrator_.name);
 }
 
 IntervalTrace ShootingElement::trace(const TracedProblem& problem, const Tableau& tableau,
