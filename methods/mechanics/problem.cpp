@@ -84,10 +84,6 @@ Eigen::Index Problem::control_size() const { return static_cast<Eigen::Index>(co
 
 Eigen::Index Problem::first_order_size() const { return static_cast<Eigen::Index>(first_order_names().size()); }
 
-std::vector<std::string> Problem::first_order_names() const { return {}; }
-
-ExpressionVector Problem::first_order_rates(const ControlledState& /*x*/) const { return {}; }
-
 ProblemBounds Problem::bounds() const {
   ProblemBounds bounds;
   bounds.first = EndBounds::fixed(initial_state());
@@ -95,32 +91,6 @@ ProblemBounds Problem::bounds() const {
   bounds.horizon = {horizon(), horizon()};
   return bounds;
 }
-
-ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const { return {}; }
-
-ExpressionVector Problem::constraints(const ExpressionVector& /*q*/) const { return {}; }
-
-ExpressionVector Problem::velocity_constraints(const ExpressionVector& /*q*/, const ExpressionVector& /*v*/) const {
-  return {};
-}
-
-ExpressionVector Problem::embedding(const ExpressionVector& /*theta*/) const { return {}; }
-
-ExpressionVector Problem::moving_embedding(const ExpressionVector& theta, const Expression& /*t*/) const {
-  return embedding(theta);
-}
-
-const Problem* Problem::redundant() const { return nullptr; }
-
-const PhasedProblem* Problem::phased() const { return nullptr; }
-
-ExpressionVector Problem::integrands(const ControlledState& /*x*/) const { return {}; }
-
-ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }
-
-Expression Problem::final_cost(const State& /*last*/) const { return {}; }
-
-std::optional<ExpressionVector> Problem::symmetry(const ExpressionVector& /*q*/) const { return std::nullopt; }
 
 MotionPoint Problem::guess(double t) const {
   const BoundaryState first = initial_state();
@@ -131,8 +101,6 @@ MotionPoint Problem::guess(double t) const {
           .u = Eigen::VectorXd::Zero(control_size()),
           .y = first.y + relative * (last.y - first.y)};
 }
-
-std::optional<OptimalPoint> Problem::optimum(double /*t*/) const { return std::nullopt; }
 
 Picture pictured_quantities(const Problem& problem, const ControlledState& x) {
   const ProblemCard card = problem.card();
