@@ -46,8 +46,8 @@ struct Answers {
   std::vector<std::string> status;
   std::vector<bool> is_solved;
   Eigen::VectorXi iterations;
-  Rows q;  ///< node by node, if motions are requested
-  Rows u;  ///< stage by stage
+  Rows q = {};  ///< node by node, if motions are requested
+  Rows u = {};  ///< stage by stage
 };
 
 /// As long as nothing is solved. Without a limit of time that is over, all instances have their turn.
@@ -56,9 +56,7 @@ Answers no_answers(std::size_t instances) {
   return {.cost = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN()),
           .status = std::vector<std::string>(instances, std::string(name_of(Status::time_limit))),
           .is_solved = std::vector<bool>(instances, false),
-          .iterations = Eigen::VectorXi::Zero(count),
-          .q = {},
-          .u = {}};
+          .iterations = Eigen::VectorXi::Zero(count)};
 }
 
 struct BatchAsked {

@@ -42,7 +42,7 @@ constexpr unsigned seed = 20090101U;  // the same draws each time
 
 RatioInterval ratio_interval(std::span<const double> ratios) {
   require_times(ratios);
-  RatioInterval interval{.ratio = median({ratios.begin(), ratios.end()}), .rounds = ratios.size(), .resampled = {}};
+  RatioInterval interval{.ratio = median({ratios.begin(), ratios.end()}), .rounds = ratios.size()};
   std::mt19937 engine(seed);  // NOLINT(cert-msc51-cpp)
   for (std::size_t b = 0; b < resamples; ++b) interval.resampled.push_back(median_of_drawn(ratios, engine));
   set_bounds(interval);
@@ -53,8 +53,7 @@ RatioInterval ratio_of_runs(std::span<const double> times, std::span<const doubl
   require_times(times);
   require_times(others);
   RatioInterval interval{.ratio = median({times.begin(), times.end()}) / median({others.begin(), others.end()}),
-                         .rounds = std::min(times.size(), others.size()),
-                         .resampled = {}};
+                         .rounds = std::min(times.size(), others.size())};
   std::mt19937 engine(seed);  // NOLINT(cert-msc51-cpp)
   for (std::size_t b = 0; b < resamples; ++b) {
     const double drawn = median_of_drawn(times, engine);

@@ -21,11 +21,11 @@ inline constexpr std::size_t resamples = 1000;
 /// replacement, `resamples` times from a fixed seed, and the interval holds 99 % of the medians. Equal numbers of
 /// rounds draw the same rounds, so that `resampled[b]` of several ratios belong together.
 struct RatioInterval {
-  double ratio = 0.0;             ///< the median
-  double lower = 0.0;             ///< end of the interval
-  double upper = 0.0;             ///< end of the interval
-  std::size_t rounds = 0;         ///< number of ratios
-  std::vector<double> resampled;  ///< the medians, in the order of drawing
+  double ratio = 0.0;                  ///< the median
+  double lower = 0.0;                  ///< end of the interval
+  double upper = 0.0;                  ///< end of the interval
+  std::size_t rounds = 0;              ///< number of ratios
+  std::vector<double> resampled = {};  ///< the medians, in the order of drawing
 };
 
 /// The interval of the median of ratios, one of each round. Throws `Error` without ratios or if one is not a finite

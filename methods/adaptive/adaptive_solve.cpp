@@ -190,7 +190,7 @@ class AdaptiveRun {
       }
     }
     if (is_finer_than_before_) return error_by_comparison(program, earlier, answer_.trajectory);
-    ErrorEstimate unknown{.q = {}, .p = {}, .psi_q = {}, .psi_p = {}, .defects = {}};
+    ErrorEstimate unknown;
     unknown.relative = std::numeric_limits<double>::infinity();
     return unknown;
   }

@@ -252,10 +252,7 @@ ErrorEstimate error_by_comparison(const Transcription& program, const Trajectory
   };
   ErrorEstimate estimate{.q = at_earlier_nodes(later.q) - earlier.q,
                          .p = at_earlier_nodes(later.p) - earlier.p,
-                         .psi_q = {},
-                         .psi_p = {},
-                         .objective = later.cost - earlier.cost,
-                         .defects = {}};
+                         .objective = later.cost - earlier.cost};
   const double horizon = later.node_times[later.intervals()];
   const double of_horizon = std::abs(horizon - earlier.node_times[earlier.intervals()]) / horizon;
   const double of_motion = relative_size(later, estimate.q, estimate.p, estimate.objective, program.cost_scale());
@@ -281,7 +278,7 @@ ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::Vect
   }
   const LinearisedConditions at(program, primal, multipliers);
   require_smooth_optimum(program, at);
-  ErrorEstimate estimate{.q = {}, .p = {}, .psi_q = {}, .psi_p = {}, .defects = {}};
+  ErrorEstimate estimate;
   estimate.floor = rounding_floor(program, motion);
   const ReplayedIntervals replay = replayed(flow_, coordinates_, motion, cost_scale_);
   estimate.defects = defects_of(replay, motion, cost_scale_);

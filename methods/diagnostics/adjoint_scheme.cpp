@@ -142,8 +142,7 @@ AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& traje
   }
   const HalfResidual q = half_residual(trajectory.psi_q, trajectory.stage_psi_q, rates_q, coefficients.a_q, tableau.b);
   const HalfResidual p = half_residual(trajectory.psi_p, trajectory.stage_psi_p, rates_p, coefficients.a_p, tableau.b);
-  AdjointResidual residual{
-      .step_q = q.step, .step_p = p.step, .stage_q = q.stage, .stage_p = p.stage, .control = std::nullopt};
+  AdjointResidual residual{.step_q = q.step, .step_p = p.step, .stage_q = q.stage, .stage_p = p.stage};
   if (rates_y.size() > 0) {
     const HalfResidual y =
         half_residual(trajectory.psi_y, trajectory.stage_psi_y, rates_y, coefficients.a_q, tableau.b);

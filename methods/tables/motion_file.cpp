@@ -549,7 +549,7 @@ bool is_file_of_motion(const std::filesystem::path& file, const std::string& nod
 MotionTexts read_motion_texts(const std::filesystem::path& file) {
   std::error_code none;  // a missing file has no stages next to it
   if (!std::filesystem::exists(file, none)) throw Error("there is no file {}", file.string());
-  MotionTexts texts{.nodes = read_file(file), .stages = {}};
+  MotionTexts texts{.nodes = read_file(file)};
   if (!file.string().ends_with("_nodes.csv")) return texts;
   const std::filesystem::path stages_file = stages_file_of(file);
   if (std::filesystem::exists(stages_file, none)) texts.stages = read_file(stages_file);

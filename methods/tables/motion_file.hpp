@@ -61,8 +61,8 @@ void write_motion(const Problem& problem, const Trajectory& trajectory, const st
 
 /// The texts of the files of a motion.
 struct MotionTexts {
-  std::string nodes;   ///< of the file
-  std::string stages;  ///< of X_stages.csv next to it; empty if there is none
+  std::string nodes;        ///< of the file
+  std::string stages = {};  ///< of X_stages.csv next to it; empty if there is none
 };
 /// Reads them. Throws `Error` that names the file that cannot be read.
 [[nodiscard]] MotionTexts read_motion_texts(const std::filesystem::path& file);

@@ -24,9 +24,9 @@ namespace {
 /// The state of an end: its unknowns, and numbers for the rest.
 struct End {
   ExpressionVector q;
-  ExpressionVector p;  // Hamiltonian only
+  ExpressionVector p = {};  // Hamiltonian only
   ExpressionVector v;
-  ExpressionVector y;
+  ExpressionVector y = {};
 };
 
 /// Hidden constraints are formed with L_vv at rest. Throws `Error` if L_vv is another one in motion.
@@ -67,7 +67,7 @@ ReleasedComponents released(const Problem& problem, const TracedProblem& traced,
     return columns;
   };
   const Eigen::MatrixXd jacobian = constraints.jacobian();
-  ReleasedComponents result{.q = choose(jacobian.topRows(constraints.holonomic_count()), end.q), .second = {}};
+  ReleasedComponents result{.q = choose(jacobian.topRows(constraints.holonomic_count()), end.q)};
   if (!fixes_momentum) {
     result.second = choose(jacobian, end.v);
     return result;
@@ -115,7 +115,7 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
   InputCounter unknowns(parameters);
   const auto take_end = [&](bool has_velocity, const BoundaryState& given) {
     const Eigen::Index n = closed.configuration_size();
-    End end{.q = unknowns.take(n), .p = {}, .v = given.v.cast<Expression>(), .y = {}};
+    End end{.q = unknowns.take(n), .v = given.v.cast<Expression>()};
     if (rules.node_state == NodeState::momentum) end.p = unknowns.take(n);
     if (rules.node_state == NodeState::velocity) end.v = unknowns.take(n);
     end.y = unknowns.take(closed.first_order_size());

@@ -36,7 +36,7 @@ class CoarseProgram final : public tests::SmallProgram {
   [[nodiscard]] const RoundingFloors& rounding_floors() const override { return floors_; }
 
  private:
-  RoundingFloors floors_{.smallest = 1e-3, .largest = 1e-3, .constraints = {}, .variables = {}};
+  RoundingFloors floors_{.smallest = 1e-3, .largest = 1e-3};
 };
 
 TEST(Solvers, StopWhereRoundingBegins) {

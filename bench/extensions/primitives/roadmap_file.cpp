@@ -90,11 +90,8 @@ RoadmapJson json_of(const PrimitiveLibrary& library) {
 
 PrimitiveLibrary library_from(const JsonPlace& content) {
   PrimitiveLibrary library{.problem = content.at("problem").text(),
-                           .parameters = {},
                            .step = content.at("step").number(),
-                           .intervals_per_step = content.at("intervals_per_step").count(),
-                           .states = {},
-                           .primitives = {}};
+                           .intervals_per_step = content.at("intervals_per_step").count()};
   for (const auto& [name, value] : content.at("parameters").members()) {
     library.parameters.emplace_back(name, value.number());
   }

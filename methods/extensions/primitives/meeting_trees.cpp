@@ -66,9 +66,7 @@ MotionTreeLayer layer_behind(const MotionTreeLayer& layer, const DiscreteFlow& f
   const std::vector<Eigen::Index> rows = cheapest_of_cells(reached, options);
   const std::size_t kept = std::min(rows.size(), options.most_states);
   MotionTreeLayer next{.states = Eigen::MatrixXd(static_cast<Eigen::Index>(kept), reached.states.cols()),
-                       .costs = Eigen::VectorXd(static_cast<Eigen::Index>(kept)),
-                       .parents = {},
-                       .controls = {}};
+                       .costs = Eigen::VectorXd(static_cast<Eigen::Index>(kept))};
   for (std::size_t i = 0; i < kept; ++i) {
     const Eigen::Index row = rows[i * rows.size() / kept];
     next.states.row(static_cast<Eigen::Index>(i)) = reached.states.row(row);

@@ -26,9 +26,9 @@ struct MotionTreeOptions {
 struct MotionTreeLayer {
   /// A state per node of the layer.
   Eigen::MatrixXd states;
-  Eigen::VectorXd costs;               ///< of the motion from the root, or to it
-  std::vector<Eigen::Index> parents;   ///< the state of the layer before
-  std::vector<Eigen::Index> controls;  ///< the row of the constant control between both
+  Eigen::VectorXd costs;                    ///< of the motion from the root, or to it
+  std::vector<Eigen::Index> parents = {};   ///< the state of the layer before
+  std::vector<Eigen::Index> controls = {};  ///< the row of the constant control between both
 };
 
 /// The states of a lattice that motions under constant controls reach from a root, layer by layer: in every cell of

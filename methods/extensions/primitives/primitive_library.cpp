@@ -62,9 +62,7 @@ PrimitiveLibrary PrimitiveLibrary::of(const Problem& problem, double step, int i
   return {.problem = problem.name(),
           .parameters = parameters_with_values(problem),
           .step = step,
-          .intervals_per_step = intervals_per_step,
-          .states = {},
-          .primitives = {}};
+          .intervals_per_step = intervals_per_step};
 }
 
 void PrimitiveLibrary::require_made_for(const Problem& asked) const {

@@ -43,7 +43,7 @@ class CostTable {
   [[nodiscard]] double at(std::size_t node, int t) const { return values_[place(node, t)]; }
 
   [[nodiscard]] RoadmapPath path_to(std::size_t node, int t) const {
-    RoadmapPath path{.edges = {}, .cost = at(node, t), .duration = t};
+    RoadmapPath path{.cost = at(node, t), .duration = t};
     while (t > 0) {
       const std::size_t edge = edges_[place(node, t)];
       path.edges.push_back(edge);

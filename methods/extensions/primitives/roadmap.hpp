@@ -61,9 +61,9 @@ class Roadmap {
 
 /// Edges of a roadmap one after the other.
 struct RoadmapPath {
-  std::vector<std::size_t> edges;  ///< numbers in `Roadmap::edges`
-  double cost = 0.0;               ///< the sum of their costs
-  int duration = 0;                ///< the sum of their durations, in time steps
+  std::vector<std::size_t> edges = {};  ///< numbers in `Roadmap::edges`
+  double cost = 0.0;                    ///< the sum of their costs
+  int duration = 0;                     ///< the sum of their durations, in time steps
 };
 
 /// The time at which a path has to arrive.

@@ -17,7 +17,7 @@ struct Trim {
   Eigen::VectorXd rates;  ///< c, an entry per generator
   Eigen::VectorXd u;      ///< m entries, in the frame that moves
   /// (q, Σ c_i ξ_i(q)).
-  BoundaryState state;
+  BoundaryState state = {};
 };
 
 /// Solves for relative equilibria of a problem that does not depend on time. With v = Σ c_i ξ_i(q) and the acceleration
