@@ -49,20 +49,6 @@ RatioInterval ratio_interval(std::span<const double> ratios) {
   return interval;
 }
 
-RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others) {
-  require_times(times);
-  require_times(others);
-  RatioInterval interval{.ratio = median({times.begin(), times.end()}) / median({others.begin(), others.end()}),
-                         .rounds = std::min(times.size(), others.size())};
-  std::mt19937 engine(seed);  // NOLINT(cert-msc51-cpp)
-  for (std::size_t b = 0; b < resamples; ++b) {
-    const double drawn = median_of_drawn(times, engine);
-    interval.resampled.push_back(drawn / median_of_drawn(others, engine));
-  }
-  set_bounds(interval);
-  return interval;
-}
-
 MedianOfRounds::MedianOfRounds(std::span<const double> of_rounds) : rounds(joined_numbers(of_rounds)) {
   if (of_rounds.empty()) return;
   const RatioInterval interval = ratio_interval(of_rounds);

@@ -32,12 +32,6 @@ struct RatioInterval {
 /// number above zero.
 [[nodiscard]] RatioInterval ratio_interval(std::span<const double> ratios);
 
-/// The ratio of the medians of two times that were not measured in turn, such as times of two runs. Its interval comes
-/// from the bootstrap, which draws the rounds of either separately; `rounds` is the smaller number of rounds.
-/// Whatever else slowed the machine during one of the runs is in the ratio. Throws `Error` without times or if one is
-/// not a finite number above zero.
-[[nodiscard]] RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others);
-
 /// Measurements round by round, as tables show them: the median with its interval, and the rounds; empty without
 /// them.
 struct MedianOfRounds {

@@ -155,7 +155,8 @@ double boundary_value_residual(const Problem& problem, const IndirectSolution& s
   return largest;
 }
 
-double shooting_defect(const Problem& problem, const IndirectSolution& solution, double tolerance) {
+double shooting_defect(const Problem& problem, const IndirectSolution& solution) {
+  constexpr double tolerance = 1e-14;  // absolute and relative
   using Extremal = std::vector<double>;
   const PontryaginFunction function(problem);
   const CollocatedExtremal& extremal = solution.extremal();

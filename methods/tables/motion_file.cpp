@@ -567,8 +567,4 @@ Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, con
   return motion_in_tables(problem, nodes, stages, file);
 }
 
-Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file) {
-  return smooth_motion(read_motion_tables(problem, nodes_file));
-}
-
 }  // namespace dmocbench

@@ -96,22 +96,15 @@ Roadmap::Roadmap(const PrimitiveLibrary& library, std::vector<RoadmapNode> nodes
   for (std::size_t node = 0; node < nodes_.size(); ++node) first_edge_[node + 1] += first_edge_[node];
 }
 
-std::optional<RoadmapPath> cheapest_path(const Roadmap& roadmap, std::size_t from, std::size_t to, int duration,
-                                         Arrival arrival) {
+std::optional<RoadmapPath> cheapest_path(const Roadmap& roadmap, std::size_t from, std::size_t to, int duration) {
   if (std::max(from, to) >= roadmap.nodes().size()) {
     throw Error("the roadmap has {} nodes, numbered from 0: there is no path from node {} to node {}",
                 roadmap.nodes().size(), from, to);
   }
   if (duration < 0) throw Error("a path cannot take {} time steps; the number must not be negative", duration);
   const CostTable table(roadmap, from, duration);
-  int best = duration;
-  if (arrival == Arrival::at_latest) {
-    for (int t = duration; t >= 0; --t) {
-      if (table.at(to, t) <= table.at(to, best)) best = t;
-    }
-  }
-  if (table.at(to, best) == unreachable) return std::nullopt;
-  return table.path_to(to, best);
+  if (table.at(to, duration) == unreachable) return std::nullopt;
+  return table.path_to(to, duration);
 }
 
 }  // namespace dmocbench

@@ -65,7 +65,7 @@ class PrimitiveBatch {
     solve_batch(program_, lanes_of(program_), usual_, next, take,
                 {.tolerance = options_.tolerance,
                  .most_iterations = options_.most_iterations,
-                 .falls_back = options_.falls_back,
+                 .falls_back = false,
                  .stop_requested = options_.stop_requested});
     for (std::size_t i = 0; i < requests.size(); ++i) {
       if (answers[i].size() > 0) *results[i] = primitive_of(*requests[i], answers[i]);

@@ -56,11 +56,6 @@ std::vector<double> TrimSolver::values_at(const Eigen::VectorXd& point) const {
   return replay<double>(schedule_, std::span<const double>(point.data(), static_cast<std::size_t>(point.size())));
 }
 
-Eigen::VectorXd TrimSolver::residual(const Trim& trim) const {
-  const std::vector<double> values = values_at(point_of(trim));
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), n_);
-}
-
 Trim TrimSolver::solve(const Trim& guess, const std::vector<Eigen::Index>& unknowns) const {
   constexpr int most_iterations = 50;
   constexpr double tolerance = 1e-13;

@@ -43,7 +43,6 @@ constexpr double correctable = 2.0;  // see try_second_order_correction
 /// does not allow it.
 tl::expected<std::unique_ptr<kkt::KktSystem>, std::string> make_kkt(NonlinearProgram& program,
                                                                     const InteriorPointOptions& choices) {
-  if (choices.make_kkt_system) return choices.make_kkt_system(program);
   if (choices.factorisation == InteriorPointOptions::Factorisation::sparse) {
     return std::make_unique<kkt::SparseKkt>(program);
   }
