@@ -23,25 +23,10 @@ namespace {
 template <class Use>
 void for_each_array(const Use& use) {
   use("t", &Trajectory::node_times);
-  use("q", &Trajectory::q);
-  use("v", &Trajectory::v);
-  use("p", &Trajectory::p);
-  use("y", &Trajectory::y);
-  use("psi_q", &Trajectory::psi_q);
-  use("psi_p", &Trajectory::psi_p);
-  use("psi_y", &Trajectory::psi_y);
+  for (const TrajectoryTable& table : trajectory_tables) use(table.name, table.values);
   use("integrals", &Trajectory::integrals);
   use("integral_prices", &Trajectory::integral_prices);
   use("stage_t", &Trajectory::stage_times);
-  use("stage_q", &Trajectory::stage_q);
-  use("stage_v", &Trajectory::stage_v);
-  use("stage_u", &Trajectory::stage_u);
-  use("stage_p", &Trajectory::stage_p);
-  use("stage_y", &Trajectory::stage_y);
-  use("stage_y_rates", &Trajectory::stage_y_rates);
-  use("stage_psi_q", &Trajectory::stage_psi_q);
-  use("stage_psi_p", &Trajectory::stage_psi_p);
-  use("stage_psi_y", &Trajectory::stage_psi_y);
   use("values_of_unknowns", &Trajectory::unknowns);
   const auto price = [&use](const char* name, auto member) {
     use(name, [member](auto& trajectory) -> auto& { return trajectory.prices.*member; });

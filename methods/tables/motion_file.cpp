@@ -300,7 +300,7 @@ Table rows_of_phase(const Table& table, const std::string& phase, double start) 
   return own;
 }
 
-void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more, double factor = 1.0) {
+void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more, double factor) {
   if (more.cols() == 0) return;
   to.conservativeResize(more.rows(), to.cols() + more.cols());
   to.rightCols(more.cols()) = factor * more;
@@ -336,13 +336,9 @@ Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const 
           "numbers of nodes and controls",
           file.string(), name, own.q.rows(), own.stage_u.rows(), all.node_times.size(), all.stage_times.size());
     }
-    append_columns(all.q, own.q);
-    append_columns(all.v, own.v, share);
-    append_columns(all.stage_u, own.stage_u);
-    append_columns(all.y, own.y);
-    append_columns(all.psi_q, own.psi_q);
-    append_columns(all.psi_p, own.psi_p);
-    append_columns(all.psi_y, own.psi_y);
+    for (const TrajectoryTable& table : trajectory_tables) {
+      append_columns(all.*table.values, own.*table.values, table.is_per_time ? share : 1.0);
+    }
   }
   const std::vector<std::string> names = unknown_names(problem);
   all.unknowns.resize(std::ssize(names));
