@@ -142,11 +142,7 @@ std::vector<CompoundStep> compound_steps(const Schedule& schedule) { return Comp
 
 namespace {
 
-#ifdef DMOCBENCH_X86_KERNELS
-constexpr std::array kernels{run_tape_baseline, run_tape_avx2, run_tape_avx512};
-#else
-constexpr std::array kernels{run_tape_baseline};
-#endif
+constexpr std::array kernels{DMOCBENCH_VERSIONS(run_tape)};
 
 std::uint64_t next_serial() {
   static std::atomic<std::uint64_t> last{0};
