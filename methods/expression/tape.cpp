@@ -262,9 +262,7 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
     throw Error("a tape with {} inputs and {} outputs got {} inputs and {} outputs", input_count_, output_count_,
                 inputs.size(), outputs.size());
   }
-  if (workspace.serial_ != serial_) {
-    throw Error("this workspace was created for another tape");
-  }
+  if (workspace.serial_ != serial_) throw Error("this workspace was created for another tape");
   if (begin >= end) return;
   // An input that is the same for all intervals fills a series of the workspace once.
   for (const ReadInput& input : read_inputs_) {
@@ -279,6 +277,15 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
     const std::size_t width = std::min(block_width, end - first);
     kernel(instructions_.data(), instructions_.size(), workspace.series_.data(), width);
   }
+}
+
+Eigen::MatrixXd Tape::table(Eigen::Index count, std::span<const Input> inputs) const {
+  Eigen::MatrixXd values(count, static_cast<Eigen::Index>(output_count_));
+  std::vector<double*> outputs;
+  for (auto column : values.colwise()) outputs.push_back(column.data());
+  Workspace workspace(*this);
+  evaluate(static_cast<std::size_t>(count), inputs, outputs, workspace);
+  return values;
 }
 
 void Tape::point_to_block(std::size_t first, std::span<const Input> inputs, std::span<double* const> outputs,

@@ -304,16 +304,11 @@ Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const 
 }
 
 Eigen::MatrixXd TracedProblem::table(const Eigen::MatrixXd& rows) const {
-  Eigen::MatrixXd values(rows.rows(), static_cast<Eigen::Index>(tape_.output_count()));
   std::vector<Tape::Input> columns;
-  std::vector<double*> results;
   for (const double& value : open_values_) columns.push_back({&value, true});
   for (const double& value : unknown_values_) columns.push_back({&value, true});
   for (const auto& column : rows.colwise()) columns.push_back({column.data(), false});
-  for (auto column : values.colwise()) results.push_back(column.data());
-  Tape::Workspace workspace(tape_);
-  tape_.evaluate(static_cast<std::size_t>(rows.rows()), columns, results, workspace);
-  return values;
+  return tape_.table(rows.rows(), columns);
 }
 
 TracedProblem::EndValues TracedProblem::at_ends(const State& first, const State& last) const {

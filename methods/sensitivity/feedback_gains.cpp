@@ -230,17 +230,9 @@ Eigen::MatrixXd BackwardRecursion::matrix_of_ends() {
     inputs[static_cast<Eigen::Index>(ends->inputs.multiplier(static_cast<std::size_t>(r)))] =
         multipliers_[place(blocks_.end_row_places(), r, 0)];
   }
-  const auto values = [&](const Schedule& schedule) {
-    const Tape tape(schedule);
-    Tape::Workspace workspace(tape);
-    std::vector<Tape::Input> bound;
-    for (const double& input : inputs) bound.push_back({&input});
-    Eigen::MatrixXd row(1, static_cast<Eigen::Index>(tape.output_count()));
-    std::vector<double*> outputs;
-    for (Eigen::Index i = 0; i < row.cols(); ++i) outputs.push_back(&row(0, i));
-    tape.evaluate(1, bound, outputs, workspace);
-    return row;
-  };
+  std::vector<Tape::Input> bound;
+  for (const double& input : inputs) bound.push_back({&input});
+  const auto values = [&](const Schedule& schedule) { return Tape(schedule).table(1, bound); };
   return conditions_matrix(*ends, values(ends->hessian.schedule), values(ends->jacobian.schedule), 0);
 }
 

@@ -271,13 +271,7 @@ std::span<const Tape::Input> Transcription::bind(const VectorIn& x, const Vector
 }
 
 Eigen::MatrixXd Transcription::tabulate(const Schedule& schedule, const VectorIn& x, const VectorIn& multipliers) {
-  const Tape tape(schedule);
-  Tape::Workspace workspace(tape);
-  Eigen::MatrixXd table(grid_.relative_widths().size(), static_cast<Eigen::Index>(tape.output_count()));
-  std::vector<double*> outputs;
-  for (auto column : table.colwise()) outputs.push_back(column.data());
-  tape.evaluate(blocks_.intervals(), bind(x, multipliers, 1.0), outputs, workspace);
-  return table;
+  return Tape(schedule).table(grid_.relative_widths().size(), bind(x, multipliers, 1.0));
 }
 
 double Transcription::objective(const VectorIn& x) {
