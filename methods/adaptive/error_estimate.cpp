@@ -113,14 +113,6 @@ Perturbation perturbation_of(const Misses& misses, NodeState family, LocalValues
   return result;
 }
 
-/// A column per component of a block of the nodes.
-template <class Kind>
-Eigen::MatrixXd node_columns(const Eigen::VectorXd& from, Eigen::Index nodes, const Block<Kind>& block) {
-  Eigen::MatrixXd columns(nodes, block.width);
-  for (Eigen::Index i = 0; i < block.width; ++i) columns.col(i) = from.segment(block.index(i), nodes);
-  return columns;
-}
-
 /// Row k of `first` for node k, and one more below.
 Eigen::MatrixXd with_last(const Eigen::MatrixXd& first, const Eigen::RowVectorXd& last) {
   Eigen::MatrixXd rows(first.rows() + 1, first.cols());
@@ -194,14 +186,14 @@ NodeErrors errors_at_nodes(const Transcription& program, const IntervalCondition
     return with_last(change.unknowns.middleCols(left, n), -change.unknowns.row(last).segment(right, n) -
                                                               perturbation.jumps.unknowns.row(last).segment(right, n));
   };
-  const Eigen::MatrixXd q = node_columns(step.primal, nodes, blocks.unknown(Quantity::configuration));
+  const Eigen::MatrixXd q = blocks.unknown(Quantity::configuration).columns(step.primal, nodes);
   if (family == NodeState::configuration) {
     return {
         {q, with_last(-change.rows.leftCols(n), change.rows.row(last).segment(n, n) + misses.in_momenta.p.row(last)),
-         costate(0, n), node_columns(step.multipliers, nodes, blocks.row(Equation::euler_lagrange))},
+         costate(0, n), blocks.row(Equation::euler_lagrange).columns(step.multipliers, nodes)},
         {}};
   }
-  const Eigen::MatrixXd second = node_columns(step.primal, nodes, blocks.unknown(Quantity::second));
+  const Eigen::MatrixXd second = blocks.unknown(Quantity::second).columns(step.primal, nodes);
   const Eigen::MatrixXd first_costate = costate(0, 2 * n);
   const Eigen::MatrixXd second_costate = costate(n, 3 * n);
   if (family == NodeState::momentum) return {{q, second, first_costate, second_costate}, {}};

@@ -14,10 +14,7 @@ Eigen::VectorXd local_multipliers(const Transcription& transcription, const Eige
                                   Eigen::Index k) {
   const std::vector<SeriesPlace>& places = transcription.blocks().row_places();
   Eigen::VectorXd local(static_cast<Eigen::Index>(places.size()));
-  for (std::size_t r = 0; r < places.size(); ++r) {
-    local[static_cast<Eigen::Index>(r)] =
-        multipliers[static_cast<Eigen::Index>(places[r].at(static_cast<std::size_t>(k)))];
-  }
+  for (Eigen::Index r = 0; r < local.size(); ++r) local[r] = multipliers[index_of(places, r, k)];
   return local / transcription.cost_scale();
 }
 
@@ -73,10 +70,8 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
 
   Costates result{at_nodes.leftCols(n), Eigen::MatrixXd(intervals + 1, n), at_nodes.rightCols(l)};
   if (!has_second) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Index head = blocks.row(Equation::euler_lagrange).index(i);
-      result.psi_p.col(i) = multipliers.segment(head, intervals + 1) / transcription.cost_scale();
-    }
+    result.psi_p =
+        blocks.row(Equation::euler_lagrange).columns(multipliers, intervals + 1) / transcription.cost_scale();
     return result;
   }
   result.psi_p = at_nodes.middleCols(n, n);
