@@ -301,9 +301,8 @@ FeedbackGains feedback_gains(Transcription& program, const Eigen::VectorXd& prim
               .transpose();
       if (program.node_state() == NodeState::velocity) {
         const MotionPoint node = trajectory.node(k);
-        const double t = trajectory.node_times[k];
-        of_interval = in_momenta(of_interval, legendre.mass(node.q, node.v, t),
-                                 legendre.momentum_by_configuration(node.q, node.v, t));
+        const auto values = legendre.at(node.q, node.v, trajectory.node_times[k]);
+        of_interval = in_momenta(of_interval, values.mass, values.by_configuration);
       }
       for (Eigen::Index i = 0; i < s; ++i) {
         gains.of_stages[static_cast<std::size_t>(k * s + i)] = of_interval.middleRows(i * m, m);

@@ -33,7 +33,7 @@ struct End {
 void require_quadratic(const Problem& problem, const TracedProblem& traced) {
   LegendreTransform legendre(traced);
   const BoundaryState at = problem.initial_state();
-  const auto mass_at = [&](const Eigen::VectorXd& v) { return legendre.mass(at.q, v, 0.0, at.y); };
+  const auto mass_at = [&](const Eigen::VectorXd& v) { return legendre.at(at.q, v, 0.0, at.y).mass; };
   const Eigen::MatrixXd at_rest = mass_at(Eigen::VectorXd::Zero(at.q.size()));
   for (const double share : {0.25, 0.5, 0.75, 1.0}) {
     // At the speeds of the guess, each coordinate with another one.
@@ -72,7 +72,7 @@ ReleasedComponents released(const Problem& problem, const TracedProblem& traced,
     result.second = choose(jacobian, end.v);
     return result;
   }
-  const Eigen::MatrixXd mass = LegendreTransform(traced).mass(state.q, state.v, t, state.y);
+  const Eigen::MatrixXd mass = LegendreTransform(traced).at(state.q, state.v, t, state.y).mass;
   result.second = choose(solve_square(mass, Eigen::MatrixXd(jacobian.transpose())).transpose(), end.v);
   return result;
 }
