@@ -12,11 +12,10 @@ DrivenMotion::DrivenMotion(const Problem& problem, double tolerance)
       traced_(problem),
       motion_(traced_),
       running_cost_(
-          n_, problem.control_size(),
-          [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced_.at(x).running_cost); }, l_),
-      final_cost_(
-          n_, problem.control_size(),
-          [&](const ControlledState& x) { return ExpressionVector::Constant(1, problem.final_cost(x.state())); }, l_) {
+          problem, [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced_.at(x).running_cost); }),
+      final_cost_(problem, [&](const ControlledState& x) {
+        return ExpressionVector::Constant(1, problem.final_cost(x.state()));
+      }) {
   if (traced_.constraint_count() > 0) constraints_.emplace(traced_);
 }
 

@@ -11,17 +11,15 @@ namespace dmocbench {
 LegendreTransform::LegendreTransform(const TracedProblem& problem)
     : n_(problem.configuration_size()),
       c_(problem.constraint_count()),
-      function_(
-          n_, problem.control_size(),
-          [&](const ControlledState& x) {
-            const TracedProblem::Values values = problem.at(x);
-            ExpressionVector outputs(n_ + 2 * n_ * n_ + values.momentum_by_first_order.size());
-            outputs << values.momentum, values.mass.reshaped(), values.momentum_by_configuration.reshaped(),
-                values.momentum_by_first_order.reshaped();
-            if (c_ == 0) return outputs;
-            return stacked({outputs, problem.constraints_at(x.q, x.v).jacobian.reshaped()});
-          },
-          problem.first_order_size()),
+      function_(problem,
+                [&](const ControlledState& x) {
+                  const TracedProblem::Values values = problem.at(x);
+                  ExpressionVector outputs(n_ + 2 * n_ * n_ + values.momentum_by_first_order.size());
+                  outputs << values.momentum, values.mass.reshaped(), values.momentum_by_configuration.reshaped(),
+                      values.momentum_by_first_order.reshaped();
+                  if (c_ == 0) return outputs;
+                  return stacked({outputs, problem.constraints_at(x.q, x.v).jacobian.reshaped()});
+                }),
       values_(function_.output_count()) {}
 
 LegendreTransform::Values LegendreTransform::at(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,

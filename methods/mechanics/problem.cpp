@@ -28,15 +28,12 @@ std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
   };
   const bool has_ends = fits(problem.initial_state()) && fits(problem.final_state());  // the default guess reads them
   if (n == 0 || !has_ends || !(horizon > 0.0)) return std::nullopt;
-  PointFunction cost(
-      n, m,
-      [&](const ControlledState& x) {
-        ExpressionVector both(2);
-        both << call_formula(problem, "running_cost", [&] { return problem.running_cost(x); }),
-            call_formula(problem, "final_cost", [&] { return problem.final_cost(x.state()); });
-        return both;
-      },
-      l);
+  PointFunction cost(problem, [&](const ControlledState& x) {
+    ExpressionVector both(2);
+    both << call_formula(problem, "running_cost", [&] { return problem.running_cost(x); }),
+        call_formula(problem, "final_cost", [&] { return problem.final_cost(x.state()); });
+    return both;
+  });
   Eigen::Vector2d values;
   double sum = 0.0;
   for (int i = 0; i <= points; ++i) {  // the last point is the end

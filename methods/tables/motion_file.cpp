@@ -436,7 +436,7 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
     }
     return values;
   };
-  PointFunction quantities(problem.configuration_size(), problem.control_size(), formulas, problem.first_order_size());
+  PointFunction quantities(problem, formulas);
   Eigen::MatrixXd values(trajectory.node_times.size(), quantities.output_count());
   Eigen::VectorXd at_node(quantities.output_count());
   for (Eigen::Index k = 0; k < trajectory.node_times.size(); ++k) {
