@@ -41,8 +41,8 @@ void run_installed(const std::string& name, char** argv) {
   const std::filesystem::path other = own_file().parent_path() / ("dmocbench-" + name);
   if (is_plain(name)) ::execv(other.c_str(), argv);  // returns where it fails
   const std::string meant = likely_meant(name, names_of(programs(), &Program::name));
-  throw Error(fmt::format("there is no experiment \"{}\"{}; dmocbench --help lists all experiments", name.substr(0, 40),
-                          meant.empty() ? "" : " (did you mean " + meant + "?)"));
+  throw Error("there is no experiment \"{}\"{}; dmocbench --help lists all experiments", name.substr(0, 40),
+              meant.empty() ? "" : " (did you mean " + meant + "?)");
 }
 
 /// The program of a name, or null.

@@ -92,9 +92,9 @@ void require_name(const std::string& name) {
   const auto is_allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
   const bool begins_with_letter = !name.empty() && name.front() >= 'a' && name.front() <= 'z';
   if (begins_with_letter && std::ranges::all_of(name, is_allowed)) return;
-  throw Error(fmt::format(
+  throw Error(
       "the name of a problem consists of lower-case letters, digits and underscores, such as pendulum_swing_up, not {}",
-      name));
+      name);
 }
 
 int write_problem(CommandLine& line) {
@@ -108,7 +108,7 @@ int write_problem(CommandLine& line) {
                          std::pair(std::string("CMakeLists.txt"), with(build_file, "NAME", name))};
   for (const auto& [file, text] : files) {
     std::error_code none;  // a failed lookup counts as missing
-    if (std::filesystem::exists(file, none)) throw Error(fmt::format("{} already exists; move it away first", file));
+    if (std::filesystem::exists(file, none)) throw Error("{} already exists; move it away first", file);
   }
   for (const auto& [file, text] : files) write_file(file, text);
   fmt::print(

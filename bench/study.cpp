@@ -59,8 +59,7 @@ int run_and_wait(std::vector<std::string> words) {
   ::pid_t child = 0;
   const int failure =
       ::posix_spawn(&child, words.front().c_str(), nullptr, nullptr, pointers_to(words).data(), environ);
-  if (failure != 0)
-    throw Error(fmt::format("cannot run {}: {}", words.front(), std::generic_category().message(failure)));
+  if (failure != 0) throw Error("cannot run {}: {}", words.front(), std::generic_category().message(failure));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   constexpr int base_of_signals = 128;

@@ -9,7 +9,6 @@
 
 #include <dlfcn.h>
 #include <elf.h>
-#include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "problems/build_tag.hpp"
@@ -23,11 +22,11 @@ constexpr std::string_view begin_of_tags = "dmocbench problems: ";
 std::string content_of(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) {
-    throw Error(fmt::format("there is no library {}", file.string()));
+    throw Error("there is no library {}", file.string());
   }
   std::ifstream stream(file, std::ios::binary);
   std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw Error(fmt::format("cannot read the library {}", file.string()));
+  if (!stream) throw Error("cannot read the library {}", file.string());
   return content;
 }
 
@@ -36,12 +35,12 @@ std::string content_of(const std::filesystem::path& file) {
 void require_whole(const std::filesystem::path& file, std::string_view content) {
   Elf64_Ehdr header{};
   if (!content.starts_with(ELFMAG) || content.size() < sizeof header) {
-    throw Error(fmt::format("{} is not a shared library", file.string()));
+    throw Error("{} is not a shared library", file.string());
   }
   std::memcpy(&header, content.data(), sizeof header);
   const std::uint64_t end = header.e_shoff + std::uint64_t{header.e_shentsize} * header.e_shnum;  // of the last part
   if (header.e_ident[EI_CLASS] == ELFCLASS64 && end > content.size()) {
-    throw Error(fmt::format("{} is truncated; build it again", file.string()));
+    throw Error("{} is truncated; build it again", file.string());
   }
 }
 
@@ -49,7 +48,7 @@ void require_whole(const std::filesystem::path& file, std::string_view content) 
 std::string_view tag_in(const std::filesystem::path& file, std::string_view content) {
   const std::size_t begin = content.find(begin_of_tags);
   if (begin == std::string_view::npos) {
-    throw Error(fmt::format("{} contains no problems; build it with dmocbench_add_problems in CMake", file.string()));
+    throw Error("{} contains no problems; build it with dmocbench_add_problems in CMake", file.string());
   }
   const std::size_t end = std::min(content.find('\0', begin), content.size());
   return content.substr(begin, end - begin);
@@ -82,9 +81,9 @@ void offer_own_functions() {
 AddProblems entry_of(const std::filesystem::path& file) {
   offer_own_functions();
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw Error(fmt::format("the library cannot be loaded: {}", reason_of_loader()));
+  if (library == nullptr) throw Error("the library cannot be loaded: {}", reason_of_loader());
   void* const entry = ::dlsym(library, "dmocbench_add_problems_to");
-  if (entry == nullptr) throw Error(fmt::format("{} does not add its problems: {}", file.string(), reason_of_loader()));
+  if (entry == nullptr) throw Error("{} does not add its problems: {}", file.string(), reason_of_loader());
   return reinterpret_cast<AddProblems>(entry);  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast): as POSIX has it
 }
 
@@ -103,8 +102,8 @@ void require_same_build(const std::string& who, std::string_view tag) {
     its_entry = take_entry(tag);
     our_entry = take_entry(wanted);
   }
-  throw Error(fmt::format("{} was built for another build of dmocbench: {}, here {}; build it again with this one", who,
-                          its_entry.empty() ? "nothing" : its_entry, our_entry.empty() ? "nothing" : our_entry));
+  throw Error("{} was built for another build of dmocbench: {}, here {}; build it again with this one", who,
+              its_entry.empty() ? "nothing" : its_entry, our_entry.empty() ? "nothing" : our_entry);
 }
 
 void load_problem_library(const std::filesystem::path& file, Registry& registry) {
@@ -116,17 +115,17 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
   try {
     entry_of(path)(problems);
   } catch (const std::exception& error) {
-    throw Error(fmt::format("a problem in {} cannot be constructed: {}", path.string(), error.what()));
+    throw Error("a problem in {} cannot be constructed: {}", path.string(), error.what());
   } catch (...) {
-    throw Error(fmt::format("a problem in {} cannot be constructed: it threw an object that is not a std::exception",
-                            path.string()));
+    throw Error("a problem in {} cannot be constructed: it threw an object that is not a std::exception",
+                path.string());
   }
   const std::size_t known = registry.names().size();
   const std::size_t refused = registry.refused().size();
   registry.add_all(problems, path.string());
   if (registry.names().size() > known) return;
   if (registry.refused().size() > refused) throw Error(registry.refused()[refused].reason);
-  throw Error(fmt::format("{} contains no problems", path.string()));
+  throw Error("{} contains no problems", path.string());
 }
 
 }  // namespace dmocbench

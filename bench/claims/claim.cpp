@@ -192,7 +192,7 @@ ClaimVerdict verdict_on_all(const std::vector<ClaimVerdict>& verdicts) {
 
 double quotient(const Row& numerator, const Row& denominator, const std::string& column) {
   if (const auto value = ratio(numerator.needed(column), denominator.needed(column))) return *value;
-  throw Error(fmt::format("{}, column {}: a ratio needs positive numbers", denominator.place(), column));
+  throw Error("{}, column {}: a ratio needs positive numbers", denominator.place(), column);
 }
 
 Words left_out(const Selection& all, const Selection& used, std::string_view why) {

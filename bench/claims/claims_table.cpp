@@ -302,7 +302,7 @@ std::vector<std::string> not_reproduced(const std::vector<JudgedClaim>& claims, 
   for (const std::string& name : names) {
     const auto claim = std::ranges::find(claims, name, &JudgedClaim::id);
     if (claim == claims.end() || !claim->has_verdict)
-      throw Error(fmt::format("there is no claim {}; claims.csv lists all claims", name));
+      throw Error("there is no claim {}; claims.csv lists all claims", name);
     if (claim->verdict == ClaimVerdict::reproduced) continue;
     sentences.push_back(
         fmt::format("{} is not reproduced but {}: {}", name, name_of(claim->verdict), claim->measured()));

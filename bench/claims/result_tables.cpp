@@ -84,12 +84,12 @@ bool is_of_numbers(const JsonPlace& property) {
 
 /// Throws `Error` unless the table has each of its columns once, including the columns of its key.
 void check_columns(const Table& table, const std::string& file, const ColumnNames& key) {
-  if (key.empty()) throw Error(fmt::format("the key columns that distinguish the rows of {} are not declared", file));
+  if (key.empty()) throw Error("the key columns that distinguish the rows of {} are not declared", file);
   ColumnNames columns = key;
   columns.insert(columns.end(), table.columns().begin(), table.columns().end());
   for (const std::string& column : columns) {
     const auto count = std::ranges::count(table.columns(), column);
-    if (count != 1) throw Error(fmt::format("{} has {} column {}", file, count == 0 ? "no" : "more than one", column));
+    if (count != 1) throw Error("{} has {} column {}", file, count == 0 ? "no" : "more than one", column);
   }
 }
 
@@ -100,8 +100,7 @@ void check_keys(const Table& table, const ColumnNames& key) {
     std::vector<std::string> fields;
     for (const std::string& column : key) fields.push_back(row.text(column));
     if (const auto [first, is_new] = seen.try_emplace(fields, &row); !is_new) {
-      throw Error(
-          fmt::format("{} has the same key as {}: {}", row.place(), first->second->place(), fmt::join(fields, ", ")));
+      throw Error("{} has the same key as {}: {}", row.place(), first->second->place(), fmt::join(fields, ", "));
     }
   }
 }
@@ -135,7 +134,7 @@ std::string run_of(const std::filesystem::path& folder, std::string name, const 
 std::string content_of(const std::filesystem::path& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown))
-    throw Error(fmt::format("{} is not a regular file", path.filename().string()));
+    throw Error("{} is not a regular file", path.filename().string());
   return read_file(path);
 }
 
@@ -143,8 +142,8 @@ std::string content_of(const std::filesystem::path& path) {
 void refuse_parts(const std::filesystem::path& folder, const std::string& table) {
   const std::string run = run_of(folder, table, ".parts");
   if (run.empty()) return;
-  throw Error(fmt::format("{0}.csv is missing, but parts of {1} exist: run its command with --join {2}", table, run,
-                          folder.string()));
+  throw Error("{0}.csv is missing, but parts of {1} exist: run its command with --join {2}", table, run,
+              folder.string());
 }
 
 /// The metadata of a run that ended with all its cases. Throws `Error` otherwise.
@@ -152,12 +151,11 @@ nlohmann::ordered_json metadata_of_whole_run(const std::filesystem::path& folder
   nlohmann::ordered_json metadata = json_or_null(content_of(folder / file));
   const auto complete = metadata.is_object() ? metadata.find("complete") : metadata.end();
   if (!metadata.is_object() || complete == metadata.end() || !complete->is_boolean()) {
-    throw Error(fmt::format("{} does not state whether the run was completed", file));
+    throw Error("{} does not state whether the run was completed", file);
   }
-  if (!complete->get<bool>()) throw Error(fmt::format("according to {}, the run was interrupted; run it again", file));
+  if (!complete->get<bool>()) throw Error("according to {}, the run was interrupted; run it again", file);
   if (metadata.contains("cases") && metadata["cases"] != metadata.value("rows", nlohmann::ordered_json())) {
-    throw Error(
-        fmt::format("{} lists {} cases, not all of which have a row; run it again", file, metadata["cases"].dump()));
+    throw Error("{} lists {} cases, not all of which have a row; run it again", file, metadata["cases"].dump());
   }
   return metadata;
 }
@@ -175,7 +173,7 @@ void check_run(const std::filesystem::path& folder, const std::string& name, con
     require_as_written(metadata, source, file, content);
     check(table, file, JsonPlace(metadata, source).at("tables").at(file).at("schema"));
   } catch (const Error& error) {
-    throw Error(fmt::format("{}; run it again", error.what()));
+    throw Error("{}; run it again", error.what());
   }
 }
 
@@ -197,7 +195,7 @@ Table of_plain_statements(const Table& table) {
 }  // namespace
 
 ResultTables ResultTables::read(const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) throw Error(fmt::format("there is no folder {}", folder.string()));
+  if (!std::filesystem::is_directory(folder)) throw Error("there is no folder {}", folder.string());
   ResultTables tables;
   tables.folder_ = folder;
   return tables;
@@ -249,13 +247,13 @@ bool ResultTables::has_any() const {
 Selection ResultTables::rows(std::string_view table) const {
   const LoadedTable& found = loaded(table);
   if (!found.fault.empty()) throw Error(found.fault);
-  if (!found.table) throw Error(fmt::format("there is no {}.csv", table));
+  if (!found.table) throw Error("there is no {}.csv", table);
   return *found.table;
 }
 
 Selection ResultTables::rows(std::string_view table, std::string_view problem) const {
   Selection of_problem = rows(table).where("problem", problem);
-  if (of_problem.empty()) throw Error(fmt::format("{}.csv has no row of {}", table, problem));
+  if (of_problem.empty()) throw Error("{}.csv has no row of {}", table, problem);
   return of_problem;
 }
 
@@ -263,8 +261,7 @@ void ResultTables::require_columns(const ReadFields& fields) const {
   for (const auto& [file, columns] : read_columns(fields)) {
     const auto& table = loaded(file.substr(0, file.rfind('.'))).table;
     for (const std::string& column : columns) {
-      if (table && std::ranges::count(table->columns(), column) == 0)
-        throw Error(fmt::format("{} has no column {}", file, column));
+      if (table && std::ranges::count(table->columns(), column) == 0) throw Error("{} has no column {}", file, column);
     }
   }
 }

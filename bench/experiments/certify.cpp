@@ -26,10 +26,10 @@ std::pair<std::string, int> parse_route(const std::string& text) {
   const std::size_t digits = text.find_first_of("0123456789");
   if (digits == 0 || digits == std::string::npos || text.size() - digits > 2 ||
       text.find_first_not_of("0123456789", digits) != std::string::npos) {
-    throw Error(fmt::format("--routes takes tableaus with their stages, such as gauss3,lobatto4, not {}", text));
+    throw Error("--routes takes tableaus with their stages, such as gauss3,lobatto4, not {}", text);
   }
   const std::string tableau = text.substr(0, digits);
-  if (text[digits] == '0') throw Error(fmt::format("--routes: {} has a leading 0; write gauss3", text));
+  if (text[digits] == '0') throw Error("--routes: {} has a leading 0; write gauss3", text);
   const int stages = std::stoi(text.substr(digits));
   static_cast<void>(make_tableau(tableau, stages));  // throws if it is not offered
   return {tableau, stages};
@@ -203,7 +203,7 @@ class Certify final : public ExperimentOf<Measured> {
     std::ranges::transform(route_names_, std::back_inserter(routes), parse_route);
     for (const std::string& route : route_names_) {
       if (std::ranges::count(route_names_, route) == 1) continue;
-      throw Error(fmt::format("--routes: {} is given twice; each route must be different", route));
+      throw Error("--routes: {} is given twice; each route must be different", route);
     }
     std::vector<Case> cases;
     for (const std::vector<Case>& curve : curves_of(chosen)) {

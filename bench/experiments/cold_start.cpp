@@ -85,7 +85,7 @@ class StartCounts {
       const bool is_for_all = equals == std::string::npos;
       const auto count = parsed<long long>(is_for_all ? word : word.substr(equals + 1));
       if (!count || *count < 0 || *count > most) {
-        throw Error(fmt::format("{0}: expected a number from 0 to {2} or SOLVER=NUMBER, got {1}", option, word, most));
+        throw Error("{0}: expected a number from 0 to {2} or SOLVER=NUMBER, got {1}", option, word, most);
       }
       const std::string solver = is_for_all ? all : word.substr(0, equals);
       if (!is_for_all) {

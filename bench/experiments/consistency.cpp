@@ -49,7 +49,7 @@ class Consistency final : public ExperimentOf<Measured> {
     }
     const std::string names = fmt::format("{}", fmt::join(left_out, ", "));
     const char* const state = left_out.size() > 1 ? "state" : "states";
-    if (cases.empty()) throw Error(fmt::format("{} {} no symmetry and thus no conserved momentum", names, state));
+    if (cases.empty()) throw Error("{} {} no symmetry and thus no conserved momentum", names, state);
     if (!left_out.empty()) fmt::print("{} {} no symmetry and thus no conserved momentum; left out\n", names, state);
     return cases;
   }

@@ -28,7 +28,7 @@ long long parse_reference(const std::string& text) {
   if (text == "indirect") return exact_reference;
   const auto intervals = parsed<long long>(text);
   if (intervals && *intervals > 0) return *intervals;
-  throw Error(fmt::format("--reference takes a number of intervals or indirect, not {}", text));
+  throw Error("--reference takes a number of intervals or indirect, not {}", text);
 }
 
 long long intervals_of(const Case& the_case) { return static_cast<long long>(the_case.intervals()); }
@@ -129,17 +129,16 @@ class Convergence final : public ExperimentOf<Measured> {
     reference_ = parse_reference(reference_text_);
     if (!fit_.empty()) {
       const std::size_t colon = fit_.find(':');
-      if (colon == std::string::npos)
-        throw Error(fmt::format("--fit takes a range of N, such as 16:128, not {}", fit_));
+      if (colon == std::string::npos) throw Error("--fit takes a range of N, such as 16:128, not {}", fit_);
       const long long first = parse_intervals("--fit", fit_.substr(0, colon)).front();
       const long long last = parse_intervals("--fit", fit_.substr(colon + 1)).back();
-      if (last < first) throw Error(fmt::format("--fit: the end of the range {} is below its start", fit_));
+      if (last < first) throw Error("--fit: the end of the range {} is below its start", fit_);
       std::set<long long> grids;
       for (const Case& the_case : chosen) grids.insert(intervals_of(the_case));
       const auto fitted = std::ranges::count_if(grids, [&](long long n) { return first <= n && n <= last; });
       if (fitted < fewest_in_range) {
-        throw Error(fmt::format("--fit: {} of --intervals lie{} in the range {}; a fit needs at least {}",
-                                counted(fitted, "grid"), fitted == 1 ? "s" : "", fit_, fewest_in_range));
+        throw Error("--fit: {} of --intervals lie{} in the range {}; a fit needs at least {}", counted(fitted, "grid"),
+                    fitted == 1 ? "s" : "", fit_, fewest_in_range);
       }
       fit_range_ = {first, last};
     }
@@ -148,7 +147,7 @@ class Convergence final : public ExperimentOf<Measured> {
       indirect_ = std::make_shared<IndirectReference>(card_.options.out);
     }
     if (reference_ > 0 && std::ranges::count(chosen, reference_, intervals_of) == 0) {
-      throw Error(fmt::format("--reference {0} is not one of the grids; add {0} to --intervals", reference_));
+      throw Error("--reference {0} is not one of the grids; add {0} to --intervals", reference_);
     }
     std::vector<Case> cases;
     for (std::vector<Case>& curve : curves_of(chosen)) {

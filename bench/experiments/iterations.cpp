@@ -73,8 +73,8 @@ class Iterations final : public ExperimentOf<Measured> {
       remark(fmt::format("nlopt is left out in cases with more than {} free variables ({} cases)",
                          most_free_variables_for_slsqp, left_out));
     if (!cases.empty()) return cases;
-    throw Error(fmt::format("--intervals: no grid is small enough for nlopt, which is left out above {} free variables",
-                            most_free_variables_for_slsqp));
+    throw Error("--intervals: no grid is small enough for nlopt, which is left out above {} free variables",
+                most_free_variables_for_slsqp);
   }
 
   [[nodiscard]] SolvedCase solve(SolveTask task) override {

@@ -54,8 +54,7 @@ std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std:
     throw_if_interrupted();
     const SolvedCase& answer = answers.back();
     if (answer.trajectory && is_solved(answer.solution.status)) continue;
-    throw Error(
-        fmt::format("no sequence can start because {} is not solved: {}", the_case.label(), answer.solution.message));
+    throw Error("no sequence can start because {} is not solved: {}", the_case.label(), answer.solution.message);
   }
   return answers;
 }
@@ -64,14 +63,14 @@ std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std:
 void require_sequence(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
                       StartProvider& starts, const SolverOptions& solver_options) {
   if (problem->bounds().horizon.is_free()) {
-    throw Error(fmt::format("{} has a free horizon; a receding horizon needs a fixed horizon; choose another problem",
-                            problem->name()));
+    throw Error("{} has a free horizon; a receding horizon needs a fixed horizon; choose another problem",
+                problem->name());
   }
   if (problem->phased() != nullptr && !homotopy_of(options, *problem)) {
     throw Error(
-        fmt::format("{} has phases, which a receding horizon does not support; vary a quantity with --over "
-                    "NAME=LOWER:UPPER, or choose another problem",
-                    problem->name()));
+        "{} has phases, which a receding horizon does not support; vary a quantity with --over "
+        "NAME=LOWER:UPPER, or choose another problem",
+        problem->name());
   }
   static_cast<void>(first_answers(options, problem, starts, solver_options));
 }

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -46,8 +45,8 @@ struct Answers {
   std::vector<std::string> status;
   std::vector<bool> is_solved;
   Eigen::VectorXi iterations;
-  Rows q;  ///< node by node, if motions are requested
-  Rows u;  ///< stage by stage
+  Rows q = {};  ///< node by node, if motions are requested
+  Rows u = {};  ///< stage by stage
 };
 
 /// As long as nothing is solved. Without a limit of time that is over, all instances have their turn.
@@ -56,9 +55,7 @@ Answers no_answers(std::size_t instances) {
   return {.cost = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN()),
           .status = std::vector<std::string>(instances, std::string(name_of(Status::time_limit))),
           .is_solved = std::vector<bool>(instances, false),
-          .iterations = Eigen::VectorXi::Zero(count),
-          .q = {},
-          .u = {}};
+          .iterations = Eigen::VectorXi::Zero(count)};
 }
 
 struct BatchAsked {
@@ -76,10 +73,10 @@ struct BatchAsked {
 void require_rows(const Rows& table, std::size_t count, Eigen::Index columns, const char* name) {
   if (table.rows() == 0) return;
   if (static_cast<std::size_t>(table.rows()) != count || table.cols() != columns) {
-    throw Error(fmt::format("solve_batch: {} has shape ({}, {}), expected ({}, {})", name, table.rows(), table.cols(),
-                            count, columns));
+    throw Error("solve_batch: {} has shape ({}, {}), expected ({}, {})", name, table.rows(), table.cols(), count,
+                columns);
   }
-  if (!table.allFinite()) throw Error(fmt::format("solve_batch: {} has an entry that is not a finite number", name));
+  if (!table.allFinite()) throw Error("solve_batch: {} has an entry that is not a finite number", name);
 }
 
 /// The work on one batch.

@@ -17,8 +17,6 @@ class Call {
   ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
-  Call(Call&&) = delete;
-  Call& operator=(Call&&) = delete;
 
   /// Keeps an exception for the innermost call of this thread; the first one counts. Holds the GIL.
   static void keep(pybind11::error_already_set& error);

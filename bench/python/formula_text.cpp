@@ -101,7 +101,8 @@ void name_inputs(const ExpressionVector& entries, const std::string& prefix, con
   }
 }
 
-std::string text_of_formula(const Expression& formula, std::size_t most_letters) {
+std::string text_of_formula(const Expression& formula) {
+  constexpr std::size_t most_letters = 500;
   const Schedule schedule(std::span(&formula, 1));
   const std::vector<Schedule::Step>& steps = schedule.steps();
   std::vector<Text> texts;

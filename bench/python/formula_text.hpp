@@ -13,7 +13,7 @@ namespace dmocbench::python {
 void name_inputs(const ExpressionVector& entries, const std::string& prefix, const std::vector<std::string>& names);
 
 /// A formula as Python would write it: "0.5*length**2*v.theta**2 + 9.81*cos(q.theta)". Inputs without a name are "x0",
-/// "x1", ... A text of more than `most_letters` is cut, and ends with "... (123 operations)".
-[[nodiscard]] std::string text_of_formula(const Expression& formula, std::size_t most_letters = 500);
+/// "x1", ... A text of more than 500 letters is cut, and ends with "... (123 operations)".
+[[nodiscard]] std::string text_of_formula(const Expression& formula);
 
 }  // namespace dmocbench::python

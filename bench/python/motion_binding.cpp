@@ -4,7 +4,6 @@
 #include <tuple>
 #include <type_traits>
 
-#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -23,25 +22,10 @@ namespace {
 template <class Use>
 void for_each_array(const Use& use) {
   use("t", &Trajectory::node_times);
-  use("q", &Trajectory::q);
-  use("v", &Trajectory::v);
-  use("p", &Trajectory::p);
-  use("y", &Trajectory::y);
-  use("psi_q", &Trajectory::psi_q);
-  use("psi_p", &Trajectory::psi_p);
-  use("psi_y", &Trajectory::psi_y);
+  for (const TrajectoryTable& table : trajectory_tables) use(table.name, table.values);
   use("integrals", &Trajectory::integrals);
   use("integral_prices", &Trajectory::integral_prices);
   use("stage_t", &Trajectory::stage_times);
-  use("stage_q", &Trajectory::stage_q);
-  use("stage_v", &Trajectory::stage_v);
-  use("stage_u", &Trajectory::stage_u);
-  use("stage_p", &Trajectory::stage_p);
-  use("stage_y", &Trajectory::stage_y);
-  use("stage_y_rates", &Trajectory::stage_y_rates);
-  use("stage_psi_q", &Trajectory::stage_psi_q);
-  use("stage_psi_p", &Trajectory::stage_psi_p);
-  use("stage_psi_y", &Trajectory::stage_psi_y);
   use("values_of_unknowns", &Trajectory::unknowns);
   const auto price = [&use](const char* name, auto member) {
     use(name, [member](auto& trajectory) -> auto& { return trajectory.prices.*member; });
@@ -118,7 +102,7 @@ auto at(const Trajectory& trajectory, const Eigen::VectorXd& times) {
   constexpr double rounding = 1e-12;
   for (const double t : times) {
     const bool is_inside = t >= -rounding * end && t <= (1.0 + rounding) * end;  // false of NaN
-    if (!is_inside) throw Error(fmt::format("t = {:.6g} lies outside the horizon [0, {:.6g}]", t, end));
+    if (!is_inside) throw Error("t = {:.6g} lies outside the horizon [0, {:.6g}]", t, end);
   }
   const Motion motion = smooth_motion(trajectory);
   const Eigen::Index n = trajectory.q.cols();

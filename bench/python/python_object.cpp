@@ -114,6 +114,11 @@ void PythonObject::rethrow(const char* member, py::error_already_set& error) con
                   : fmt::format("{}: {}: {}", name_, member + (*member == '_' ? 1 : 0), sentence));
 }
 
+void PythonObject::give_values(Problem& problem) const {
+  const auto values = object_.attr("_values").cast<std::map<std::string, double>>();
+  for (const auto& [name, value] : values) problem.set_parameter(name, value);
+}
+
 bool PythonObject::states(const char* member) const { return std::ranges::find(members_, member) != members_.end(); }
 
 ExpressionVector formulas_in(const py::object& returned) {
@@ -126,8 +131,8 @@ ExpressionVector formulas_in(const py::object& returned) {
   for (const py::handle entry : returned) {
     const auto traced = as_expression(entry);
     if (!traced) {
-      throw Error(fmt::format("entry {} of the returned value is {}, expected a formula or a number", entries.size(),
-                              entry.is_none() ? "None" : type_of(entry)));
+      throw Error("entry {} of the returned value is {}, expected a formula or a number", entries.size(),
+                  entry.is_none() ? "None" : type_of(entry));
     }
     entries.push_back(*traced);
   }

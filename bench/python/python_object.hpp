@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,6 @@ class PythonObject {
   ~PythonObject();  // NOLINT(bugprone-exception-escape): see its definition
   PythonObject(const PythonObject&) = delete;
   PythonObject& operator=(const PythonObject&) = delete;
-  PythonObject(PythonObject&&) = delete;
-  PythonObject& operator=(PythonObject&&) = delete;
 
   /// The parameters that an object declares.
   [[nodiscard]] static std::vector<Parameter> parameters_of(const pybind11::object& original);
@@ -53,6 +52,16 @@ class PythonObject {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   /// The copy; touched with the GIL only.
   [[nodiscard]] const pybind11::object& object() const noexcept { return object_; }
+  /// Gives a problem of this object the values that the object has.
+  void give_values(Problem& problem) const;
+  /// A copy of a problem of this object, with its values.
+  template <class Class>
+  [[nodiscard]] std::unique_ptr<Class> copy_of(const Class& problem) const {
+    const pybind11::gil_scoped_acquire gil;
+    auto copy = std::make_unique<Class>(object_);
+    for (const Parameter& parameter : problem.parameters()) copy->set_parameter(parameter.name, parameter.value);
+    return copy;
+  }
   /// True if the class has that member.
   [[nodiscard]] bool states(const char* member) const;
   /// A member as formula, as many entries as it has. `arguments()`: the arguments for Python.
@@ -86,8 +95,6 @@ class Tracing {
   ~Tracing();
   Tracing(const Tracing&) = delete;
   Tracing& operator=(const Tracing&) = delete;
-  Tracing(Tracing&&) = delete;
-  Tracing& operator=(Tracing&&) = delete;
 };
 
 /// The entries as a list of Python.

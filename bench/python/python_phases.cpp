@@ -1,6 +1,5 @@
 #include "bench/python/python_phases.hpp"
 
-#include <map>
 #include <optional>
 #include <tuple>
 
@@ -44,18 +43,10 @@ VectorFormula formula_of(const py::object& function) {
 
 PythonPhases::PythonPhases(const py::object& original)
     : PhasedProblem(phases_of(original), PythonObject::parameters_of(original)), python_(original, *this) {
-  const auto values = python_.object().attr("_values").cast<std::map<std::string, double>>();
-  for (const auto& [name, value] : values) set_parameter(name, value);
+  python_.give_values(*this);
 }
 
 bool PythonPhases::is_one(const py::object& original) { return py::hasattr(original, "_phase_list"); }
-
-std::unique_ptr<Problem> PythonPhases::clone() const {
-  const py::gil_scoped_acquire gil;
-  auto copy = std::make_unique<PythonPhases>(python_.object());
-  for (const Parameter& parameter : parameters()) copy->set_parameter(parameter.name, parameter.value);
-  return copy;
-}
 
 py::object PythonPhases::point(std::size_t phase, const PhaseEnd& end) const {
   const Problem& problem = *phases()[phase].problem;

@@ -22,7 +22,7 @@ class PythonPhases final : public PhasedProblem {
   [[nodiscard]] static bool is_one(const pybind11::object& original);
 
   [[nodiscard]] std::string name() const override { return python_.name(); }
-  [[nodiscard]] std::unique_ptr<Problem> clone() const override;
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return python_.copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override;
   [[nodiscard]] double cost_scale() const override;
   [[nodiscard]] ExpressionVector link(std::size_t i, const PhaseEnd& before, const PhaseEnd& after) const override;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -42,15 +41,7 @@ PythonProblem::PythonProblem(const py::object& original)
   control_names_ = object.attr("_control_names")().cast<std::vector<std::string>>();
   first_order_names_ = object.attr("_first_order_names")().cast<std::vector<std::string>>();
   has_constant_numbers_ = object.attr("_has_constant_numbers")().cast<bool>();
-  const auto values = object.attr("_values").cast<std::map<std::string, double>>();
-  for (const auto& [name, value] : values) set_parameter(name, value);
-}
-
-std::unique_ptr<Problem> PythonProblem::clone() const {
-  const py::gil_scoped_acquire gil;
-  auto copy = std::make_unique<PythonProblem>(python_.object());
-  for (const Parameter& parameter : parameters()) copy->set_parameter(parameter.name, parameter.value);
-  return copy;
+  python_.give_values(*this);
 }
 
 void PythonProblem::name_entries(const State& x) const {
@@ -72,73 +63,47 @@ py::object PythonProblem::point(const ControlledState& x) const {
                                          list_of(x.y));
 }
 
-template <class Arguments>
-Expression PythonProblem::single_formula(const char* member, const Arguments& arguments) const {
-  const ExpressionVector entries = python_.formula(member, arguments);
+py::object PythonProblem::point(const ExpressionVector& q) const {
+  return python_.object().attr("_coordinates_at")(list_of(q));
+}
+
+template <class Point>
+Expression PythonProblem::single_formula(const char* member, const Point& x) const {
+  const ExpressionVector entries = formula(member, x);
   if (entries.size() != 1) {
-    throw Error(fmt::format("{}: {} returns {}, expected one formula", name(), member,
-                            counted(entries.size(), "entry", "entries")));
+    throw Error("{}: {} returns {}, expected one formula", name(), member, counted(entries.size(), "entry", "entries"));
   }
   return entries[0];
 }
 
-template <class Arguments>
-ExpressionVector PythonProblem::optional_formula(const char* member, const Arguments& arguments) const {
-  return python_.states(member) ? python_.formula(member, arguments) : ExpressionVector();
-}
-
 Expression PythonProblem::lagrangian(const State& x) const {
   if (has_no_configuration(*this)) return 0.5 * x.v[0] * x.v[0];
-  return single_formula("lagrangian", [&] { return py::make_tuple(point(x)); });
+  return single_formula("lagrangian", x);
 }
 
 ExpressionVector PythonProblem::force(const ControlledState& x) const {
   if (!python_.states("force")) return ExpressionVector::Constant(x.q.size(), Expression(0.0));
-  return python_.formula("force", [&] { return py::make_tuple(point(x)); });
+  return formula("force", x);
 }
 
 Expression PythonProblem::running_cost(const ControlledState& x) const {
-  if (!python_.states("running_cost")) return {};
-  return single_formula("running_cost", [&] { return py::make_tuple(point(x)); });
-}
-
-ExpressionVector PythonProblem::first_order_rates(const ControlledState& x) const {
-  return optional_formula("first_order_rates", [&] { return py::make_tuple(point(x)); });
-}
-
-ExpressionVector PythonProblem::integrands(const ControlledState& x) const {
-  return optional_formula("integrands", [&] { return py::make_tuple(point(x)); });
-}
-
-ExpressionVector PythonProblem::path_constraints(const ControlledState& x) const {
-  return optional_formula("path_constraints", [&] { return py::make_tuple(point(x)); });
-}
-
-ExpressionVector PythonProblem::constraints(const ExpressionVector& q) const {
-  return optional_formula("constraints",
-                          [&] { return py::make_tuple(python_.object().attr("_coordinates_at")(list_of(q))); });
+  return python_.states("running_cost") ? single_formula("running_cost", x) : Expression();
 }
 
 ExpressionVector PythonProblem::velocity_constraints(const ExpressionVector& q, const ExpressionVector& v) const {
-  return optional_formula("velocity_constraints", [&] {
-    const py::object named = python_.object().attr("_coordinates_at");
-    return py::make_tuple(named(list_of(q)), named(list_of(v), "v"));
+  if (!python_.states("velocity_constraints")) return {};
+  return python_.formula("velocity_constraints", [&] {
+    return py::make_tuple(point(q), python_.object().attr("_coordinates_at")(list_of(v), "v"));
   });
 }
 
-ExpressionVector PythonProblem::boundary_conditions(const State& first, const State& last) const {
-  return optional_formula("boundary_conditions", [&] { return py::make_tuple(point(first), point(last)); });
-}
-
 Expression PythonProblem::final_cost(const State& last) const {
-  if (!python_.states("final_cost")) return {};
-  return single_formula("final_cost", [&] { return py::make_tuple(point(last)); });
+  return python_.states("final_cost") ? single_formula("final_cost", last) : Expression();
 }
 
 std::optional<ExpressionVector> PythonProblem::symmetry(const ExpressionVector& q) const {
   if (!python_.states("symmetry")) return std::nullopt;
-  return python_.formula("symmetry",
-                         [&] { return py::make_tuple(python_.object().attr("_coordinates_at")(list_of(q))); });
+  return formula("symmetry", q);
 }
 
 double PythonProblem::cost_scale() const {
@@ -179,7 +144,7 @@ ProblemCard PythonProblem::card() const {
         for (const py::handle quantity : python_.object().attr("_picture")(point(x))) {
           const auto [name, quantity_unit, value] = quantity.cast<std::tuple<std::string, std::string, py::object>>();
           const auto traced = as_expression(value);
-          if (!traced) throw Error(fmt::format("the quantity {} is {}, not a formula", name, type_of(value)));
+          if (!traced) throw Error("the quantity {} is {}, not a formula", name, type_of(value));
           picture.push_back({name, quantity_unit, *traced});
         }
         return picture;

@@ -20,7 +20,7 @@ class PythonProblem final : public Problem {
   explicit PythonProblem(const pybind11::object& original);
 
   [[nodiscard]] std::string name() const override { return python_.name(); }
-  [[nodiscard]] std::unique_ptr<Problem> clone() const override;
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return python_.copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override;
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return configuration_names_; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return control_names_; }
@@ -35,13 +35,23 @@ class PythonProblem final : public Problem {
 
   // Each optional member of `Problem` is one function here and one member of the Python class.
   [[nodiscard]] ProblemBounds bounds() const override { return numbers()->bounds; }
-  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override;
-  [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override;
-  [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override;
-  [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override;
+  [[nodiscard]] ExpressionVector first_order_rates(const ControlledState& x) const override {
+    return optional_formula("first_order_rates", x);
+  }
+  [[nodiscard]] ExpressionVector integrands(const ControlledState& x) const override {
+    return optional_formula("integrands", x);
+  }
+  [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
+    return optional_formula("path_constraints", x);
+  }
+  [[nodiscard]] ExpressionVector constraints(const ExpressionVector& q) const override {
+    return optional_formula("constraints", q);
+  }
   [[nodiscard]] ExpressionVector velocity_constraints(const ExpressionVector& q,
                                                       const ExpressionVector& v) const override;
-  [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override;
+  [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override {
+    return optional_formula("boundary_conditions", first, last);
+  }
   [[nodiscard]] Expression final_cost(const State& last) const override;
   [[nodiscard]] double cost_scale() const override;
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override;
@@ -57,12 +67,20 @@ class PythonProblem final : public Problem {
     ProblemBounds bounds;
   };
 
-  template <class Arguments>
-  [[nodiscard]] Expression single_formula(const char* member, const Arguments& arguments) const;
-  template <class Arguments>
-  [[nodiscard]] ExpressionVector optional_formula(const char* member, const Arguments& arguments) const;
+  /// A member at points of the motion, as many entries as it has.
+  template <class... Points>
+  [[nodiscard]] ExpressionVector formula(const char* member, const Points&... points) const {
+    return python_.formula(member, [&] { return pybind11::make_tuple(point(points)...); });
+  }
+  template <class... Points>
+  [[nodiscard]] ExpressionVector optional_formula(const char* member, const Points&... points) const {
+    return python_.states(member) ? formula(member, points...) : ExpressionVector();
+  }
+  template <class Point>
+  [[nodiscard]] Expression single_formula(const char* member, const Point& x) const;
   /// Names the entries of a point in texts of formulas.
   void name_entries(const State& x) const;
+  [[nodiscard]] pybind11::object point(const ExpressionVector& q) const;
   [[nodiscard]] pybind11::object point(const State& x) const;
   [[nodiscard]] pybind11::object point(const ControlledState& x) const;
   [[nodiscard]] std::shared_ptr<const Numbers> numbers() const;

@@ -69,10 +69,9 @@ Start start_from(const Trajectory& trajectory, const Problem& problem) {
                     trajectory.stage_u.cols() == problem.control_size() &&
                     trajectory.y.cols() == problem.first_order_size();
   if (!fits) {
-    throw Error(fmt::format(
-        "start= has {} coordinates, {} controls and {} first-order states, but the problem has {}, {} and {}",
-        trajectory.q.cols(), trajectory.stage_u.cols(), trajectory.y.cols(), problem.configuration_size(),
-        problem.control_size(), problem.first_order_size()));
+    throw Error("start= has {} coordinates, {} controls and {} first-order states, but the problem has {}, {} and {}",
+                trajectory.q.cols(), trajectory.stage_u.cols(), trajectory.y.cols(), problem.configuration_size(),
+                problem.control_size(), problem.first_order_size());
   }
   Start start{.motion = moved_to_ends(smooth_motion(trajectory), problem.bounds())};
   if (trajectory.has_costates()) start.with_costates = trajectory;

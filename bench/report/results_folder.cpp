@@ -177,7 +177,7 @@ const Json* ResultsFolder::metadata_of(const std::string& run) const {
 ResultsFolder read_results_folder(const std::filesystem::path& folder) {
   std::error_code none;
   if (!std::filesystem::is_directory(folder, none)) {
-    throw Error(fmt::format("there is no results folder {0}; run an experiment with --out {0} first", folder.string()));
+    throw Error("there is no results folder {0}; run an experiment with --out {0} first", folder.string());
   }
   ResultsFolder results;
   read_runs(folder, results);
@@ -186,8 +186,8 @@ ResultsFolder read_results_folder(const std::filesystem::path& folder) {
   read_motions(folder, results);
   read_figures(folder, results);
   if (results.tables.empty() && results.figures.empty()) {
-    throw Error(fmt::format("{} contains no table or figure; run an experiment with --out {} first", folder.string(),
-                            folder.string()));
+    throw Error("{} contains no table or figure; run an experiment with --out {} first", folder.string(),
+                folder.string());
   }
   return results;
 }

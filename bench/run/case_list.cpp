@@ -25,7 +25,7 @@ std::vector<std::string> chosen_of(const std::string& option, const std::vector<
                                    const std::vector<std::string>& chosen) {
   for (const std::string& name : chosen) {
     if (std::ranges::count(known, name) > 0) continue;
-    throw Error(fmt::format("{} takes {}, not {}", option, fmt::join(known, known.size() == 2 ? " or " : ", "), name));
+    throw Error("{} takes {}, not {}", option, fmt::join(known, known.size() == 2 ? " or " : ", "), name);
   }
   std::vector<std::string> names;
   std::ranges::copy_if(known, std::back_inserter(names),

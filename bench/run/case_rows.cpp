@@ -23,8 +23,8 @@ using Json = nlohmann::ordered_json;
 /// Throws `Error` if a row has a value that no run writes: an invalid number, or an answer without its cost.
 void require_measured(const Row& row, const std::vector<std::string>& columns, const std::string& place) {
   const auto refuse = [&](const std::string& column) {
-    throw Error(fmt::format("{}: {} is {}, expected a finite number; remove the file and run its cases again", place,
-                            column, row.text(column).empty() ? "missing" : row.text(column)));
+    throw Error("{}: {} is {}, expected a finite number; remove the file and run its cases again", place, column,
+                row.text(column).empty() ? "missing" : row.text(column));
   };
   for (const std::string& column : columns) {
     const auto number = parsed<double>(row.text(column));
@@ -45,8 +45,8 @@ std::vector<std::filesystem::path> stores_of_parts(const std::filesystem::path& 
     if (is_file && path.extension() == ".rows" && !path.filename().string().starts_with('.')) files.push_back(path);
   }
   if (files.empty()) {
-    throw Error(fmt::format("there are no parts of {} in {}{}; run the command with --part 1/n to n/n first", name,
-                            parts.string(), none ? ": " + none.message() : ""));
+    throw Error("there are no parts of {} in {}{}; run the command with --part 1/n to n/n first", name, parts.string(),
+                none ? ": " + none.message() : "");
   }
   std::ranges::sort(files);
   return files;
@@ -119,7 +119,7 @@ std::vector<std::size_t> CaseRows::take(const StoredEntries& stored) {
     const std::vector<std::string> fields = place.at("row").texts();
     const std::string name = fmt::format("{}: case {}", stored.file.string(), number);
     if (number < 1 || number > rows_.size() || fields.size() != columns_.size())
-      throw Error(fmt::format("{} with {} fields was written by another run; remove the file", name, fields.size()));
+      throw Error("{} with {} fields was written by another run; remove the file", name, fields.size());
     Row row;
     for (std::size_t i = 0; i < fields.size(); ++i) row.set(columns_[i], fields[i]);
     require_measured(row, columns_, name);
@@ -169,8 +169,8 @@ void CaseRows::join(const RunPlan& plan, Json& metadata) {
       for (const std::size_t number : take(store)) {
         const std::filesystem::path origin = std::exchange(origins[number], file);
         if (origin.empty() || origin == file) continue;
-        throw Error(fmt::format("{} exists twice ({} and {}); remove one of the files", plan.cases()[number].label(),
-                                origin.string(), file.string()));
+        throw Error("{} exists twice ({} and {}); remove one of the files", plan.cases()[number].label(),
+                    origin.string(), file.string());
       }
       headers.push_back(store.header);
     }
@@ -190,10 +190,9 @@ void CaseRows::require_all(const RunPlan& plan, std::size_t parts) const {
   if (numbers.empty()) return;
   const std::vector<std::size_t> missing(numbers.begin(), numbers.end());
   const auto lost = std::ranges::count(rows_, false, &std::optional<Row>::has_value);
-  throw Error(
-      fmt::format("{} of {} cases have no row: part{} {} of {} {} missing or incomplete; run {} with --part {}/{}",
-                  lost, rows_.size(), missing.size() > 1 ? "s" : "", in_ranges(missing), parts,
-                  missing.size() > 1 ? "are" : "is", missing.size() > 1 ? "each" : "it", missing.front(), parts));
+  throw Error("{} of {} cases have no row: part{} {} of {} {} missing or incomplete; run {} with --part {}/{}", lost,
+              rows_.size(), missing.size() > 1 ? "s" : "", in_ranges(missing), parts, missing.size() > 1 ? "are" : "is",
+              missing.size() > 1 ? "each" : "it", missing.front(), parts);
 }
 
 std::string in_ranges(const std::vector<std::size_t>& numbers) {

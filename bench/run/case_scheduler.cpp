@@ -163,8 +163,8 @@ void CaseScheduler::solve_in_processes() {
       if (progress_.is_shown()) show(cases_[number].problem->name());
     }
     if (wanted_in(spans[i]) == 0 || interrupt_requested()) return;
-    throw Error(fmt::format("the rows of {} are lost, because {} no longer exists",
-                            cases_[spans[i].first].problem->name(), files[i].string()));
+    throw Error("the rows of {} are lost, because {} no longer exists", cases_[spans[i].first].problem->name(),
+                files[i].string());
   };
   for_each_in_processes(spans.size(), static_cast<std::size_t>(options_.jobs), work, collect);
 }

@@ -26,8 +26,6 @@ class CaseScheduler {
                 CaseRows& rows, bool is_quiet);
   CaseScheduler(const CaseScheduler&) = delete;
   CaseScheduler& operator=(const CaseScheduler&) = delete;
-  CaseScheduler(CaseScheduler&&) = delete;
-  CaseScheduler& operator=(CaseScheduler&&) = delete;
   ~CaseScheduler() = default;
 
   /// Solves everything that is wanted. Throws `Error` if nothing of the kind can be solved (the first case fails), or a

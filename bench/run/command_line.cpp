@@ -49,8 +49,6 @@ class RunningProgram {
   ~RunningProgram() { innermost() = outer_; }
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
-  RunningProgram(RunningProgram&&) = delete;
-  RunningProgram& operator=(RunningProgram&&) = delete;
 
   /// Null outside of programs.
   static RunningProgram*& innermost() {

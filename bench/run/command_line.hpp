@@ -126,8 +126,6 @@ class ComplaintScope {
   ~ComplaintScope();
   ComplaintScope(const ComplaintScope&) = delete;
   ComplaintScope& operator=(const ComplaintScope&) = delete;
-  ComplaintScope(ComplaintScope&&) = delete;
-  ComplaintScope& operator=(ComplaintScope&&) = delete;
 
  private:
   std::string* outer_;

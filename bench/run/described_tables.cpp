@@ -138,20 +138,20 @@ nlohmann::ordered_json describe_tables(const std::vector<std::filesystem::path>&
 void require_as_written(const nlohmann::json& metadata, const std::string& source, const std::string& table,
                         std::string_view content) {
   const nlohmann::json told = told_of(metadata, table);
-  if (told.is_null()) throw Error(fmt::format("{} does not list {}: they come from different runs", source, table));
+  if (told.is_null()) throw Error("{} does not list {}: they come from different runs", source, table);
   const Table found = Table::from_csv(content);
   const auto columns = told["columns"].get<std::vector<std::string>>();
   if (const std::string more = lacked(found.columns(), columns); !more.empty())
-    throw Error(fmt::format("{} has the column {}, which {} does not list", table, more, source));
+    throw Error("{} has the column {}, which {} does not list", table, more, source);
   if (const std::string missing = lacked(columns, found.columns()); !missing.empty())
-    throw Error(fmt::format("{} lacks the column {}, which {} lists", table, missing, source));
+    throw Error("{} lacks the column {}, which {} lists", table, missing, source);
   if (told["rows"] != found.rows().size()) {
-    throw Error(fmt::format("{} states {}, but {} has {}: the files come from different runs, or rows are missing",
-                            source, counted(told["rows"].get<long long>(), "row"), table, found.rows().size()));
+    throw Error("{} states {}, but {} has {}: the files come from different runs, or rows are missing", source,
+                counted(told["rows"].get<long long>(), "row"), table, found.rows().size());
   }
   if (const std::string checksum = checksum_of(content); told["crc32"] != checksum) {
-    throw Error(fmt::format("{} was changed after its run: its checksum is {}, but {} states {}", table, checksum,
-                            source, told["crc32"].get<std::string>()));
+    throw Error("{} was changed after its run: its checksum is {}, but {} states {}", table, checksum, source,
+                told["crc32"].get<std::string>());
   }
 }
 

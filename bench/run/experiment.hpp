@@ -109,8 +109,6 @@ class Experiment {
   virtual ~Experiment() = default;
   Experiment(const Experiment&) = delete;
   Experiment& operator=(const Experiment&) = delete;
-  Experiment(Experiment&&) = delete;
-  Experiment& operator=(Experiment&&) = delete;
 
   /// The description of the experiment.
   [[nodiscard]] const ExperimentCard& card() const noexcept { return card_; }

@@ -18,8 +18,6 @@ class ListeningScope {
   ~ListeningScope();
   ListeningScope(const ListeningScope&) = delete;
   ListeningScope& operator=(const ListeningScope&) = delete;
-  ListeningScope(ListeningScope&&) = delete;
-  ListeningScope& operator=(ListeningScope&&) = delete;
 
  private:
   std::array<struct sigaction, 3> before_{};

@@ -1,6 +1,5 @@
 #include "bench/run/json_place.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "methods/error.hpp"
@@ -28,7 +27,7 @@ nlohmann::ordered_json read_json(const std::string& text) {
 }  // namespace
 
 void JsonPlace::refuse(const char* wanted) const {
-  throw Error(fmt::format("{}: {} is {}, not {}", file_, path_.empty() ? "the content" : path_, shown(*json_), wanted));
+  throw Error("{}: {} is {}, not {}", file_, path_.empty() ? "the content" : path_, shown(*json_), wanted);
 }
 
 JsonPlace JsonPlace::inner(const nlohmann::ordered_json& json, const std::string& key) const {
@@ -40,7 +39,7 @@ bool JsonPlace::has(const std::string& key) const { return json_->is_object() &&
 JsonPlace JsonPlace::at(const std::string& key) const {
   if (!json_->is_object()) refuse("an object");
   const auto found = json_->find(key);
-  if (found == json_->end()) throw Error(fmt::format("{}: {} is missing", file_, inner(*json_, key).path_));
+  if (found == json_->end()) throw Error("{}: {} is missing", file_, inner(*json_, key).path_);
   return inner(*found, key);
 }
 
@@ -99,7 +98,7 @@ std::vector<double> JsonPlace::numbers() const {
 
 nlohmann::ordered_json json_in(const std::string& text, const std::string& file) {
   nlohmann::ordered_json json = read_json(text);
-  if (json.is_discarded()) throw Error(fmt::format("{} is not JSON, or is truncated", file));
+  if (json.is_discarded()) throw Error("{} is not JSON, or is truncated", file);
   return json;
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "bench/run/described_tables.hpp"
 #include "bench/run/json_place.hpp"
 #include "bench/run/problem_libraries.hpp"
@@ -93,7 +91,7 @@ KeptRows::KeptRows(std::filesystem::path prefix, std::set<Statement> own)
   if (!std::filesystem::is_regular_file(metadata, none)) return;
   earlier_ = json_or_null(read_file(metadata));
   if (!earlier_.is_object())
-    throw Error(fmt::format("{} is damaged; move it and its tables away, or choose another --out", metadata.string()));
+    throw Error("{} is damaged; move it and its tables away, or choose another --out", metadata.string());
 }
 
 void KeptRows::read(const std::filesystem::path& file) {
@@ -121,14 +119,13 @@ void KeptRows::require_described(const std::filesystem::path& file) const {
   const std::string name = file.filename().string();
   const JsonPlace earlier(earlier_, source);
   try {
-    if (!earlier.has("statements"))
-      throw Error(fmt::format("{} does not describe the runs that wrote {}", source, name));
+    if (!earlier.has("statements")) throw Error("{} does not describe the runs that wrote {}", source, name);
     // A run that was interrupted has not described all of its tables.
     const bool is_described = earlier.has("tables") && earlier.at("tables").has(name);
     if (is_described || earlier.at("complete").boolean()) require_as_written(earlier_, source, name, read_file(file));
   } catch (const Error& error) {
-    throw Error(fmt::format("{}; {} has rows of other problems: move both files away, or choose another --out",
-                            error.what(), file.string()));
+    throw Error("{}; {} has rows of other problems: move both files away, or choose another --out", error.what(),
+                file.string());
   }
 }
 
@@ -136,8 +133,8 @@ void KeptRows::require_columns(const std::filesystem::path& file, const std::vec
   std::error_code none;  // a missing file is not a regular file
   if (!std::filesystem::is_regular_file(file, none) || std::filesystem::is_empty(file)) return;
   if (read_table(file).columns() == columns) return;
-  throw Error(fmt::format("{} has columns that differ from this run's; move it away, or choose another --name or --out",
-                          file.string()));
+  throw Error("{} has columns that differ from this run's; move it away, or choose another --name or --out",
+              file.string());
 }
 
 void KeptRows::require_no_other_motion(const std::filesystem::path& file) const {
@@ -149,8 +146,8 @@ void KeptRows::require_no_other_motion(const std::filesystem::path& file) const 
     const Statement other{motion.at("problem").text(), motion.has("library") ? motion.at("library").text() : "",
                           motion.has("settings") ? motion.at("settings").text() : ""};
     if (is_own(other)) continue;
-    throw Error(fmt::format("{} is the trajectory of {}{}{}; choose another --name or --out", file.string(),
-                            other.problem, other.settings.empty() ? "" : " ", other.settings));
+    throw Error("{} is the trajectory of {}{}{}; choose another --name or --out", file.string(), other.problem,
+                other.settings.empty() ? "" : " ", other.settings);
   }
 }
 

@@ -36,9 +36,8 @@ long long parse_count(std::string_view option, std::string_view text) {
     const std::size_t dash = text.find('-');
     const bool is_range = dash != std::string_view::npos && parsed<long long>(text.substr(0, dash)) &&
                           parsed<long long>(text.substr(dash + 1));
-    throw Error(
-        fmt::format("{}: {} is not a whole number between 1 and {}{}", option, as_shown(text), Grid::most_intervals,
-                    is_range ? fmt::format("; a range is {}:{}", text.substr(0, dash), text.substr(dash + 1)) : ""));
+    throw Error("{}: {} is not a whole number between 1 and {}{}", option, as_shown(text), Grid::most_intervals,
+                is_range ? fmt::format("; a range is {}:{}", text.substr(0, dash), text.substr(dash + 1)) : "");
   }
   return *count;
 }
@@ -70,7 +69,7 @@ std::vector<std::string> known_in_order(const std::vector<std::string>& names) {
   try {
     return in_order("problem", names, problem_names());
   } catch (const Error& error) {
-    throw Error(fmt::format("{}, or load the library of the problem with --library", error.what()));
+    throw Error("{}, or load the library of the problem with --library", error.what());
   }
 }
 
@@ -105,7 +104,7 @@ std::vector<std::string> integrated_methods(std::string_view family, const Exper
       try {
         require_substeps(count);
       } catch (const Error& error) {
-        throw Error(fmt::format("--substeps: {}", error.what()));
+        throw Error("--substeps: {}", error.what());
       }
       names.push_back(shooting_name(family, integrator, count));
     }
@@ -117,7 +116,7 @@ std::vector<std::string> integrated_methods(std::string_view family, const Exper
 std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
   if (options.controls == "stage") return options.tableaus;
   if (options.controls != "shared") {
-    throw Error(fmt::format("--controls takes stage or shared, not {}", options.controls));
+    throw Error("--controls takes stage or shared, not {}", options.controls);
   }
   std::vector<std::string> tableaus;
   for (const std::string& family : options.tableaus) {
@@ -158,8 +157,8 @@ std::vector<FamilyAndStages> chosen_stages(const ExperimentOptions& options) {
       }
       continue;
     }
-    throw Error(fmt::format("--stages: {} supports {} stages, not {}", families.front(),
-                            fmt::join(tableau_stages(families.front()), ", "), stages));
+    throw Error("--stages: {} supports {} stages, not {}", families.front(),
+                fmt::join(tableau_stages(families.front()), ", "), stages);
   }
   return schemes;
 }
@@ -455,7 +454,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
   const auto back_ends = in_order("derivative back end", options.derivatives, derivative_back_end_names());
   require_name_of_table(options.name);
-  if (options.repeats < 1) throw Error(fmt::format("--repeats must be at least 1, got {}", options.repeats));
+  if (options.repeats < 1) throw Error("--repeats must be at least 1, got {}", options.repeats);
   const std::vector<Grid> grids = make_grids(options);
   const CostForm form = cost_form_named(options.form);
   std::vector<Case> cases;
@@ -485,9 +484,8 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
         const StopScope scope(interrupt_requested, options.most_seconds);
         static_cast<void>(coarsest.transcribe());
       } catch (const Stopped&) {
-        throw Error(
-            fmt::format("{} takes longer than --seconds {:g} to set up; allow more time, or use fewer intervals",
-                        problem->name(), options.most_seconds));
+        throw Error("{} takes longer than --seconds {:g} to set up; allow more time, or use fewer intervals",
+                    problem->name(), options.most_seconds);
       }
     }
     for (const ChosenScheme& scheme : schemes) {
@@ -513,8 +511,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
 std::vector<long long> parse_intervals(std::string_view option, std::string_view text) {
   constexpr std::size_t most_counts = 1000;
   std::set<long long> counts;
-  if (text.ends_with(','))
-    throw Error(fmt::format("{}: there is an empty entry at the end of {}", option, as_shown(text)));
+  if (text.ends_with(',')) throw Error("{}: there is an empty entry at the end of {}", option, as_shown(text));
   std::string_view rest = text;
   do {
     std::string_view entry = take_part(rest, ',');
@@ -522,12 +519,12 @@ std::vector<long long> parse_intervals(std::string_view option, std::string_view
     const bool is_range = entry.find(':') != std::string_view::npos;
     const long long first = parse_count(option, take_part(entry, ':'));
     const long long last = is_range ? parse_count(option, entry) : first;
-    if (last < first) throw Error(fmt::format("{}: the range {} ends below its start", option, whole));
+    if (last < first) throw Error("{}: the range {} ends below its start", option, whole);
     if (last > first && last < 2 * first)
-      throw Error(fmt::format("{}: the range {} contains only {}; write {},{}", option, whole, first, first, last));
+      throw Error("{}: the range {} contains only {}; write {},{}", option, whole, first, first, last);
     for (long long count = first; count <= last; count *= 2) counts.insert(count);
     if (counts.size() > most_counts) {  // all grids are in memory at the same time
-      throw Error(fmt::format("{} takes at most {} numbers; run the rest with another --name", option, most_counts));
+      throw Error("{} takes at most {} numbers; run the rest with another --name", option, most_counts);
     }
   } while (!rest.empty());
   return {counts.begin(), counts.end()};
@@ -553,7 +550,7 @@ std::vector<double> parse_node_times(std::string_view text) {
     while (!entry.empty() && (entry.back() == '\r' || entry.back() == ' ')) entry.remove_suffix(1);
     if (entry.empty()) continue;
     if (std::cmp_greater(times.size(), Grid::most_intervals)) {
-      throw Error(fmt::format("--grid, line {}: a grid has at most {} intervals", line, Grid::most_intervals));
+      throw Error("--grid, line {}: a grid has at most {} intervals", line, Grid::most_intervals);
     }
     times.push_back(parse_number(fmt::format("--grid, line {}", line), entry));
   }
@@ -563,14 +560,14 @@ std::vector<double> parse_node_times(std::string_view text) {
 std::pair<std::string_view, std::string_view> parse_assignment(std::string_view option, std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos || equals == 0) {
-    throw Error(fmt::format("{} takes name=value, got \"{}\"", option, text));
+    throw Error("{} takes name=value, got \"{}\"", option, text);
   }
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
 double parse_number(std::string_view wanted_for, std::string_view text) {
   const auto value = parsed<double>(text);
-  if (!value) throw Error(fmt::format("{}: {} is not a number", wanted_for, as_shown(text)));
+  if (!value) throw Error("{}: {} is not a number", wanted_for, as_shown(text));
   return *value;
 }
 

@@ -101,7 +101,7 @@ void for_each_in_processes(std::size_t count, std::size_t jobs, const std::funct
     const auto [worker, reason] = wait_for_one(running);
     attempt([&reason = reason] {
       if (reason.empty() || interrupt_requested()) return;
-      throw Error(fmt::format("a worker process failed: {}; its finished rows are kept", reason));
+      throw Error("a worker process failed: {}; its finished rows are kept", reason);
     });
     attempt([&, number = worker.number] { done(number); });
   }

@@ -49,7 +49,7 @@ void close_or_undo(int descriptor, bool is_whole, const std::filesystem::path& p
   if (descriptor >= 0) ::close(descriptor);
   if (is_whole) return;
   undo();
-  throw Error(fmt::format("cannot write {}: {}", path.string(), failure));
+  throw Error("cannot write {}: {}", path.string(), failure);
 }
 
 /// True if both are the same file.
@@ -108,11 +108,11 @@ OutputFolder::OutputFolder(const std::filesystem::path& folder, bool leftovers_s
   error.clear();
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) {
-    throw Error(fmt::format("cannot create the output folder {}: {}", folder.string(),
-                            error ? error.message() : "a file with this name exists"));
+    throw Error("cannot create the output folder {}: {}", folder.string(),
+                error ? error.message() : "a file with this name exists");
   }
   if (::access(folder.c_str(), W_OK) != 0) {
-    throw Error(fmt::format("cannot write to the output folder {}: {}", folder.string(), reason()));
+    throw Error("cannot write to the output folder {}: {}", folder.string(), reason());
   }
   if (!leftovers_stay) remove_leftovers(folder);
 }
@@ -126,12 +126,12 @@ void require_name_of_table(const std::string& name) {
   constexpr std::size_t longest = 100;  // since names of files begin with it
   const auto does_not_fit = [](unsigned char letter) { return letter == '/' || std::iscntrl(letter) != 0; };
   if (name.empty() || name.starts_with('.') || name.starts_with('-') || std::ranges::any_of(name, does_not_fit)) {
-    throw Error(fmt::format(
+    throw Error(
         "--name \"{}\" must be a plain file name that does not begin with a dot or a dash; --out names the folder",
-        name));
+        name);
   }
   if (name.size() > longest) {
-    throw Error(fmt::format("--name takes at most {} characters, not {}", longest, name.size()));
+    throw Error("--name takes at most {} characters, not {}", longest, name.size());
   }
 }
 
@@ -154,7 +154,7 @@ std::filesystem::path temporary_name(const std::filesystem::path& file) {
 void require_writable(const std::filesystem::path& path) {
   std::error_code none;  // a failed lookup shows when the file is written
   if (std::filesystem::is_directory(path, none)) {
-    throw Error(fmt::format("cannot write {}: it is a folder; name a file in it", path.string()));
+    throw Error("cannot write {}: it is a folder; name a file in it", path.string());
   }
   if (is_special(path)) return;
   const std::filesystem::path probe = temporary_name(path);
@@ -203,11 +203,11 @@ ResultLock::ResultLock(const std::filesystem::path& prefix)
   while (descriptor_ < 0 || !is_same(file_, descriptor_)) {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = open_to_write(file_, O_CREAT);
-    if (descriptor_ < 0) throw Error(fmt::format("cannot write {}: {}", file_.string(), reason()));
+    if (descriptor_ < 0) throw Error("cannot write {}: {}", file_.string(), reason());
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) continue;
     ::close(descriptor_);
-    throw Error(fmt::format("another run is writing {} now; wait until it ends, or choose another --name or --out",
-                            prefix.string()));
+    throw Error("another run is writing {} now; wait until it ends, or choose another --name or --out",
+                prefix.string());
   }
 }
 

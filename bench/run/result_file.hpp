@@ -20,8 +20,6 @@ class OutputFolder {
   explicit OutputFolder(const std::filesystem::path& folder, bool leftovers_stay = false);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
-  OutputFolder(OutputFolder&&) = delete;
-  OutputFolder& operator=(OutputFolder&&) = delete;
   ~OutputFolder();
 
  private:
@@ -69,8 +67,6 @@ class ResultLock {
   explicit ResultLock(const std::filesystem::path& prefix);
   ResultLock(const ResultLock&) = delete;
   ResultLock& operator=(const ResultLock&) = delete;
-  ResultLock(ResultLock&&) = delete;
-  ResultLock& operator=(ResultLock&&) = delete;
   ~ResultLock();
 
  private:

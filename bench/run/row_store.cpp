@@ -90,8 +90,7 @@ StoredEntries read_store(const std::filesystem::path& file) {
         store.entries.push_back(std::move(entry));
       }
     } else if (begin < content.size()) {
-      throw Error(
-          fmt::format("line {} of {} is damaged; remove the file and run its cases again", number, file.string()));
+      throw Error("line {} of {} is damaged; remove the file and run its cases again", number, file.string());
     }
   }
   return store;
@@ -136,8 +135,8 @@ void require_same_run(const StoredEntries& store, const Json& header) {
   const std::string commits = path != "/program" ? ""
                                                  : fmt::format(" (built from commit {}, not {})",
                                                                stored.at("commit").text(), header.at("commit").dump());
-  throw Error(fmt::format("{} belongs to another run: {} is {}, not {}{}; run its cases again, or remove it",
-                          store.file.string(), place, value_at(identity, path), value_at(wanted, path), commits));
+  throw Error("{} belongs to another run: {} is {}, not {}{}; run its cases again, or remove it", store.file.string(),
+              place, value_at(identity, path), value_at(wanted, path), commits);
 }
 
 }  // namespace dmocbench

@@ -71,8 +71,8 @@ Part parse_part(std::string_view option, std::string_view text) {
   const auto of = parse_digits(text.substr(std::min(slash + 1, text.size())));
   if (number && of && *number >= 1 && *number <= *of && *of <= most_parts_of_a_run) return {*number, *of};
   constexpr std::size_t most_shown = 40;
-  throw Error(fmt::format("{} takes i/n (part i of n, 1 <= i <= n <= {}), as in 3/16, not \"{}\"{}", option,
-                          most_parts_of_a_run, text.substr(0, most_shown), text.size() > most_shown ? " ..." : ""));
+  throw Error("{} takes i/n (part i of n, 1 <= i <= n <= {}), as in 3/16, not \"{}\"{}", option, most_parts_of_a_run,
+              text.substr(0, most_shown), text.size() > most_shown ? " ..." : "");
 }
 
 std::vector<std::size_t> groups_of(const std::vector<Case>& cases, const std::vector<SharedBy>& respects) {

@@ -93,7 +93,7 @@ std::string origin_of(const std::filesystem::path& nodes_file, const MotionTexts
         require_as_written(metadata, source, stages_file_of(nodes_file).filename().string(), texts.stages);
       }
     } catch (const Error& error) {
-      throw Error(fmt::format("{}; run it again, or give your own trajectory another name", error.what()));
+      throw Error("{}; run it again, or give your own trajectory another name", error.what());
     }
     return origin;
   }
@@ -142,8 +142,6 @@ class StartProvider::Search {
   // The options refer to this object.
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
-  Search(Search&&) = delete;
-  Search& operator=(Search&&) = delete;
   ~Search() = default;
 
   [[nodiscard]] FoundStart run() {
@@ -291,7 +289,7 @@ const Trajectory& StartProvider::motion_in_file(const Problem& problem) {
   if (!texts_) {
     std::error_code none;  // a failed lookup counts as missing
     if (!std::filesystem::exists(rules_.start, none))
-      throw Error(fmt::format("--start takes common, guess or an existing file, not {}", rules_.start));
+      throw Error("--start takes common, guess or an existing file, not {}", rules_.start);
     texts_ = read_motion_texts(rules_.start);
     origin_ = origin_of(rules_.start, *texts_);
   }
@@ -340,12 +338,11 @@ Trajectory StartProvider::solve(const Case& the_case) {
   if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
   if (options_.stop_requested && options_.stop_requested()) throw Interrupted();
   if (!is_solved(solved.solution.status)) {
-    throw Error(fmt::format("{} has no usable solution ({}): {}", the_case.label(), name_of(solved.solution.status),
-                            solved.solution.message));
+    throw Error("{} has no usable solution ({}): {}", the_case.label(), name_of(solved.solution.status),
+                solved.solution.message);
   }
-  throw Error(fmt::format("{} is solved, but possibly on a different branch from the other methods: {}",
-                          the_case.label(),
-                          start.note.empty() ? "the solution is far from the common start." : start.note));
+  throw Error("{} is solved, but possibly on a different branch from the other methods: {}", the_case.label(),
+              start.note.empty() ? "the solution is far from the common start." : start.note);
 }
 
 const StartProvider::FoundStart& StartProvider::common_start(const Case& the_case) {

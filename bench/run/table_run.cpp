@@ -81,8 +81,7 @@ std::vector<TableFile> tables_of_stage(const Json& entry, const std::filesystem:
   for (const JsonPlace& json : place.at("tables").entries()) {
     const std::string name = json.at("name").text();
     if (!name.starts_with(store.stem().string()) || name.find('/') != std::string::npos) {
-      throw Error(fmt::format("{} names the table \"{}\", which this run does not write; remove the file",
-                              store.string(), name));
+      throw Error("{} names the table \"{}\", which this run does not write; remove the file", store.string(), name);
     }
     TableFile& one = tables.emplace_back(TableFile{.file = store.parent_path() / (name + ".csv"),
                                                    .table = Table::from_csv(json.at("csv").text()),
@@ -142,7 +141,7 @@ void TableRun::stage(const std::string& name, const std::function<void()>& measu
 
 const Table& TableRun::table(const std::string& file) const {
   const auto found = std::ranges::find(tables_, out_ / (file + ".csv"), &TableFile::file);
-  if (found == tables_.end()) throw Error(fmt::format("no stage of {} has written {}.csv", name_, file));
+  if (found == tables_.end()) throw Error("no stage of {} has written {}.csv", name_, file);
   return found->table;
 }
 

@@ -83,7 +83,7 @@ void count(const CountedSolve& solve, int extra) {
   if (!solve.parameter.empty()) problem->set_parameter(solve.parameter, solve.value);
   const GuessedProgram made(problem, solve.method, intervals, solve.stages);
   const Solution optimum = make_solver("interior_point")->solve(*made.program, made.start);
-  if (!is_solved(optimum.status)) throw Error(fmt::format("{} is not solved: {}", solve.name(), optimum.message));
+  if (!is_solved(optimum.status)) throw Error("{} is not solved: {}", solve.name(), optimum.message);
   const Eigen::VectorXd start = 0.95 * optimum.primal + 0.05 * made.start;
 
   int asked = 0;
@@ -106,10 +106,10 @@ void count(const CountedSolve& solve, int extra) {
   CALLGRIND_DUMP_STATS_AT(of.c_str());
   if (solution.status != Status::interrupted || solution.linear_systems != iterations) {
     throw Error(
-        fmt::format("{} took {} linear systems in {} iterations and ended with the status {}, but {} iterations of one "
-                    "system each were expected",
-                    solve.name(), solution.linear_systems.value_or(0), solution.major_iterations.value_or(0),
-                    name_of(solution.status), iterations));
+        "{} took {} linear systems in {} iterations and ended with the status {}, but {} iterations of one "
+        "system each were expected",
+        solve.name(), solution.linear_systems.value_or(0), solution.major_iterations.value_or(0),
+        name_of(solution.status), iterations);
   }
 }
 

@@ -162,8 +162,8 @@ void require_agreement(const BenchmarkedFormulas& point, const Schedule& schedul
     const double difference =
         (Eigen::Map<const Eigen::ArrayXd>(found.data(), size) - of_tape).abs().maxCoeff<Eigen::PropagateNaN>();
     if (difference <= tolerance * largest) continue;  // false for NaN
-    throw Error(fmt::format("{} differs from the tape by {:.3g} on interval {} of {}", name, difference / largest, k,
-                            point.formulas().problem));
+    throw Error("{} differs from the tape by {:.3g} on interval {} of {}", name, difference / largest, k,
+                point.formulas().problem);
   }
 }
 

@@ -248,7 +248,7 @@ struct TwoOrders {
 
 struct JumpsOfCurve {
   Row head;
-  std::optional<TwoOrders> orders;
+  std::optional<TwoOrders> orders = {};
   std::size_t points = 0;
   std::string verdict;
 };
@@ -329,10 +329,8 @@ Table fit_jumps(const Selection& convergence) {
     if (jumps.grids.empty()) continue;
     const Fit both = above_the_floor(jumps.grids, error_column, smallest_floor(of_the_method, error_column));
     const bool are_few_jumps = both.grids.size() < fewest_grids && jumps.verdict != "slope";
-    JumpsOfCurve& fitted = curves.emplace_back(JumpsOfCurve{.head = curve.front(),
-                                                            .orders = std::nullopt,
-                                                            .points = both.grids.size(),
-                                                            .verdict = are_few_jumps ? jumps.verdict : both.verdict});
+    JumpsOfCurve& fitted = curves.emplace_back(JumpsOfCurve{
+        .head = curve.front(), .points = both.grids.size(), .verdict = are_few_jumps ? jumps.verdict : both.verdict});
     const auto jump_order = fit_order(errors_of(both.grids, jump_column));
     const auto error_order = fit_order(errors_of(both.grids, error_column));
     if (jump_order && error_order) fitted.orders = {*jump_order, *error_order, both.grids};

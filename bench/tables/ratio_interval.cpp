@@ -4,8 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/numerics/quantile.hpp"
 
@@ -17,7 +15,7 @@ void require_times(std::span<const double> times) {
   if (times.empty()) throw Error("a confidence interval of a ratio needs at least one round");
   for (const double time : times) {
     if (std::isfinite(time) && time > 0.0) continue;
-    throw Error(fmt::format("a time or a ratio of times is {:g}; times must be positive", time));
+    throw Error("a time or a ratio of times is {:g}; times must be positive", time);
   }
 }
 
@@ -44,24 +42,9 @@ constexpr unsigned seed = 20090101U;  // the same draws each time
 
 RatioInterval ratio_interval(std::span<const double> ratios) {
   require_times(ratios);
-  RatioInterval interval{.ratio = median({ratios.begin(), ratios.end()}), .rounds = ratios.size(), .resampled = {}};
+  RatioInterval interval{.ratio = median({ratios.begin(), ratios.end()}), .rounds = ratios.size()};
   std::mt19937 engine(seed);  // NOLINT(cert-msc51-cpp)
   for (std::size_t b = 0; b < resamples; ++b) interval.resampled.push_back(median_of_drawn(ratios, engine));
-  set_bounds(interval);
-  return interval;
-}
-
-RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others) {
-  require_times(times);
-  require_times(others);
-  RatioInterval interval{.ratio = median({times.begin(), times.end()}) / median({others.begin(), others.end()}),
-                         .rounds = std::min(times.size(), others.size()),
-                         .resampled = {}};
-  std::mt19937 engine(seed);  // NOLINT(cert-msc51-cpp)
-  for (std::size_t b = 0; b < resamples; ++b) {
-    const double drawn = median_of_drawn(times, engine);
-    interval.resampled.push_back(drawn / median_of_drawn(others, engine));
-  }
   set_bounds(interval);
   return interval;
 }

@@ -21,22 +21,16 @@ inline constexpr std::size_t resamples = 1000;
 /// replacement, `resamples` times from a fixed seed, and the interval holds 99 % of the medians. Equal numbers of
 /// rounds draw the same rounds, so that `resampled[b]` of several ratios belong together.
 struct RatioInterval {
-  double ratio = 0.0;             ///< the median
-  double lower = 0.0;             ///< end of the interval
-  double upper = 0.0;             ///< end of the interval
-  std::size_t rounds = 0;         ///< number of ratios
-  std::vector<double> resampled;  ///< the medians, in the order of drawing
+  double ratio = 0.0;                  ///< the median
+  double lower = 0.0;                  ///< end of the interval
+  double upper = 0.0;                  ///< end of the interval
+  std::size_t rounds = 0;              ///< number of ratios
+  std::vector<double> resampled = {};  ///< the medians, in the order of drawing
 };
 
 /// The interval of the median of ratios, one of each round. Throws `Error` without ratios or if one is not a finite
 /// number above zero.
 [[nodiscard]] RatioInterval ratio_interval(std::span<const double> ratios);
-
-/// The ratio of the medians of two times that were not measured in turn, such as times of two runs. Its interval comes
-/// from the bootstrap, which draws the rounds of either separately; `rounds` is the smaller number of rounds.
-/// Whatever else slowed the machine during one of the runs is in the ratio. Throws `Error` without times or if one is
-/// not a finite number above zero.
-[[nodiscard]] RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others);
 
 /// Measurements round by round, as tables show them: the median with its interval, and the rounds; empty without
 /// them.

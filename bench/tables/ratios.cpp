@@ -119,8 +119,7 @@ std::optional<double> cost_at_error(const std::vector<ErrorCostPoint>& points, d
 
 CostRatios cost_ratios(const Row& row, const Selection& others, const Cost& cost, const std::string& error_column,
                        double same_log_error) {
-  CostRatios ratios{.at_equal_intervals = ratio(cost(row), cost(others.matching(row, {"intervals"}).front())),
-                    .at_equal_accuracy = std::nullopt};
+  CostRatios ratios{.at_equal_intervals = ratio(cost(row), cost(others.matching(row, {"intervals"}).front()))};
   const double error = row.number(error_column, 0.0);
   if (error > 0.0) {
     const auto points = error_cost_points(others, error_column, cost);
@@ -171,8 +170,7 @@ Table currency_ratios(const Selection& iterations) {
           ComparedCost& cost = costs.emplace_back(
               ComparedCost{.head = row,
                            .name = currency.name,
-                           .ratios = cost_ratios(row, others, cost_in(currency.column), "replay_error"),
-                           .rounds = {}});
+                           .ratios = cost_ratios(row, others, cost_in(currency.column), "replay_error")});
           if (currency.column == std::string_view("seconds")) {
             const Row& on_same_grid = others.matching(row, {"intervals"}).front();
             cost.rounds =

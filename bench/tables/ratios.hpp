@@ -33,7 +33,7 @@ using Cost = std::function<std::optional<double>(const Row&)>;
 /// The cost of a row relative to others on the same number of intervals, and where their error is the same.
 struct CostRatios {
   std::optional<double> at_equal_intervals;
-  std::optional<double> at_equal_accuracy;
+  std::optional<double> at_equal_accuracy = {};
 };
 [[nodiscard]] CostRatios cost_ratios(const Row& row, const Selection& others, const Cost& cost,
                                      const std::string& error_column, double same_log_error = 0.0);
@@ -43,7 +43,7 @@ struct ComparedCost {
   Row head;
   std::string name;  ///< of the compared cost
   CostRatios ratios;
-  MedianOfRounds rounds;  ///< of the ratio at equal intervals
+  MedianOfRounds rounds = {};  ///< of the ratio at equal intervals
 };
 
 /// The columns of a table of compared costs: the head's, `name`, and the ratios.

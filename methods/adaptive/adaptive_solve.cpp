@@ -190,7 +190,7 @@ class AdaptiveRun {
       }
     }
     if (is_finer_than_before_) return error_by_comparison(program, earlier, answer_.trajectory);
-    ErrorEstimate unknown{.q = {}, .p = {}, .psi_q = {}, .psi_p = {}, .defects = {}};
+    ErrorEstimate unknown;
     unknown.relative = std::numeric_limits<double>::infinity();
     return unknown;
   }
@@ -360,8 +360,8 @@ double AdaptiveOptions::solver_tolerance(double tolerance) const {
 void AdaptiveOptions::validate() const {
   const bool is_allowed = accuracy >= finest && accuracy <= coarsest;
   if (!is_allowed) {
-    throw Error(fmt::format("the accuracy must lie between {:g} and {:g}, got {:g}; double precision has 16 digits",
-                            finest, coarsest, accuracy));
+    throw Error("the accuracy must lie between {:g} and {:g}, got {:g}; double precision has 16 digits", finest,
+                coarsest, accuracy);
   }
   if (!(largest_ratio > 1.0)) throw Error("the largest ratio of neighbouring step sizes must be greater than 1");
 }

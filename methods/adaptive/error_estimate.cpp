@@ -113,14 +113,6 @@ Perturbation perturbation_of(const Misses& misses, NodeState family, LocalValues
   return result;
 }
 
-/// A column per component of a block of the nodes.
-template <class Kind>
-Eigen::MatrixXd node_columns(const Eigen::VectorXd& from, Eigen::Index nodes, const Block<Kind>& block) {
-  Eigen::MatrixXd columns(nodes, block.width);
-  for (Eigen::Index i = 0; i < block.width; ++i) columns.col(i) = from.segment(block.index(i), nodes);
-  return columns;
-}
-
 /// Row k of `first` for node k, and one more below.
 Eigen::MatrixXd with_last(const Eigen::MatrixXd& first, const Eigen::RowVectorXd& last) {
   Eigen::MatrixXd rows(first.rows() + 1, first.cols());
@@ -194,14 +186,14 @@ NodeErrors errors_at_nodes(const Transcription& program, const IntervalCondition
     return with_last(change.unknowns.middleCols(left, n), -change.unknowns.row(last).segment(right, n) -
                                                               perturbation.jumps.unknowns.row(last).segment(right, n));
   };
-  const Eigen::MatrixXd q = node_columns(step.primal, nodes, blocks.unknown(Quantity::configuration));
+  const Eigen::MatrixXd q = blocks.unknown(Quantity::configuration).columns(step.primal, nodes);
   if (family == NodeState::configuration) {
     return {
         {q, with_last(-change.rows.leftCols(n), change.rows.row(last).segment(n, n) + misses.in_momenta.p.row(last)),
-         costate(0, n), node_columns(step.multipliers, nodes, blocks.row(Equation::euler_lagrange))},
+         costate(0, n), blocks.row(Equation::euler_lagrange).columns(step.multipliers, nodes)},
         {}};
   }
-  const Eigen::MatrixXd second = node_columns(step.primal, nodes, blocks.unknown(Quantity::second));
+  const Eigen::MatrixXd second = blocks.unknown(Quantity::second).columns(step.primal, nodes);
   const Eigen::MatrixXd first_costate = costate(0, 2 * n);
   const Eigen::MatrixXd second_costate = costate(n, 3 * n);
   if (family == NodeState::momentum) return {{q, second, first_costate, second_costate}, {}};
@@ -252,10 +244,7 @@ ErrorEstimate error_by_comparison(const Transcription& program, const Trajectory
   };
   ErrorEstimate estimate{.q = at_earlier_nodes(later.q) - earlier.q,
                          .p = at_earlier_nodes(later.p) - earlier.p,
-                         .psi_q = {},
-                         .psi_p = {},
-                         .objective = later.cost - earlier.cost,
-                         .defects = {}};
+                         .objective = later.cost - earlier.cost};
   const double horizon = later.node_times[later.intervals()];
   const double of_horizon = std::abs(horizon - earlier.node_times[earlier.intervals()]) / horizon;
   const double of_motion = relative_size(later, estimate.q, estimate.p, estimate.objective, program.cost_scale());
@@ -281,7 +270,7 @@ ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::Vect
   }
   const LinearisedConditions at(program, primal, multipliers);
   require_smooth_optimum(program, at);
-  ErrorEstimate estimate{.q = {}, .p = {}, .psi_q = {}, .psi_p = {}, .defects = {}};
+  ErrorEstimate estimate;
   estimate.floor = rounding_floor(program, motion);
   const ReplayedIntervals replay = replayed(flow_, coordinates_, motion, cost_scale_);
   estimate.defects = defects_of(replay, motion, cost_scale_);

@@ -10,11 +10,11 @@ namespace dmocbench {
 
 /// The estimated difference between the optimal motion and the answer of a program: optimum minus answer.
 struct ErrorEstimate {
-  Eigen::MatrixXd q;       ///< at the nodes, (N + 1) × n
-  Eigen::MatrixXd p;       ///< (N + 1) × n
-  Eigen::MatrixXd psi_q;   ///< (N + 1) × n, of the true cost
-  Eigen::MatrixXd psi_p;   ///< (N + 1) × n
-  double objective = 0.0;  ///< of the true cost
+  Eigen::MatrixXd q = {};      ///< at the nodes, (N + 1) × n
+  Eigen::MatrixXd p = {};      ///< (N + 1) × n
+  Eigen::MatrixXd psi_q = {};  ///< (N + 1) × n, of the true cost
+  Eigen::MatrixXd psi_p = {};  ///< (N + 1) × n
+  double objective = 0.0;      ///< of the true cost
   /// The largest |δq_k| / range of q, |δp_k| / range of p and |δJ| / |J|. Norms are Euclidean, the range of q is the
   /// norm of the differences between the largest and the smallest value of each component; a q or p that is constant
   /// up to rounding counts by its size, or 1.
@@ -24,7 +24,7 @@ struct ErrorEstimate {
   double floor = 0.0;
   /// Per interval how far the optimal flow, started at its first node, misses the next one: the largest of state and
   /// costate, each relative to its range. Of order h^(r + 1) for a method of order r.
-  Eigen::VectorXd defects;
+  Eigen::VectorXd defects = {};
 };
 
 /// The largest |δq_k| / range of q, |δp_k| / range of p and |δJ| / |J| of differences from an answer, as

@@ -152,20 +152,14 @@ ExtremalFlow::CarriedNodes ExtremalFlow::carry(const ExtremalStates& nodes, cons
 }
 
 ExtremalCoordinates::ExtremalCoordinates(const TracedProblem& problem, double cost_scale)
-    : n_(problem.configuration_size()),
-      cost_scale_(cost_scale),
-      transform_(transform_of(problem)),
-      memory_(transform_) {}
+    : n_(problem.configuration_size()), cost_scale_(cost_scale), transform_(transform_of(problem)) {}
 
 void ExtremalCoordinates::evaluate(const Eigen::MatrixXd& q, const Eigen::MatrixXd& v, const Eigen::VectorXd& times) {
   std::vector<Tape::Input> inputs;
   for (Eigen::Index i = 0; i < n_; ++i) inputs.push_back({q.col(i).data()});
   for (Eigen::Index i = 0; i < n_; ++i) inputs.push_back({v.col(i).data()});
   inputs.push_back({times.data()});
-  values_.resize(q.rows(), n_ + 2 * n_ * n_);
-  std::vector<double*> outputs;
-  for (Eigen::Index i = 0; i < values_.cols(); ++i) outputs.push_back(values_.col(i).data());
-  transform_.evaluate(static_cast<std::size_t>(q.rows()), inputs, outputs, memory_);
+  values_ = transform_.table(q.rows(), inputs);
 }
 
 /// L_vv (0) or L_vq (1).

@@ -91,7 +91,6 @@ class ExtremalCoordinates {
   Eigen::Index n_;
   double cost_scale_;
   Tape transform_;
-  Tape::Workspace memory_;
   Eigen::MatrixXd values_;
 };
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -78,7 +76,7 @@ Grid graded_grid(const Grid& grid, const Eigen::VectorXd& wished, double largest
   const Eigen::VectorXd numbers = node_numbers(width);
   const double all = numbers[numbers.size() - 1];
   if (!(all <= static_cast<double>(Grid::most_intervals))) {
-    throw Error(fmt::format("the interval widths need {:g} intervals, more than a grid can have", all));
+    throw Error("the interval widths need {:g} intervals, more than a grid can have", all);
   }
   const auto intervals = std::max<Eigen::Index>(static_cast<Eigen::Index>(std::ceil(all - 1e-9)), 1);
   Eigen::VectorXd nodes(intervals + 1);

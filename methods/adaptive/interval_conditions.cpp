@@ -7,21 +7,17 @@ namespace dmocbench {
 
 namespace {
 
-Eigen::Index at(const std::vector<SeriesPlace>& places, Eigen::Index local, Eigen::Index interval) {
-  return static_cast<Eigen::Index>(places[static_cast<std::size_t>(local)].at(static_cast<std::size_t>(interval)));
-}
-
 Eigen::MatrixXd gathered(const std::vector<SeriesPlace>& places, Eigen::Index intervals, const Eigen::VectorXd& from) {
   Eigen::MatrixXd table(intervals, static_cast<Eigen::Index>(places.size()));
   for (Eigen::Index j = 0; j < table.cols(); ++j) {
-    for (Eigen::Index k = 0; k < intervals; ++k) table(k, j) = from[at(places, j, k)];
+    for (Eigen::Index k = 0; k < intervals; ++k) table(k, j) = from[index_of(places, j, k)];
   }
   return table;
 }
 
 void scatter(const std::vector<SeriesPlace>& places, const Eigen::MatrixXd& table, Eigen::VectorXd& to) {
   for (Eigen::Index j = 0; j < table.cols(); ++j) {
-    for (Eigen::Index k = 0; k < table.rows(); ++k) to[at(places, j, k)] += table(k, j);
+    for (Eigen::Index k = 0; k < table.rows(); ++k) to[index_of(places, j, k)] += table(k, j);
   }
 }
 
@@ -41,22 +37,14 @@ LocalValues IntervalConditions::zero() const {
 
 LocalValues IntervalConditions::times(const LocalValues& direction) const {
   LocalValues result = zero();
-  const LocalMatrix& hessian = program_.functions().hessian;
-  for (std::size_t e = 0; e < hessian.rows.size(); ++e) {
-    const auto i = static_cast<Eigen::Index>(hessian.rows[e]);
-    const auto j = static_cast<Eigen::Index>(hessian.columns[e]);
-    const auto entries = hessians_.col(static_cast<Eigen::Index>(e)).array();
-    result.unknowns.col(i).array() += entries * direction.unknowns.col(j).array();
-    if (i != j) result.unknowns.col(j).array() += entries * direction.unknowns.col(i).array();
-  }
-  const LocalMatrix& jacobian = program_.functions().jacobian;
-  for (std::size_t e = 0; e < jacobian.rows.size(); ++e) {
-    const auto i = static_cast<Eigen::Index>(jacobian.rows[e]);
-    const auto j = static_cast<Eigen::Index>(jacobian.columns[e]);
-    const auto entries = jacobians_.col(static_cast<Eigen::Index>(e)).array();
-    result.rows.col(i).array() += entries * direction.unknowns.col(j).array();
-    result.unknowns.col(j).array() += entries * direction.rows.col(i).array();
-  }
+  program_.functions().hessian.for_each([&](Eigen::Index e, Eigen::Index i, Eigen::Index j) {
+    result.unknowns.col(i).array() += hessians_.col(e).array() * direction.unknowns.col(j).array();
+    if (i != j) result.unknowns.col(j).array() += hessians_.col(e).array() * direction.unknowns.col(i).array();
+  });
+  program_.functions().jacobian.for_each([&](Eigen::Index e, Eigen::Index i, Eigen::Index j) {
+    result.rows.col(i).array() += jacobians_.col(e).array() * direction.unknowns.col(j).array();
+    result.unknowns.col(j).array() += jacobians_.col(e).array() * direction.rows.col(i).array();
+  });
   return result;
 }
 

@@ -23,22 +23,21 @@ class AdjointEquations {
       : n_(problem.configuration_size()),
         m_(problem.control_size()),
         l_(problem.first_order_size()),
-        function_(
-            n_, m_,
-            [&](const ControlledState& x) {
-              const TracedProblem::Values values = problem.at(x);
-              Expression cost = values.running_cost;
-              for (Eigen::Index i = 0; i < prices.size(); ++i) cost -= Expression(prices[i]) * values.integrands[i];
-              ExpressionVector all(1 + n_ + l_);  // what ψ is multiplied by in G, after C
-              all << cost, values.generalised_force, values.first_order_rates;
-              ExpressionVector point(2 * n_ + m_ + l_);
-              point << x.q, x.v, x.u, x.y;
-              ExpressionVector outputs(all.size() * point.size() + n_ * (2 * n_ + l_));
-              outputs << jacobian(all, point).reshaped(), values.mass.reshaped(),
-                  values.momentum_by_configuration.reshaped(), values.momentum_by_first_order.reshaped();
-              return outputs;
-            },
-            l_),
+        function_(problem,
+                  [&](const ControlledState& x) {
+                    const TracedProblem::Values values = problem.at(x);
+                    Expression cost = values.running_cost;
+                    for (Eigen::Index i = 0; i < prices.size(); ++i)
+                      cost -= Expression(prices[i]) * values.integrands[i];
+                    ExpressionVector all(1 + n_ + l_);  // what ψ is multiplied by in G, after C
+                    all << cost, values.generalised_force, values.first_order_rates;
+                    ExpressionVector point(2 * n_ + m_ + l_);
+                    point << x.q, x.v, x.u, x.y;
+                    ExpressionVector outputs(all.size() * point.size() + n_ * (2 * n_ + l_));
+                    outputs << jacobian(all, point).reshaped(), values.mass.reshaped(),
+                        values.momentum_by_configuration.reshaped(), values.momentum_by_first_order.reshaped();
+                    return outputs;
+                  }),
         values_(function_.output_count()) {}
 
   struct Values {
@@ -142,8 +141,7 @@ AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& traje
   }
   const HalfResidual q = half_residual(trajectory.psi_q, trajectory.stage_psi_q, rates_q, coefficients.a_q, tableau.b);
   const HalfResidual p = half_residual(trajectory.psi_p, trajectory.stage_psi_p, rates_p, coefficients.a_p, tableau.b);
-  AdjointResidual residual{
-      .step_q = q.step, .step_p = p.step, .stage_q = q.stage, .stage_p = p.stage, .control = std::nullopt};
+  AdjointResidual residual{.step_q = q.step, .step_p = p.step, .stage_q = q.stage, .stage_p = p.stage};
   if (rates_y.size() > 0) {
     const HalfResidual y =
         half_residual(trajectory.psi_y, trajectory.stage_psi_y, rates_y, coefficients.a_q, tableau.b);

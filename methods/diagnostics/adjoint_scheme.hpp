@@ -33,7 +33,7 @@ struct AdjointResidual {
   /// H_u = C_u + f_uᵀΨ^p_i + g_uᵀΨ^y_i (eq:DMOC_adjoint5) relative to the largest |C_u|, or to the largest |ψ^p| where
   /// C does not depend on u; none where intervals share controls, which are then stationary for the sum of two stages
   /// only.
-  std::optional<double> control;
+  std::optional<double> control = {};
 
   /// The largest of all entries.
   [[nodiscard]] double largest() const;

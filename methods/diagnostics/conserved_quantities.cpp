@@ -38,9 +38,7 @@ struct AlongSymmetry {
 };
 
 AlongSymmetry along_symmetry(const TracedProblem& traced, const Trajectory& trajectory) {
-  PointFunction generator(
-      traced.configuration_size(), traced.control_size(),
-      [&](const ControlledState& x) { return traced.at(x).symmetry; }, traced.first_order_size());
+  PointFunction generator(traced, [&](const ControlledState& x) { return traced.at(x).symmetry; });
   const Eigen::Index intervals = trajectory.intervals();
   AlongSymmetry result{Eigen::VectorXd(intervals + 1), Eigen::VectorXd::Zero(intervals)};
   const bool has_impulses = trajectory.left_impulses.size() > 0;
@@ -92,15 +90,12 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
     throw Error(problem.name() + " defines no symmetry, so it has no conserved momentum");
   }
   if (const PhasedProblem* const phased = problem.phased()) return consistency_of_phases(*phased, trajectory);
-  PointFunction force_along(
-      traced.configuration_size(), traced.control_size(),
-      [&](const ControlledState& x) {
-        const TracedProblem::Values values = traced.at(x);
-        const ExpressionVector transport = values.symmetry_jacobian * x.v;
-        const Expression work = values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport);
-        return stacked({ExpressionVector::Constant(1, work), values.symmetry});
-      },
-      traced.first_order_size());
+  PointFunction force_along(traced, [&](const ControlledState& x) {
+    const TracedProblem::Values values = traced.at(x);
+    const ExpressionVector transport = values.symmetry_jacobian * x.v;
+    const Expression work = values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport);
+    return stacked({ExpressionVector::Constant(1, work), values.symmetry});
+  });
 
   const auto [momentum, impulses] = along_symmetry(traced, trajectory);
   MomentumConsistency result;
@@ -204,16 +199,13 @@ Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& tr
   const TracedProblem traced(problem);
   const Eigen::Index n = traced.configuration_size();
   const Eigen::Index l = traced.first_order_size();
-  PointFunction rates(
-      n, traced.control_size(),
-      [&](const ControlledState& x) {  // C, then ṗ, then ẏ
-        const TracedProblem::Values values = traced.at(x);
-        ExpressionVector outputs(1 + n + l);
-        outputs << values.running_cost + priced_integrals(values, trajectory), values.generalised_force,
-            values.first_order_rates;
-        return outputs;
-      },
-      l);
+  PointFunction rates(traced, [&](const ControlledState& x) {  // C, then ṗ, then ẏ
+    const TracedProblem::Values values = traced.at(x);
+    ExpressionVector outputs(1 + n + l);
+    outputs << values.running_cost + priced_integrals(values, trajectory), values.generalised_force,
+        values.first_order_rates;
+    return outputs;
+  });
   Eigen::VectorXd hamiltonian(trajectory.node_times.size());
   Eigen::VectorXd outputs(1 + n + l);
   for (Eigen::Index k = 0; k < hamiltonian.size(); ++k) {
@@ -234,15 +226,11 @@ double free_horizon_residual(const Problem& problem, const Trajectory& trajector
   const Eigen::VectorXd hamiltonian = control_hamiltonian(problem, trajectory);
   const TracedProblem traced(problem);
   const Eigen::Index n = traced.configuration_size();
-  PointFunction end_rates(
-      n, traced.control_size(),
-      [&](const ControlledState& x) {  // ∂Φ/∂T at given v, then L_vt
-        ExpressionVector rates(1 + n);
-        rates << gradient(problem.final_cost(x.state()), ExpressionVector::Constant(1, x.t)),
-            traced.at(x).momentum_by_time;
-        return rates;
-      },
-      traced.first_order_size());
+  PointFunction end_rates(traced, [&](const ControlledState& x) {  // ∂Φ/∂T at given v, then L_vt
+    ExpressionVector rates(1 + n);
+    rates << gradient(problem.final_cost(x.state()), ExpressionVector::Constant(1, x.t)), traced.at(x).momentum_by_time;
+    return rates;
+  });
   const Eigen::Index last = trajectory.intervals();
   Eigen::VectorXd rates(1 + n);
   end_rates.evaluate(trajectory.node(last), trajectory.node_times[last], rates);

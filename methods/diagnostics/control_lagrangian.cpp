@@ -94,14 +94,6 @@ Eigen::MatrixXd multipliers_at_nodes(const TracedProblem& problem, const Traject
   return xi;
 }
 
-/// Series of a block of rows or unknowns, a row per member.
-template <class Kind>
-Eigen::MatrixXd members_of(const Block<Kind>& block, const Eigen::VectorXd& values) {
-  Eigen::MatrixXd series(static_cast<Eigen::Index>(block.length), block.width);
-  for (Eigen::Index i = 0; i < block.width; ++i) series.col(i) = values.segment(block.index(i), series.rows());
-  return series;
-}
-
 double relative(double residual, double scale) { return scale > 0.0 ? residual / scale : residual; }
 
 }  // namespace
@@ -183,7 +175,8 @@ GalerkinForm galerkin_form(Transcription& program, const Eigen::VectorXd& x, con
     return outputs;
   });
   const Trajectory trajectory = read_trajectory(program, x, {});
-  const Eigen::MatrixXd at_nodes = members_of(blocks.row(Equation::euler_lagrange), multipliers);
+  const Eigen::MatrixXd at_nodes =
+      blocks.row(Equation::euler_lagrange).columns(multipliers, trajectory.intervals() + 1);
   const Eigen::MatrixXd integrals = integrals_to(quadrature.c, rates);
   Eigen::VectorXd residual(static_cast<Eigen::Index>(program.constraint_count()));
   program.constraints(x, residual);
@@ -196,7 +189,8 @@ GalerkinForm galerkin_form(Transcription& program, const Eigen::VectorXd& x, con
     if (path == MultiplierPath::polynomial) {
       Eigen::VectorXd last = straight;
       for (Eigen::Index j = 0; j + 1 < rates.stages(); ++j) {
-        const Eigen::MatrixXd own = members_of(blocks.row(Equation::euler_lagrange, j), multipliers);
+        const Eigen::MatrixXd own =
+            blocks.row(Equation::euler_lagrange, j).columns(multipliers, trajectory.intervals());
         rates_of_xi.col(j) = own.row(k).transpose() / (h * rates.b[j]);
         last -= rates.b[j] * rates_of_xi.col(j);
       }

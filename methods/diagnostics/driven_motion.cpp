@@ -1,7 +1,5 @@
 #include "methods/diagnostics/driven_motion.hpp"
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 
@@ -14,11 +12,10 @@ DrivenMotion::DrivenMotion(const Problem& problem, double tolerance)
       traced_(problem),
       motion_(traced_),
       running_cost_(
-          n_, problem.control_size(),
-          [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced_.at(x).running_cost); }, l_),
-      final_cost_(
-          n_, problem.control_size(),
-          [&](const ControlledState& x) { return ExpressionVector::Constant(1, problem.final_cost(x.state())); }, l_) {
+          problem, [&](const ControlledState& x) { return ExpressionVector::Constant(1, traced_.at(x).running_cost); }),
+      final_cost_(problem, [&](const ControlledState& x) {
+        return ExpressionVector::Constant(1, problem.final_cost(x.state()));
+      }) {
   if (traced_.constraint_count() > 0) constraints_.emplace(traced_);
 }
 
@@ -40,10 +37,10 @@ void DrivenMotion::carry(const Control& control, double from, double to) {
     derivative.back() = cost_[0];
   };
   if (!integrate(equations, state_, from, to, to - from, tolerance_)) {
-    throw Error(fmt::format("the step size of the exact motion vanished between t = {} and {}", from, to));
+    throw Error("the step size of the exact motion vanished between t = {} and {}", from, to);
   }
   if (!Eigen::Map<const Eigen::VectorXd>(state_.data(), std::ssize(state_)).allFinite()) {
-    throw Error(fmt::format("the exact motion left the domain of its equations between t = {} and {}", from, to));
+    throw Error("the exact motion left the domain of its equations between t = {} and {}", from, to);
   }
   if (constraints_) {
     constraints_->project(Eigen::Map<Eigen::VectorXd>(state_.data(), n_),

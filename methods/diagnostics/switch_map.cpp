@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <Eigen/QR>
-#include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
@@ -83,8 +82,8 @@ BoundaryState SwitchMap::after(const BoundaryState& before, double time, const B
     const Eigen::Index n = start.q.size();
     return {.q = x.head(n), .v = x.segment(n, n), .y = x.segment(2 * n, start.y.size())};
   }
-  throw Error(fmt::format(
-      "Newton's method did not solve the conditions of a switch for the state after it within {} steps", most_steps));
+  throw Error("Newton's method did not solve the conditions of a switch for the state after it within {} steps",
+              most_steps);
 }
 
 }  // namespace dmocbench

@@ -15,9 +15,7 @@ double largest_distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& re
 
 StageError stage_error(const Trajectory& trajectory, const Trajectory& reference) {
   StageError error{.configuration = largest_distance(trajectory.stage_q, reference.stage_q),
-                   .momentum = largest_distance(trajectory.stage_p, reference.stage_p),
-                   .costate_q = {},
-                   .costate_p = {}};
+                   .momentum = largest_distance(trajectory.stage_p, reference.stage_p)};
   if (trajectory.stage_psi_q.rows() > 0 && reference.stage_psi_q.rows() > 0) {
     error.costate_q = largest_distance(trajectory.stage_psi_q, reference.stage_psi_q);
     error.costate_p = largest_distance(trajectory.stage_psi_p, reference.stage_psi_p);

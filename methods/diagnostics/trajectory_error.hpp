@@ -8,10 +8,10 @@ namespace dmocbench {
 
 /// Largest differences at the stages, Euclidean norm.
 struct StageError {
-  double configuration = 0.0;       ///< of Q_i
-  double momentum = 0.0;            ///< of P_i
-  std::optional<double> costate_q;  ///< of Ψ^q_i; none without multipliers
-  std::optional<double> costate_p;  ///< of Ψ^p_i
+  double configuration = 0.0;            ///< of Q_i
+  double momentum = 0.0;                 ///< of P_i
+  std::optional<double> costate_q = {};  ///< of Ψ^q_i; none without multipliers
+  std::optional<double> costate_p = {};  ///< of Ψ^p_i
 };
 
 /// Largest differences between a trajectory and a reference, Euclidean norm as in section 4.2 of the paper.

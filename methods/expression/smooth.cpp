@@ -1,7 +1,5 @@
 #include "methods/expression/smooth.hpp"
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -10,7 +8,7 @@ namespace {
 
 void require_width(double eps, const char* function) {
   if (eps > 0.0) return;
-  throw Error(fmt::format("{} needs a transition width eps > 0, got {:g}", function, eps));
+  throw Error("{} needs a transition width eps > 0, got {:g}", function, eps);
 }
 
 Expression rounded_magnitude(const Expression& x, double eps) { return sqrt(x * x + eps * eps); }

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -14,14 +12,14 @@ namespace {
 
 void require_table(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() != y.size()) {
-    throw Error(fmt::format("the table of a spline has {} x values but {} y values; their numbers must be equal",
-                            x.size(), y.size()));
+    throw Error("the table of a spline has {} x values but {} y values; their numbers must be equal", x.size(),
+                y.size());
   }
-  if (x.size() < 2) throw Error(fmt::format("the table of a spline needs at least two points, got {}", x.size()));
+  if (x.size() < 2) throw Error("the table of a spline needs at least two points, got {}", x.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (std::isfinite(x[i]) && std::isfinite(y[i]) && (i == 0 || x[i] > x[i - 1])) continue;
-    throw Error(fmt::format("the x values of a spline must be finite and increasing, but point {} is ({:g}, {:g})",
-                            i + 1, x[i], y[i]));
+    throw Error("the x values of a spline must be finite and increasing, but point {} is ({:g}, {:g})", i + 1, x[i],
+                y[i]);
   }
 }
 

@@ -7,8 +7,6 @@
 #include <string>
 #include <unordered_map>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/expression/tape_kernel.hpp"
 
@@ -144,11 +142,7 @@ std::vector<CompoundStep> compound_steps(const Schedule& schedule) { return Comp
 
 namespace {
 
-#ifdef DMOCBENCH_X86_KERNELS
-constexpr std::array kernels{run_tape_baseline, run_tape_avx2, run_tape_avx512};
-#else
-constexpr std::array kernels{run_tape_baseline};
-#endif
+constexpr std::array kernels{DMOCBENCH_VERSIONS(run_tape)};
 
 std::uint64_t next_serial() {
   static std::atomic<std::uint64_t> last{0};
@@ -265,12 +259,10 @@ Tape::Workspace::Workspace(const Tape& tape)
 void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                     Workspace& workspace) const {
   if (inputs.size() < input_count_ || outputs.size() < output_count_) {
-    throw Error(fmt::format("a tape with {} inputs and {} outputs got {} inputs and {} outputs", input_count_,
-                            output_count_, inputs.size(), outputs.size()));
+    throw Error("a tape with {} inputs and {} outputs got {} inputs and {} outputs", input_count_, output_count_,
+                inputs.size(), outputs.size());
   }
-  if (workspace.serial_ != serial_) {
-    throw Error("this workspace was created for another tape");
-  }
+  if (workspace.serial_ != serial_) throw Error("this workspace was created for another tape");
   if (begin >= end) return;
   // An input that is the same for all intervals fills a series of the workspace once.
   for (const ReadInput& input : read_inputs_) {
@@ -285,6 +277,15 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
     const std::size_t width = std::min(block_width, end - first);
     kernel(instructions_.data(), instructions_.size(), workspace.series_.data(), width);
   }
+}
+
+Eigen::MatrixXd Tape::table(Eigen::Index count, std::span<const Input> inputs) const {
+  Eigen::MatrixXd values(count, static_cast<Eigen::Index>(output_count_));
+  std::vector<double*> outputs;
+  for (auto column : values.colwise()) outputs.push_back(column.data());
+  Workspace workspace(*this);
+  evaluate(static_cast<std::size_t>(count), inputs, outputs, workspace);
+  return values;
 }
 
 void Tape::point_to_block(std::size_t first, std::span<const Input> inputs, std::span<double* const> outputs,

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "methods/expression/schedule.hpp"
 #include "methods/expression/tape_kernel.hpp"
 #include "methods/runtime/instruction_set.hpp"
@@ -90,6 +92,9 @@ class Tape {
   /// Evaluates intervals `begin` to `end` - 1: output j of interval k goes to `outputs`[j][k].
   void evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                 Workspace& workspace) const;
+
+  /// All outputs of intervals 0 to count - 1, a column each. Allocates its own workspace; throws likewise.
+  [[nodiscard]] Eigen::MatrixXd table(Eigen::Index count, std::span<const Input> inputs) const;
 
   /// Inputs that the formulas may read.
   [[nodiscard]] std::size_t input_count() const noexcept { return input_count_; }

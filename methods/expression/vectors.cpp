@@ -1,7 +1,5 @@
 #include "methods/expression/vectors.hpp"
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 
@@ -10,15 +8,15 @@ namespace dmocbench::detail {
 void require_factors(Eigen::Index rows, Eigen::Index columns, Eigen::Index other_rows, Eigen::Index other_columns) {
   if (columns == other_rows) return;
   throw Error(
-      fmt::format("cannot multiply a {} x {} matrix by a {} x {} matrix: the number of columns of the left factor must "
-                  "equal the number of rows of the right factor",
-                  rows, columns, other_rows, other_columns));
+      "cannot multiply a {} x {} matrix by a {} x {} matrix: the number of columns of the left factor must "
+      "equal the number of rows of the right factor",
+      rows, columns, other_rows, other_columns);
 }
 
 void throw_no_entry(char name, Eigen::Index entry, Eigen::Index size) {
-  if (size == 0) throw Error(fmt::format("a formula reads {}[{}], but {} has no entries", name, entry, name));
-  throw Error(fmt::format("a formula reads {}[{}], but {} has {}, the last of which is {}[{}]", name, entry, name,
-                          counted(size, "entry", "entries"), name, size - 1));
+  if (size == 0) throw Error("a formula reads {}[{}], but {} has no entries", name, entry, name);
+  throw Error("a formula reads {}[{}], but {} has {}, the last of which is {}[{}]", name, entry, name,
+              counted(size, "entry", "entries"), name, size - 1);
 }
 
 }  // namespace dmocbench::detail

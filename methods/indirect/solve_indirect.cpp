@@ -5,8 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
@@ -121,7 +119,7 @@ IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
     }
     if (agreement.worst() <= options.tolerance) break;
   }
-  if (!best) throw Error(fmt::format("the indirect method needs at least {} intervals", options.fewest_intervals));
+  if (!best) throw Error("the indirect method needs at least {} intervals", options.fewest_intervals);
   return *std::move(best);
 }
 
@@ -157,7 +155,8 @@ double boundary_value_residual(const Problem& problem, const IndirectSolution& s
   return largest;
 }
 
-double shooting_defect(const Problem& problem, const IndirectSolution& solution, double tolerance) {
+double shooting_defect(const Problem& problem, const IndirectSolution& solution) {
+  constexpr double tolerance = 1e-14;  // absolute and relative
   using Extremal = std::vector<double>;
   const PontryaginFunction function(problem);
   const CollocatedExtremal& extremal = solution.extremal();
@@ -172,7 +171,7 @@ double shooting_defect(const Problem& problem, const IndirectSolution& solution,
     };
     Extremal y(extremal.nodes.col(k).begin(), extremal.nodes.col(k).end());
     if (!integrate(equations, y, times[k], times[k + 1], times[k + 1] - times[k], tolerance)) {
-      throw Error(fmt::format("the step size of the shooting check vanished in interval {}", k));
+      throw Error("the step size of the shooting check vanished in interval {}", k);
     }
     const Eigen::VectorXd mismatch = Eigen::Map<const Eigen::VectorXd>(y.data(), size) - extremal.nodes.col(k + 1);
     largest = std::max(largest, relative_difference(mismatch, extremal.nodes));

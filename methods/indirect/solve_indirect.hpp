@@ -39,8 +39,7 @@ void require_indirect(const Problem& problem);
 /// The distance from the next node at which an adaptive Runge-Kutta method of order 7(8) ends that starts at each node
 /// (q, p, ψ)_k: the largest mismatch, relative to the largest state or costate. It confirms state and costate
 /// independently of collocation. It restarts at every node, because over the whole horizon the equations of an
-/// optimal motion amplify rounding. `tolerance` is absolute and relative. Throws `Error` if a step size vanishes.
-[[nodiscard]] double shooting_defect(const Problem& problem, const IndirectSolution& solution,
-                                     double tolerance = 1e-14);
+/// optimal motion amplify rounding. Throws `Error` if a step size vanishes.
+[[nodiscard]] double shooting_defect(const Problem& problem, const IndirectSolution& solution);
 
 }  // namespace dmocbench

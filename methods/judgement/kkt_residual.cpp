@@ -7,7 +7,6 @@
 
 #include <Eigen/SparseCore>
 #include <Eigen/SparseQR>
-#include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/runtime/long_vectors.hpp"
@@ -18,7 +17,7 @@ namespace {
 
 void require_size(Eigen::Index actual, std::size_t wanted, const char* entries) {
   if (static_cast<std::size_t>(actual) == wanted) return;
-  throw Error(fmt::format("a point of this program has {} {}, got {}", wanted, entries, actual));
+  throw Error("a point of this program has {} {}, got {}", wanted, entries, actual);
 }
 
 /// A vector of `size` entries that `evaluate` writes.

@@ -58,8 +58,6 @@ class NewtonCorrections {
   ~NewtonCorrections();
   NewtonCorrections(const NewtonCorrections&) = delete;
   NewtonCorrections& operator=(const NewtonCorrections&) = delete;
-  NewtonCorrections(NewtonCorrections&&) = delete;
-  NewtonCorrections& operator=(NewtonCorrections&&) = delete;
 
   /// The length of the step from `primal`, see `at` and `length_of_state`; `memory` holds the results of `evaluate_kkt`
   /// at this point. Allocates nothing after the first time unless the sparse factorisation is used.

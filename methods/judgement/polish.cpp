@@ -183,7 +183,8 @@ void tell_of_equal_neighbours(NonlinearProgram& program, double tolerance, Solut
 
 }  // namespace
 
-int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
+int settle(NonlinearProgram& program, double tolerance, Solution& solution) {
+  constexpr int most_steps = 10;
   if (!has_own_multipliers(program, solution)) return 0;
   int steps = 0;
   if (is_unsettled(solution) || is_near(program, tolerance, solution)) {

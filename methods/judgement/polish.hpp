@@ -27,6 +27,6 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps = 5);
 ///
 /// Where its `StopScope` ends it before an answer is confirmed the status becomes "time limit" or "interrupted",
 /// because nothing is known then. Returns the number of steps kept.
-int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps = 10);
+int settle(NonlinearProgram& program, double tolerance, Solution& solution);
 
 }  // namespace dmocbench

@@ -54,8 +54,6 @@ class KktSystem {
   virtual ~KktSystem() = default;
   KktSystem(const KktSystem&) = delete;
   KktSystem& operator=(const KktSystem&) = delete;
-  KktSystem(KktSystem&&) = delete;
-  KktSystem& operator=(KktSystem&&) = delete;
 
   /// Call before the matrices of another solve: forgets the observations of the last one, so that solves do not depend
   /// on each other.

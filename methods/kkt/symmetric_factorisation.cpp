@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <dmumps_c.h>
-#include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -80,8 +79,6 @@ struct SymmetricFactorisation::Mumps {
   ~Mumps() { call_mumps(data, job_end); }
   Mumps(const Mumps&) = delete;
   Mumps& operator=(const Mumps&) = delete;
-  Mumps(Mumps&&) = delete;
-  Mumps& operator=(Mumps&&) = delete;
 
   /// False if the matrix is singular. Where workspace is lacking, tries again with more. If a given order lacks it
   /// again, so many pivots are postponed that the order that MUMPS finds takes less time. In that order about ten times
@@ -96,8 +93,7 @@ struct SymmetricFactorisation::Mumps {
       const bool is_enough = data.icntl[control(14)] >= most_workspace_percent;
       if (is_singular(code) || (lacks_workspace(code) && is_enough)) return false;
       if (lacks_memory(code)) throw std::bad_alloc();
-      if (!lacks_workspace(code))
-        throw Error(fmt::format("MUMPS failed with code {}; the MUMPS manual lists the codes", code));
+      if (!lacks_workspace(code)) throw Error("MUMPS failed with code {}; the MUMPS manual lists the codes", code);
       stop_if_requested();
       if (positions.empty() || data.icntl[control(14)] == more_workspace_percent) {
         data.icntl[control(14)] *= 4;

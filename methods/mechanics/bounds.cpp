@@ -16,6 +16,11 @@ Bounds Bounds::all(Eigen::Index size, double lower, double upper) {
 
 Bounds Bounds::fixed(const Eigen::VectorXd& value) { return {value, value}; }
 
+void Bounds::free(Eigen::Index i) {
+  lower[i] = -infinity;
+  upper[i] = infinity;
+}
+
 bool Bounds::is_bounded(Eigen::Index i) const { return lower[i] > -infinity || upper[i] < infinity; }
 
 bool Bounds::any() const { return (lower.array() > -infinity).any() || (upper.array() < infinity).any(); }
@@ -25,20 +30,17 @@ EndBounds EndBounds::fixed(const BoundaryState& state) {
 }
 
 EndBounds& EndBounds::free_configuration(Eigen::Index i) {
-  q.lower[i] = -infinity;
-  q.upper[i] = infinity;
+  q.free(i);
   return *this;
 }
 
 EndBounds& EndBounds::free_velocity(Eigen::Index i) {
-  v.lower[i] = -infinity;
-  v.upper[i] = infinity;
+  v.free(i);
   return *this;
 }
 
 EndBounds& EndBounds::free_first_order(Eigen::Index i) {
-  y.lower[i] = -infinity;
-  y.upper[i] = infinity;
+  y.free(i);
   return *this;
 }
 

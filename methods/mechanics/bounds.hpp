@@ -21,6 +21,9 @@ struct Bounds {
   /// x = value.
   [[nodiscard]] static Bounds fixed(const Eigen::VectorXd& value);
 
+  /// Removes the bounds of component i.
+  void free(Eigen::Index i);
+
   /// True if nothing is bounded.
   [[nodiscard]] bool empty() const noexcept { return lower.size() == 0 && upper.size() == 0; }
   /// True if component i has only one value.

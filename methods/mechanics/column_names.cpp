@@ -26,9 +26,9 @@ class TakenColumns {
     const bool has_blank = name.starts_with(' ') || name.ends_with(' ');
     if (name.empty() || has_blank || name.find_first_of(",\"") != std::string::npos || has_control_character(name)) {
       throw Error(
-          fmt::format("{}, \"{}\" cannot name a column: it is empty, or has a comma, a quotation mark, a control "
-                      "character, or a leading or trailing blank",
-                      subject_, shown(name)));
+          "{}, \"{}\" cannot name a column: it is empty, or has a comma, a quotation mark, a control "
+          "character, or a leading or trailing blank",
+          subject_, shown(name));
     }
     const auto [other, is_new] = owners_.try_emplace(column, name);
     if (is_new) return;
@@ -36,7 +36,7 @@ class TakenColumns {
     std::string fault = fmt::format("and \"{}\" would both name the column {}", owner, column);
     if (owner.empty()) fault = "is the name of the time column";
     if (owner == name) fault = "is used twice";
-    throw Error(fmt::format("{}, \"{}\" {}; rename one", subject_, name, fault));
+    throw Error("{}, \"{}\" {}; rename one", subject_, name, fault);
   }
 
  private:

@@ -97,8 +97,7 @@ void EmbeddedProblem::trace_embedding() {
   if (q.size() == 0)
     throw Error(redundant_->name() + " does not define embedding(theta); define it or use multipliers");
   if (q.size() != n) {
-    throw Error(
-        fmt::format("{}: embedding has {}, expected {}", redundant_->name(), counted(q.size(), "entry", "entries"), n));
+    throw Error("{}: embedding has {}, expected {}", redundant_->name(), counted(q.size(), "entry", "entries"), n);
   }
   embedding_ = Schedule(q);
   const ExpressionMatrix by_theta = jacobian(q, theta);
@@ -119,9 +118,8 @@ void EmbeddedProblem::require_on_manifold() const {
     const double size = 1.0 + chart_at(theta, t).q.squaredNorm();
     for (Eigen::Index a = 0; a < g.size(); ++a) {
       if (!(std::abs(g[a]) > 1e-10 * size)) continue;  // where Φ is not defined, it is not wrong
-      throw Error(
-          fmt::format("{}: embedding(theta) violates constraints[{}]: g = {:.3g} at theta = ({:.3g}), but must be 0",
-                      redundant_->name(), a, g[a], fmt::join(theta, ", ")));
+      throw Error("{}: embedding(theta) violates constraints[{}]: g = {:.3g} at theta = ({:.3g}), but must be 0",
+                  redundant_->name(), a, g[a], fmt::join(theta, ", "));
     }
   }
 }
@@ -187,22 +185,22 @@ BoundaryState EmbeddedProblem::end_of(const BoundaryState& state, const Eigen::V
                                       const EndBounds& bounds, const char* end) const {
   const auto require_whole = [&](const Bounds& of, const char* what) {
     if (of.all_fixed() || !of.any()) return;
-    throw Error(fmt::format("{}: {} fixes or bounds a part of {}, which an embedding does not support; use multipliers",
-                            redundant_->name(), member_name(end), what));
+    throw Error("{}: {} fixes or bounds a part of {}, which an embedding does not support; use multipliers",
+                redundant_->name(), member_name(end), what);
   };
   require_whole(bounds.q, "q");
   require_whole(bounds.v, "v");
   if (bounds.v.all_fixed() && !bounds.q.all_fixed()) {
-    throw Error(fmt::format("{}: {} fixes v but not q, which an embedding does not support; use multipliers",
-                            redundant_->name(), member_name(end)));
+    throw Error("{}: {} fixes v but not q, which an embedding does not support; use multipliers", redundant_->name(),
+                member_name(end));
   }
   BoundaryState result{.q = theta, .v = rate_of(state.v, theta, t), .y = state.y};
   const BoundaryState reached = lifted(result, t);
   const auto require_near = [&](const Eigen::VectorXd& from, const Eigen::VectorXd& to, const char* what) {
     const double distance = (from - to).norm();
     if (distance <= 1e-9 * (1.0 + to.norm())) return;  // not where it is not a number
-    throw Error(fmt::format("{}: embedding(theta) does not reach {}: the distance in {} is {:.3g}", redundant_->name(),
-                            member_name(end), what, distance));
+    throw Error("{}: embedding(theta) does not reach {}: the distance in {} is {:.3g}", redundant_->name(),
+                member_name(end), what, distance);
   };
   if (bounds.q.all_fixed()) require_near(reached.q, state.q, "q");
   if (bounds.v.all_fixed()) require_near(reached.v, state.v, "v");

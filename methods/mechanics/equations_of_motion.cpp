@@ -10,20 +10,18 @@ EquationsOfMotion::EquationsOfMotion(const TracedProblem& problem)
     : n_(problem.configuration_size()),
       l_(problem.first_order_size()),
       c_(problem.constraint_count()),
-      function_(
-          n_, problem.control_size(),
-          [&](const ControlledState& x) {
-            const TracedProblem::Values values = problem.at(x);
-            ExpressionVector right_hand_side = values.generalised_force - values.momentum_by_time;
-            right_hand_side -= values.momentum_by_configuration * x.v;
-            if (l_ > 0) right_hand_side -= values.momentum_by_first_order * values.first_order_rates;
-            ExpressionVector outputs(n_ + l_ + n_ * n_);
-            outputs << right_hand_side, values.first_order_rates, values.mass.reshaped();
-            if (c_ == 0) return outputs;
-            const TracedProblem::ConstraintValues holonomic = problem.constraints_at(x.q, x.v);
-            return stacked({outputs, -holonomic.curvature, holonomic.jacobian.reshaped()});
-          },
-          l_),
+      function_(problem,
+                [&](const ControlledState& x) {
+                  const TracedProblem::Values values = problem.at(x);
+                  ExpressionVector right_hand_side = values.generalised_force - values.momentum_by_time;
+                  right_hand_side -= values.momentum_by_configuration * x.v;
+                  if (l_ > 0) right_hand_side -= values.momentum_by_first_order * values.first_order_rates;
+                  ExpressionVector outputs(n_ + l_ + n_ * n_);
+                  outputs << right_hand_side, values.first_order_rates, values.mass.reshaped();
+                  if (c_ == 0) return outputs;
+                  const TracedProblem::ConstraintValues holonomic = problem.constraints_at(x.q, x.v);
+                  return stacked({outputs, -holonomic.curvature, holonomic.jacobian.reshaped()});
+                }),
       values_(function_.output_count()) {}
 
 Eigen::VectorXd EquationsOfMotion::acceleration(const Eigen::Ref<const Eigen::VectorXd>& q,

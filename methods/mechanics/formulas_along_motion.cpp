@@ -14,9 +14,7 @@
 namespace dmocbench {
 
 FormulaCheck::FormulaCheck(const Problem& problem, Derivatives up_to)
-    : formulas_(
-          problem.configuration_size(), problem.control_size(),
-          [&](const ControlledState& x) { return trace(problem, x, up_to); }, problem.first_order_size()),
+    : formulas_(problem, [&](const ControlledState& x) { return trace(problem, x, up_to); }),
       values_(formulas_.output_count()) {}
 
 ExpressionVector FormulaCheck::trace(const Problem& problem, const ControlledState& x, Derivatives up_to) {

@@ -11,46 +11,30 @@ namespace dmocbench {
 LegendreTransform::LegendreTransform(const TracedProblem& problem)
     : n_(problem.configuration_size()),
       c_(problem.constraint_count()),
-      function_(
-          n_, problem.control_size(),
-          [&](const ControlledState& x) {
-            const TracedProblem::Values values = problem.at(x);
-            ExpressionVector outputs(n_ + 2 * n_ * n_ + values.momentum_by_first_order.size());
-            outputs << values.momentum, values.mass.reshaped(), values.momentum_by_configuration.reshaped(),
-                values.momentum_by_first_order.reshaped();
-            if (c_ == 0) return outputs;
-            return stacked({outputs, problem.constraints_at(x.q, x.v).jacobian.reshaped()});
-          },
-          problem.first_order_size()),
+      function_(problem,
+                [&](const ControlledState& x) {
+                  const TracedProblem::Values values = problem.at(x);
+                  ExpressionVector outputs(n_ + 2 * n_ * n_ + values.momentum_by_first_order.size());
+                  outputs << values.momentum, values.mass.reshaped(), values.momentum_by_configuration.reshaped(),
+                      values.momentum_by_first_order.reshaped();
+                  if (c_ == 0) return outputs;
+                  return stacked({outputs, problem.constraints_at(x.q, x.v).jacobian.reshaped()});
+                }),
       values_(function_.output_count()) {}
 
-void LegendreTransform::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
-                                 const Eigen::VectorXd& y) {
+LegendreTransform::Values LegendreTransform::at(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                                                const Eigen::VectorXd& y) {
   function_.evaluate(q, v, Eigen::VectorXd(), t, values_, y);
+  const Eigen::Index squared = n_ * n_;
+  return {.momentum = values_.head(n_),
+          .mass = values_.segment(n_, squared).reshaped(n_, n_),
+          .by_configuration = values_.segment(n_ + squared, squared).reshaped(n_, n_),
+          .by_first_order = values_.segment(n_ + 2 * squared, n_ * y.size()).reshaped(n_, y.size())};
 }
 
 Eigen::VectorXd LegendreTransform::momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                                             const Eigen::VectorXd& y) {
-  evaluate(q, v, t, y);
-  return values_.head(n_);
-}
-
-Eigen::MatrixXd LegendreTransform::mass(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
-                                        const Eigen::VectorXd& y) {
-  evaluate(q, v, t, y);
-  return values_.segment(n_, n_ * n_).reshaped(n_, n_);
-}
-
-Eigen::MatrixXd LegendreTransform::momentum_by_configuration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                                             double t, const Eigen::VectorXd& y) {
-  evaluate(q, v, t, y);
-  return values_.segment(n_ + n_ * n_, n_ * n_).reshaped(n_, n_);
-}
-
-Eigen::MatrixXd LegendreTransform::momentum_by_first_order(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
-                                                           const Eigen::VectorXd& y) {
-  evaluate(q, v, t, y);
-  return values_.segment(n_ + 2 * n_ * n_, n_ * y.size()).reshaped(n_, y.size());
+  return at(q, v, t, y).momentum;
 }
 
 std::optional<Eigen::VectorXd> LegendreTransform::velocity_correction(const Eigen::MatrixXd& mass,
@@ -72,9 +56,9 @@ Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eige
   constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
   Eigen::VectorXd v = start;
   for (int step = 0; step < most_steps; ++step) {
-    evaluate(q, v, t, y);
-    const Eigen::VectorXd residual = p - values_.head(n_);
-    const Eigen::MatrixXd mass = values_.segment(n_, n_ * n_).reshaped(n_, n_);
+    const Values values = at(q, v, t, y);
+    const Eigen::VectorXd residual = p - values.momentum;
+    const Eigen::MatrixXd& mass = values.mass;
     const std::optional<Eigen::VectorXd> correction = velocity_correction(mass, residual, v);
     if (!correction) throw Error("the Lagrangian is not regular: L_vv is singular on the trajectory");
     // A residual of rounding size counts as zero, however large a correction an ill-conditioned L_vv makes of it.

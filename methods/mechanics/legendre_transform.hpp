@@ -27,24 +27,21 @@ class LegendreTransform {
   [[nodiscard]] Eigen::VectorXd velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& p, double t,
                                          const Eigen::VectorXd& start, const Eigen::VectorXd& y = {});
 
-  /// L_vv(q, v, t), n × n.
-  [[nodiscard]] Eigen::MatrixXd mass(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
-                                     const Eigen::VectorXd& y = {});
-
-  /// ∂p/∂q = L_vq(q, v, t), n × n, at fixed v.
-  [[nodiscard]] Eigen::MatrixXd momentum_by_configuration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
-                                                          const Eigen::VectorXd& y = {});
-
-  /// ∂p/∂y = L_vy(q, v, t), n × l, at fixed v.
-  [[nodiscard]] Eigen::MatrixXd momentum_by_first_order(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
-                                                        const Eigen::VectorXd& y);
+  /// The momentum and its derivatives at a point.
+  struct Values {
+    Eigen::VectorXd momentum;          ///< p = L_v(q, v, t), n entries
+    Eigen::MatrixXd mass;              ///< ∂p/∂v = L_vv, n × n
+    Eigen::MatrixXd by_configuration;  ///< ∂p/∂q = L_vq at fixed v, n × n
+    Eigen::MatrixXd by_first_order;    ///< ∂p/∂y = L_vy at fixed v, n × l
+  };
+  /// All of them.
+  [[nodiscard]] Values at(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, const Eigen::VectorXd& y = {});
 
  private:
   /// A step of Newton's method.
   [[nodiscard]] std::optional<Eigen::VectorXd> velocity_correction(const Eigen::MatrixXd& mass,
                                                                    const Eigen::VectorXd& residual,
                                                                    const Eigen::VectorXd& v) const;
-  void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t, const Eigen::VectorXd& y);
 
   Eigen::Index n_;
   Eigen::Index c_;

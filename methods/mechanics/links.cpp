@@ -1,7 +1,5 @@
 #include "methods/mechanics/links.hpp"
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/runtime/numbers_in_text.hpp"
 
@@ -11,9 +9,9 @@ namespace {
 
 ExpressionVector difference(const ExpressionVector& after, const ExpressionVector& before, const char* of) {
   if (after.size() == before.size()) return after - before;
-  throw Error(fmt::format(
+  throw Error(
       "the phase before the switch has {} {}, but the phase after it has {}; state the conditions entry by entry",
-      before.size(), of, after.size()));
+      before.size(), of, after.size());
 }
 
 ExpressionVector change_of_q(const PhaseEnd& before, const PhaseEnd& after) {
@@ -45,8 +43,8 @@ ExpressionVector impact(const VectorFormula& guard, const Expression& restitutio
   const ExpressionVector change = change_of_q(before, after);
   const ExpressionVector distance = guard(before.q);
   if (impulse.size() != distance.size()) {
-    throw Error(fmt::format("an impact with {} has {}, but needs one impulse per guard",
-                            counted(distance.size(), "guard"), counted(impulse.size(), "impulse")));
+    throw Error("an impact with {} has {}, but needs one impulse per guard", counted(distance.size(), "guard"),
+                counted(impulse.size(), "impulse"));
   }
   const ExpressionMatrix gradient = jacobian_at(guard, before.q);
   return stacked({change, ExpressionVector(after.p - before.p - gradient.transpose() * impulse), distance,

@@ -5,8 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
@@ -39,12 +37,12 @@ void rethrow_naming(const std::string& name, const char* function) {
     throw;
   } catch (const Error& error) {
     if (std::string_view(error.what()).starts_with(name)) throw;
-    throw Error(fmt::format("{}: {}: {}", name, member_name(function), error.what()));
+    throw Error("{}: {}: {}", name, member_name(function), error.what());
   } catch (const std::exception& error) {
-    throw Error(fmt::format("{}: {} threw an exception: {}", name, member_name(function), error.what()));
+    throw Error("{}: {} threw an exception: {}", name, member_name(function), error.what());
   } catch (...) {
-    throw Error(fmt::format("{}: {} threw an object that is not a std::exception; throw dmocbench::Error", name,
-                            member_name(function)));
+    throw Error("{}: {} threw an object that is not a std::exception; throw dmocbench::Error", name,
+                member_name(function));
   }
 }
 

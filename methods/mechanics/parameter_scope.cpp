@@ -23,7 +23,7 @@ void Parameter::check(double candidate) const {
   const bool in_range = std::isfinite(candidate) && candidate >= lower && candidate <= upper;
   if (in_range && (!whole || candidate == std::trunc(candidate))) return;
   const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
-  throw Error(fmt::format("parameter {} must be {}{}, got {:g}", name, range(), in_unit, candidate));
+  throw Error("parameter {} must be {}{}, got {:g}", name, range(), in_unit, candidate);
 }
 
 namespace {
@@ -37,8 +37,8 @@ ParameterScope*& innermost() {
 Eigen::VectorXd checked(const Problem& problem, Eigen::VectorXd values) {
   const std::vector<Parameter>& parameters = problem.parameters();
   if (static_cast<std::size_t>(values.size()) != parameters.size()) {
-    throw Error(fmt::format("{} has {}, got {}", problem.name(), counted(parameters.size(), "parameter"),
-                            counted(values.size(), "value")));
+    throw Error("{} has {}, got {}", problem.name(), counted(parameters.size(), "parameter"),
+                counted(values.size(), "value"));
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].check(values[static_cast<Eigen::Index>(i)]);
   return values;
@@ -96,14 +96,14 @@ ParameterTrace::ParameterTrace(const Problem& problem, const std::vector<std::st
   for (const std::string& name : names) {
     const std::size_t number = parameter_number(problem, name);
     if (problem.parameters()[number].whole) {
-      throw Error(fmt::format("{}: the parameter {} is a whole number and cannot be kept open", problem.name(), name));
+      throw Error("{}: the parameter {} is a whole number and cannot be kept open", problem.name(), name);
     }
     const bool is_open = std::ranges::find(open_, number) != open_.end();
     if (is_open && problem.parameters()[number].is_unknown) {
-      throw Error(fmt::format("{}: the unknown {} is determined by the solve and cannot be set", problem.name(), name));
+      throw Error("{}: the unknown {} is determined by the solve and cannot be set", problem.name(), name);
     }
     if (is_open) {
-      throw Error(fmt::format("{}: the parameter {} is listed twice among the open parameters", problem.name(), name));
+      throw Error("{}: the parameter {} is listed twice among the open parameters", problem.name(), name);
     }
     open_.push_back(number);
   }
@@ -122,18 +122,18 @@ void ParameterTrace::read_as_number(std::size_t parameter) {
   const auto& [name, is_unknown] =
       std::pair(problem_.parameters()[parameter].name, problem_.parameters()[parameter].is_unknown);
   if (is_unknown) {
-    throw Error(fmt::format("{}: a formula reads the unknown {} as a number, with {}; use {}", problem_.name(), name,
-                            member_name("parameter()"), member_name("varying()")));
+    throw Error("{}: a formula reads the unknown {} as a number, with {}; use {}", problem_.name(), name,
+                member_name("parameter()"), member_name("varying()"));
   }
-  throw Error(fmt::format("{}: the parameter {} cannot be kept open, because a formula reads it with {}; use {}",
-                          problem_.name(), name, member_name("parameter()"), member_name("varying()")));
+  throw Error("{}: the parameter {} cannot be kept open, because a formula reads it with {}; use {}", problem_.name(),
+              name, member_name("parameter()"), member_name("varying()"));
 }
 
 void ParameterTrace::require_unknowns_read() const {
   for (const std::size_t unknown : problem_.unknowns()) {
     if (varies_[unknown]) continue;
-    throw Error(fmt::format("{}: no formula depends on the unknown {}; remove it", problem_.name(),
-                            problem_.parameters()[unknown].name));
+    throw Error("{}: no formula depends on the unknown {}; remove it", problem_.name(),
+                problem_.parameters()[unknown].name);
   }
 }
 

@@ -24,8 +24,6 @@ class ParameterScope {
   virtual ~ParameterScope();
   ParameterScope(const ParameterScope&) = delete;
   ParameterScope& operator=(const ParameterScope&) = delete;
-  ParameterScope(ParameterScope&&) = delete;
-  ParameterScope& operator=(ParameterScope&&) = delete;
 
   /// The innermost scope of the problem in this thread; null if there is none.
   [[nodiscard]] static ParameterScope* of(const Problem& problem) noexcept;

@@ -71,9 +71,9 @@ void add_shared(std::vector<Parameter>& parameters, const Parameter& added, cons
   } else if (same->value != added.value || same->lower != added.lower || same->upper != added.upper ||
              same->whole != added.whole || same->is_unknown != added.is_unknown) {
     throw Error(
-        fmt::format("phase {}: the parameter {} has another value, range or kind in an earlier phase; phases share "
-                    "parameters of the same name, so make them equal or rename one",
-                    phase, added.name));
+        "phase {}: the parameter {} has another value, range or kind in an earlier phase; phases share "
+        "parameters of the same name, so make them equal or rename one",
+        phase, added.name);
   }
 }
 
@@ -97,8 +97,7 @@ void add_end_velocities(std::vector<Parameter>& parameters, const PhasedProblem:
 ProblemBounds bounds_of_phase(const PhasedProblem::Phase& phase) {
   const HorizonBounds horizon = phase.problem->bounds().horizon;
   if (!(horizon.lower > 0.0)) {
-    throw Error(fmt::format("phase {}: the lower bound of its duration is {:g}; it must be positive", phase.name,
-                            horizon.lower));
+    throw Error("phase {}: the lower bound of its duration is {:g}; it must be positive", phase.name, horizon.lower);
   }
   return problem_bounds(*phase.problem);
 }
@@ -147,16 +146,16 @@ PhasedProblem::PhasedProblem(std::vector<Phase> phases, std::vector<Parameter> p
 
 void PhasedProblem::add_phase(Phase phase) {
   if (std::ranges::count(phases_, phase.name, &Phase::name) > 0) {
-    throw Error(fmt::format("two phases are named {}; rename one", phase.name));
+    throw Error("two phases are named {}; rename one", phase.name);
   }
   if (phase.follows.value_or(0) >= std::max(phases_.size(), std::size_t{1})) {
-    throw Error(fmt::format("phase {} follows phase {}, but must follow one of the {} phases before it", phase.name,
-                            *phase.follows, phases_.size()));
+    throw Error("phase {} follows phase {}, but must follow one of the {} phases before it", phase.name, *phase.follows,
+                phases_.size());
   }
   const std::vector<std::string> coordinates = phase.problem->configuration_names();
   if (std::ranges::count(coordinates, "phase") > 0) {
-    throw Error(fmt::format(
-        "phase {} has a coordinate named phase, like the column of the phases; rename the coordinate", phase.name));
+    throw Error("phase {} has a coordinate named phase, like the column of the phases; rename the coordinate",
+                phase.name);
   }
   const Part before = parts_.empty() ? Part{} : parts_.back();
   const Problem& problem = *phase.problem;
@@ -266,8 +265,8 @@ ExpressionVector PhasedProblem::force(const ControlledState& x) const {
   return of_all([&](std::size_t i, const Problem& phase) -> ExpressionVector {
     const ExpressionVector force = phase.force(in_own_velocities(i, x));
     if (force.size() == parts_[i].q.size) return share(i) * force;
-    throw Error(fmt::format("force of phase {} has {}, expected {}", phases_[i].name,
-                            counted(force.size(), "entry", "entries"), parts_[i].q.size));
+    throw Error("force of phase {} has {}, expected {}", phases_[i].name, counted(force.size(), "entry", "entries"),
+                parts_[i].q.size);
   });
 }
 
@@ -368,13 +367,13 @@ ExpressionVector PhasedProblem::checked_link(std::size_t i, const PhaseEnd& befo
   const Eigen::Index most = open + open_entries(phase_bounds(preceding(next)).last) + unknown_count;
   const std::string subject = name_of_link(i) + " has " + counted(entries.size(), "entry", "entries");
   if (entries.size() < open - held) {
-    throw Error(fmt::format("{}, but {} not given at the start of {}; state an entry for each number", subject,
-                            counted(open - held, "number is", "numbers are"), phases_[next].name));
+    throw Error("{}, but {} not given at the start of {}; state an entry for each number", subject,
+                counted(open - held, "number is", "numbers are"), phases_[next].name);
   }
   if (entries.size() > most) {
-    throw Error(fmt::format(
+    throw Error(
         "{}, but only {} not given at its two ends; leave the entries that the switch determines open in both phases",
-        subject, counted(most, "number is", "numbers are")));
+        subject, counted(most, "number is", "numbers are"));
   }
   return entries;
 }
@@ -416,7 +415,7 @@ std::string PhasedProblem::condition_in_words(std::size_t i) const {
     if (entry < some.entries.size()) return fmt::format("{}, entry [{}]", some.name, entry);
     entry -= some.entries.size();
   }
-  throw Error(fmt::format("{} has no boundary condition {}", name(), i));
+  throw Error("{} has no boundary condition {}", name(), i);
 }
 
 std::string PhasedProblem::name_of_link(std::size_t i) const {
@@ -457,9 +456,9 @@ void PhasedProblem::require_stated_range(std::size_t i, const HorizonBounds& now
   const Parameter& stated = parameters()[parameter_number(*this, name_of_duration(i))];
   if (stated.lower == now.lower && stated.upper == now.upper) return;
   throw Error(
-      fmt::format("phase {}: the range of its duration was {:g} to {:g}, but is {:g} to {:g} with these parameters; "
-                  "the range must not depend on parameters",
-                  phases_[i].name, stated.lower, stated.upper, now.lower, now.upper));
+      "phase {}: the range of its duration was {:g} to {:g}, but is {:g} to {:g} with these parameters; "
+      "the range must not depend on parameters",
+      phases_[i].name, stated.lower, stated.upper, now.lower, now.upper);
 }
 
 ProblemBounds PhasedProblem::bounds() const {
@@ -506,9 +505,9 @@ void PhasedProblem::add_interior(ProblemBounds& all, std::size_t i, const Interi
   put(place->y, part.y.first, at.y);
   for (Eigen::Index j = 0; part.is_free && j < part.q.size; ++j) {
     if (is_kept_by_scaling(at.v, j)) continue;
-    throw Error(fmt::format(
+    throw Error(
         "phase {} has a free duration, so bounds on a velocity between its ends must be 0; split the phase there",
-        phases_[i].name));
+        phases_[i].name);
   }
   put(place->v, part.q.first, part.is_free ? at.v : scaled(at.v, guessed_share(i)));
 }

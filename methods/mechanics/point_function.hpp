@@ -20,11 +20,13 @@ class PointFunction {
   PointFunction(Eigen::Index configuration_size, Eigen::Index control_size,
                 const std::function<ExpressionVector(const ControlledState&)>& formulas,
                 Eigen::Index first_order_size = 0);
+  /// The same with the sizes of a problem, or of a traced one.
+  template <class AnyProblem>
+  PointFunction(const AnyProblem& problem, const std::function<ExpressionVector(const ControlledState&)>& formulas)
+      : PointFunction(problem.configuration_size(), problem.control_size(), formulas, problem.first_order_size()) {}
   // The tape's inputs point into this object.
   PointFunction(const PointFunction&) = delete;
   PointFunction& operator=(const PointFunction&) = delete;
-  PointFunction(PointFunction&&) = delete;
-  PointFunction& operator=(PointFunction&&) = delete;
   ~PointFunction() = default;
 
   /// The outputs at a point; `result` has `output_count()` entries. An empty `u` means u = 0; `y` has an entry per
@@ -42,9 +44,9 @@ class PointFunction {
   [[nodiscard]] Eigen::Index output_count() const noexcept { return static_cast<Eigen::Index>(outputs_.size()); }
 
  private:
-  Eigen::Index n_;
-  Eigen::Index m_;
-  Eigen::Index l_;
+  Eigen::Index n_ = 0;
+  Eigen::Index m_ = 0;
+  Eigen::Index l_ = 0;
   Tape tape_;
   Tape::Workspace workspace_;
   Eigen::VectorXd point_;

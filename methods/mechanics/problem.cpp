@@ -7,8 +7,6 @@
 #include <typeinfo>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/mechanics/class_name.hpp"
 #include "methods/mechanics/member_name.hpp"
@@ -30,15 +28,12 @@ std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
   };
   const bool has_ends = fits(problem.initial_state()) && fits(problem.final_state());  // the default guess reads them
   if (n == 0 || !has_ends || !(horizon > 0.0)) return std::nullopt;
-  PointFunction cost(
-      n, m,
-      [&](const ControlledState& x) {
-        ExpressionVector both(2);
-        both << call_formula(problem, "running_cost", [&] { return problem.running_cost(x); }),
-            call_formula(problem, "final_cost", [&] { return problem.final_cost(x.state()); });
-        return both;
-      },
-      l);
+  PointFunction cost(problem, [&](const ControlledState& x) {
+    ExpressionVector both(2);
+    both << call_formula(problem, "running_cost", [&] { return problem.running_cost(x); }),
+        call_formula(problem, "final_cost", [&] { return problem.final_cost(x.state()); });
+    return both;
+  });
   Eigen::Vector2d values;
   double sum = 0.0;
   for (int i = 0; i <= points; ++i) {  // the last point is the end
@@ -67,9 +62,9 @@ std::string Problem::name() const {
 std::unique_ptr<Problem> Problem::clone() const {
   const std::string type = class_name(typeid(*this));
   throw Error(
-      fmt::format("{} cannot be copied, because clone() is not overridden; give {} the line \"std::unique_ptr<Problem> "
-                  "clone() const override {{ return copy_of(*this); }}\"",
-                  name(), type));
+      "{} cannot be copied, because clone() is not overridden; give {} the line \"std::unique_ptr<Problem> "
+      "clone() const override {{ return copy_of(*this); }}\"",
+      name(), type);
 }
 
 double Problem::cost_scale() const {
@@ -86,10 +81,6 @@ Eigen::Index Problem::control_size() const { return static_cast<Eigen::Index>(co
 
 Eigen::Index Problem::first_order_size() const { return static_cast<Eigen::Index>(first_order_names().size()); }
 
-std::vector<std::string> Problem::first_order_names() const { return {}; }
-
-ExpressionVector Problem::first_order_rates(const ControlledState& /*x*/) const { return {}; }
-
 ProblemBounds Problem::bounds() const {
   ProblemBounds bounds;
   bounds.first = EndBounds::fixed(initial_state());
@@ -97,32 +88,6 @@ ProblemBounds Problem::bounds() const {
   bounds.horizon = {horizon(), horizon()};
   return bounds;
 }
-
-ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const { return {}; }
-
-ExpressionVector Problem::constraints(const ExpressionVector& /*q*/) const { return {}; }
-
-ExpressionVector Problem::velocity_constraints(const ExpressionVector& /*q*/, const ExpressionVector& /*v*/) const {
-  return {};
-}
-
-ExpressionVector Problem::embedding(const ExpressionVector& /*theta*/) const { return {}; }
-
-ExpressionVector Problem::moving_embedding(const ExpressionVector& theta, const Expression& /*t*/) const {
-  return embedding(theta);
-}
-
-const Problem* Problem::redundant() const { return nullptr; }
-
-const PhasedProblem* Problem::phased() const { return nullptr; }
-
-ExpressionVector Problem::integrands(const ControlledState& /*x*/) const { return {}; }
-
-ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }
-
-Expression Problem::final_cost(const State& /*last*/) const { return {}; }
-
-std::optional<ExpressionVector> Problem::symmetry(const ExpressionVector& /*q*/) const { return std::nullopt; }
 
 MotionPoint Problem::guess(double t) const {
   const BoundaryState first = initial_state();
@@ -133,8 +98,6 @@ MotionPoint Problem::guess(double t) const {
           .u = Eigen::VectorXd::Zero(control_size()),
           .y = first.y + relative * (last.y - first.y)};
 }
-
-std::optional<OptimalPoint> Problem::optimum(double /*t*/) const { return std::nullopt; }
 
 Picture pictured_quantities(const Problem& problem, const ControlledState& x) {
   const ProblemCard card = problem.card();

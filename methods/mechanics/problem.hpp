@@ -75,9 +75,9 @@ class Problem {
 
   /// Names of the first-order states y_1 to y_l: quantities that have rates, but no inertia, such as a mass, a current
   /// or a force that grows no faster than its actuator lets it. Default: none.
-  [[nodiscard]] virtual std::vector<std::string> first_order_names() const;
+  [[nodiscard]] virtual std::vector<std::string> first_order_names() const { return {}; }
   /// ẏ = g(q, v, u, y, t), l entries. Forces may contain ẏ by calling this function.
-  [[nodiscard]] virtual ExpressionVector first_order_rates(const ControlledState& x) const;
+  [[nodiscard]] virtual ExpressionVector first_order_rates(const ControlledState& /*x*/) const { return {}; }
 
   /// The Lagrangian L(q, v, t).
   [[nodiscard]] virtual Expression lagrangian(const State& x) const = 0;
@@ -101,35 +101,42 @@ class Problem {
   /// h(q, q̇, u, t) >= 0 at every stage (eq:LOCP4), (eq:gDLOCP5): as many entries as there are constraints. With
   /// `ProblemBounds::path` lower <= h <= upper, entry by entry; equal bounds make an equality along the motion, of
   /// which there may be at most m. Bounds on forces of constraint read `constraint_multipliers`.
-  [[nodiscard]] virtual ExpressionVector path_constraints(const ControlledState& x) const;
+  [[nodiscard]] virtual ExpressionVector path_constraints(const ControlledState& /*x*/) const { return {}; }
   /// g(q) = 0, c entries, of a mechanism in redundant coordinates: the forces of constraint -(∂g/∂q)ᵀλ hold the motion
   /// there. G = ∂g/∂q needs full rank along the motion, and c < n; L_vv may then be singular as long as
   /// (L_vv, Gᵀ; G, 0) is not. Forces are evaluated off g = 0 too, and have to be smooth there. Default: none.
-  [[nodiscard]] virtual ExpressionVector constraints(const ExpressionVector& q) const;
+  [[nodiscard]] virtual ExpressionVector constraints(const ExpressionVector& /*q*/) const { return {}; }
   /// A(q) q̇ = 0 that is not the rate of any g, of a blade or of a wheel that rolls: the entries of A(q) v, each linear
   /// in v. The forces of constraint -A(q)ᵀλ hold the motion there by the Lagrange-d'Alembert principle, so that motions
   /// are not varied along A. G and A together need full rank along the motion, and fewer than n rows. Default: none.
-  [[nodiscard]] virtual ExpressionVector velocity_constraints(const ExpressionVector& q,
-                                                              const ExpressionVector& v) const;
+  [[nodiscard]] virtual ExpressionVector velocity_constraints(const ExpressionVector& /*q*/,
+                                                              const ExpressionVector& /*v*/) const {
+    return {};
+  }
   /// q = Φ(θ), n entries, of n - c coordinates θ with g(Φ(θ)) = 0: `EmbeddedProblem` takes it in the place of
   /// multipliers. Default: none.
-  [[nodiscard]] virtual ExpressionVector embedding(const ExpressionVector& theta) const;
+  [[nodiscard]] virtual ExpressionVector embedding(const ExpressionVector& /*theta*/) const { return {}; }
   /// q = Φ(θ, t), where no chart of the manifold is regular along the whole motion: a chart that moves with it, at
   /// every node another one. Default: `embedding(theta)`.
-  [[nodiscard]] virtual ExpressionVector moving_embedding(const ExpressionVector& theta, const Expression& t) const;
+  [[nodiscard]] virtual ExpressionVector moving_embedding(const ExpressionVector& theta,
+                                                          const Expression& /*t*/) const {
+    return embedding(theta);
+  }
   /// The problem with constraints whose `embedding` has the coordinates of this one, an `EmbeddedProblem`: stages are
   /// in its coordinates. Default: null.
-  [[nodiscard]] virtual const Problem* redundant() const;
+  [[nodiscard]] virtual const Problem* redundant() const { return nullptr; }
   /// This problem as phases that follow each other; null of other problems.
-  [[nodiscard]] virtual const PhasedProblem* phased() const;
+  [[nodiscard]] virtual const PhasedProblem* phased() const { return nullptr; }
   /// c(q, q̇, u, t) of the integral constraints lower <= ∫₀ᵀ c dt <= upper, whose bounds are
   /// `ProblemBounds::integrals`: as many entries as there are. Every method integrates them as it does the cost.
-  [[nodiscard]] virtual ExpressionVector integrands(const ControlledState& x) const;
+  [[nodiscard]] virtual ExpressionVector integrands(const ControlledState& /*x*/) const { return {}; }
   /// r(q(0), q̇(0), q(T), q̇(T)) = 0 (eq:LOCP5), (eq:gDLOCP6), periodicity among them: as many entries as there are
   /// conditions. `last.t` is T.
-  [[nodiscard]] virtual ExpressionVector boundary_conditions(const State& first, const State& last) const;
+  [[nodiscard]] virtual ExpressionVector boundary_conditions(const State& /*first*/, const State& /*last*/) const {
+    return {};
+  }
   /// The Mayer term Φ(q(T), q̇(T), T); `last.t` is T, so that `return last.t` states a minimum-time problem.
-  [[nodiscard]] virtual Expression final_cost(const State& last) const;
+  [[nodiscard]] virtual Expression final_cost(const State& /*last*/) const { return {}; }
 
   /// The factor by which solvers see the cost, so that its optimum is of order 1: the same for every method, grid and
   /// solver. Tolerances of solvers apply to the scaled cost; tables show the true cost, and metadata the factor.
@@ -140,7 +147,7 @@ class Problem {
 
   /// The infinitesimal generator ξ(q) of a group action under which the momentum p·ξ(q) is worth watching: L or its
   /// kinetic part is invariant under it. n entries; none if the problem has no symmetry to show.
-  [[nodiscard]] virtual std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const;
+  [[nodiscard]] virtual std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const { return {}; }
 
   /// The motion from which solves start at time t: straight lines, constants, or an elementary formula of a few
   /// numbers. Default: q and y on straight lines between the ends, v constant, u = 0. `ProblemCard::guess` states it in
@@ -149,7 +156,7 @@ class Problem {
 
   /// The optimal motion at time 0 <= t <= T in closed form, at a jump of the costate its value after the jump. Default:
   /// empty, as where the parameters permit no motion.
-  [[nodiscard]] virtual std::optional<OptimalPoint> optimum(double t) const;
+  [[nodiscard]] virtual std::optional<OptimalPoint> optimum(double /*t*/) const { return {}; }
 
   [[nodiscard]] Eigen::Index configuration_size() const;  ///< n.
   [[nodiscard]] Eigen::Index control_size() const;        ///< m.

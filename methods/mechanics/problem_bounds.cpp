@@ -22,21 +22,20 @@ void require_inside(double value, double lower, double upper, const std::string&
   // Ends are computed numbers: a value may miss its own bound by rounding.
   const double slack = 1e-12 * std::max(1.0, std::abs(value));
   if (value >= lower - slack && value <= upper + slack) return;
-  throw Error(fmt::format("{} is {:g}, outside its bounds {:g} and {:g}", subject, value, lower, upper));
+  throw Error("{} is {:g}, outside its bounds {:g} and {:g}", subject, value, lower, upper);
 }
 
 void require_state(const BoundaryState& state, const Problem& problem, const char* name) {
   const std::string subject = problem.name() + ": the boundary state " + member_name(name);
   for (const Eigen::VectorXd* part : {&state.q, &state.v}) {
     if (part->size() != problem.configuration_size()) {
-      throw Error(fmt::format("{} has {}, expected {}", subject, counted(part->size(), "entry", "entries"),
-                              problem.configuration_size()));
+      throw Error("{} has {}, expected {}", subject, counted(part->size(), "entry", "entries"),
+                  problem.configuration_size());
     }
     if (!part->allFinite()) throw Error(subject + " is not finite");
   }
   if (state.y.size() != problem.first_order_size() || !state.y.allFinite()) {
-    throw Error(
-        fmt::format("{} needs {} finite numbers y, one per first-order state", subject, problem.first_order_size()));
+    throw Error("{} needs {} finite numbers y, one per first-order state", subject, problem.first_order_size());
   }
 }
 
@@ -57,7 +56,7 @@ Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string
   if (bounds.empty()) return Bounds::none(size);
   for (const Eigen::VectorXd* side : {&bounds.lower, &bounds.upper}) {
     if (side->size() != size) {
-      throw Error(fmt::format("{} has {}, expected {}", subject, counted(side->size(), "entry", "entries"), size));
+      throw Error("{} has {}, expected {}", subject, counted(side->size(), "entry", "entries"), size);
     }
   }
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -66,8 +65,7 @@ Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string
     if (bounds.lower[i] == infinite || bounds.upper[i] == -infinite)
       throw Error(entry + " is infinite with the wrong sign");
     if (bounds.lower[i] > bounds.upper[i]) {
-      throw Error(fmt::format("{} has the lower bound {:g} above the upper bound {:g}", entry, bounds.lower[i],
-                              bounds.upper[i]));
+      throw Error("{} has the lower bound {:g} above the upper bound {:g}", entry, bounds.lower[i], bounds.upper[i]);
     }
   }
   return bounds;
@@ -79,9 +77,9 @@ void narrow(Bounds& end, const Bounds& everywhere, const std::string& subject, c
     const double lower = std::max(end.lower[i], everywhere.lower[i]);
     const double upper = std::min(end.upper[i], everywhere.upper[i]);
     if (lower > upper) {
-      throw Error(fmt::format("{} and {}{} leave no value for {}[{}]: {:g} to {:g} always, {:g} to {:g} at this time",
-                              subject, member_name("bounds()."), part, part, i, everywhere.lower[i],
-                              everywhere.upper[i], end.lower[i], end.upper[i]));
+      throw Error("{} and {}{} leave no value for {}[{}]: {:g} to {:g} always, {:g} to {:g} at this time", subject,
+                  member_name("bounds()."), part, part, i, everywhere.lower[i], everywhere.upper[i], end.lower[i],
+                  end.upper[i]);
     }
     end.lower[i] = lower;
     end.upper[i] = upper;
@@ -91,7 +89,7 @@ void narrow(Bounds& end, const Bounds& everywhere, const std::string& subject, c
 EndBounds checked_end(const EndBounds& end, const ProblemBounds& everywhere, const std::string& subject) {
   const Eigen::Index n = everywhere.q.lower.size();
   if (end.q.empty() || end.v.empty())
-    throw Error(fmt::format("{} needs {} each for q and v", subject, counted(n, "entry", "entries")));
+    throw Error("{} needs {} each for q and v", subject, counted(n, "entry", "entries"));
   EndBounds checked{checked_bounds(end.q, n, subject + ".q"), checked_bounds(end.v, n, subject + ".v"),
                     checked_bounds(end.y, everywhere.y.lower.size(), subject + ".y")};
   narrow(checked.q, everywhere.q, subject, 'q');
@@ -106,8 +104,8 @@ void require_velocity_left(const Bounds& v, const Bounds& everywhere, const std:
     const double upper = std::min(v.upper[i], everywhere.upper[i]);
     const double slack = 1e-12 * std::max(1.0, std::abs(upper));
     if (lower <= upper + slack) continue;
-    throw Error(fmt::format("{} and {} leave no value for v[{}]: the lower bound {:g} lies above the upper bound {:g}",
-                            subject, member_name("bounds().v"), i, lower, upper));
+    throw Error("{} and {} leave no value for v[{}]: the lower bound {:g} lies above the upper bound {:g}", subject,
+                member_name("bounds().v"), i, lower, upper);
   }
 }
 
@@ -119,8 +117,8 @@ std::vector<InteriorBounds> checked_interior(std::vector<InteriorBounds> interio
     const std::string subject = fmt::format("{}[{}]", name, j);
     const bool is_inside = at.relative_time > 0.0 && at.relative_time < 1.0;  // not where it is not a number
     if (!is_inside) {
-      throw Error(fmt::format("{}.relative_time is {:g}; it must lie between 0 and 1, as a share of the horizon",
-                              subject, at.relative_time));
+      throw Error("{}.relative_time is {:g}; it must lie between 0 and 1, as a share of the horizon", subject,
+                  at.relative_time);
     }
     at.q = checked_bounds(at.q, everywhere.q.lower.size(), subject + ".q");
     at.v = checked_bounds(at.v, everywhere.v.lower.size(), subject + ".v");
@@ -132,8 +130,8 @@ std::vector<InteriorBounds> checked_interior(std::vector<InteriorBounds> interio
   std::ranges::sort(interior, {}, &InteriorBounds::relative_time);
   const auto same = std::ranges::adjacent_find(interior, {}, &InteriorBounds::relative_time);
   if (same == interior.end()) return interior;
-  throw Error(fmt::format("{} has two entries at the relative time {:g}; combine their bounds into one entry", name,
-                          same->relative_time));
+  throw Error("{} has two entries at the relative time {:g}; combine their bounds into one entry", name,
+              same->relative_time);
 }
 
 void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
@@ -141,8 +139,8 @@ void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
     const std::string hint = bounds.upper == 0.0 ? fmt::format("; start from {}, which fixes the ends and the horizon",
                                                                member_name("Problem::bounds()"))
                                                  : "";
-    throw Error(fmt::format("{}: {} must be positive and increasing, got {:g} and {:g}{}", problem.name(),
-                            member_name("bounds().horizon"), bounds.lower, bounds.upper, hint));
+    throw Error("{}: {} must be positive and increasing, got {:g} and {:g}{}", problem.name(),
+                member_name("bounds().horizon"), bounds.lower, bounds.upper, hint);
   }
 }
 
@@ -155,8 +153,7 @@ ProblemBounds problem_bounds(const Problem& problem) {
   require_state(first, problem, "initial_state");
   require_state(last, problem, "final_state");
   if (!(horizon > 0.0) || !std::isfinite(horizon)) {
-    throw Error(fmt::format("{}: the horizon must be {}, got {:g}", problem.name(),
-                            horizon > 0.0 ? "finite" : "positive", horizon));
+    throw Error("{}: the horizon must be {}, got {:g}", problem.name(), horizon > 0.0 ? "finite" : "positive", horizon);
   }
   ProblemBounds bounds = complete_bounds(problem, call_formula(problem, "bounds", [&] { return problem.bounds(); }));
   require_inside(horizon, bounds.horizon.lower, bounds.horizon.upper, problem.name() + ": horizon");
@@ -189,8 +186,8 @@ void require_bounds_of_formulas(const Problem& problem, const ProblemBounds& bou
                                 Eigen::Index integrals) {
   const auto require = [&](const char* part, const char* formula, const Bounds& given, Eigen::Index count) {
     if (given.lower.size() == count) return;
-    throw Error(fmt::format("{}: {}{} has {}, but {} has {}", problem.name(), member_name("bounds()."), part,
-                            counted(given.lower.size(), "entry", "entries"), formula, count));
+    throw Error("{}: {}{} has {}, but {} has {}", problem.name(), member_name("bounds()."), part,
+                counted(given.lower.size(), "entry", "entries"), formula, count);
   };
   if (!bounds.path.empty()) require("path", "path_constraints", bounds.path, path_constraints);
   require("integrals", "integrands", bounds.integrals, integrals);

@@ -22,8 +22,7 @@ namespace {
 /// Throws `Error` if a text of `owner`, such as "card().source", would leave its line or be obeyed by a terminal.
 void require_one_line(const Problem& problem, std::string_view owner, std::string_view text) {
   if (!has_control_character(text)) return;
-  throw Error(
-      fmt::format("{}: {} has a line break or another control character; write it on one line", problem.name(), owner));
+  throw Error("{}: {} has a line break or another control character; write it on one line", problem.name(), owner);
 }
 
 void check_parameters(const Problem& problem) {
@@ -33,9 +32,9 @@ void check_parameters(const Problem& problem) {
     };
     if (parameter.name.empty() || std::ranges::any_of(parameter.name, is_odd)) {
       throw Error(
-          fmt::format("{}: a parameter name cannot be used in --set NAME=VALUE: it is empty or contains a "
-                      "space, control character, equals sign, comma or quotation mark",
-                      problem.name()));
+          "{}: a parameter name cannot be used in --set NAME=VALUE: it is empty or contains a "
+          "space, control character, equals sign, comma or quotation mark",
+          problem.name());
     }
     const std::string owner = "parameter " + parameter.name;
     require_one_line(problem, "the unit of " + owner, parameter.unit);
@@ -50,7 +49,7 @@ void check_guess_sizes(const Problem& problem) {
     const MotionPoint point = call_formula(problem, "guess", [&] { return problem.guess(t); });
     const std::string flaw =
         flaw_of_sizes(point, problem.configuration_size(), problem.control_size(), problem.first_order_size());
-    if (!flaw.empty()) throw Error(fmt::format("{}: guess({:g}): {}", problem.name(), t, flaw));
+    if (!flaw.empty()) throw Error("{}: guess({:g}): {}", problem.name(), t, flaw);
   }
 }
 
@@ -58,7 +57,7 @@ void check_reference(const Problem& problem, const ReferenceOptimum& reference) 
   constexpr int most_digits = 17;  // of a double
   const std::string owner = problem.name() + ": card().reference";
   if (reference.digits < 0 || reference.digits > most_digits) {
-    throw Error(fmt::format("{}.digits is {}, expected 0 to {}", owner, reference.digits, most_digits));
+    throw Error("{}.digits is {}, expected 0 to {}", owner, reference.digits, most_digits);
   }
   if (!std::isfinite(reference.objective)) throw Error(owner + ": the objective is not a finite number");
   require_one_line(problem, "card().reference.certificate", reference.certificate);
@@ -74,8 +73,8 @@ void check_units(const Problem& problem, const char* of, const std::vector<std::
   const std::string owner = fmt::format("card().{}", of);
   for (const std::string& unit : units) require_one_line(problem, owner, unit);
   if (units.empty() || std::ssize(units) == entries) return;
-  throw Error(fmt::format("{}: {} has {}, expected {} or none", problem.name(), owner,
-                          counted(units.size(), "entry", "entries"), entries));
+  throw Error("{}: {} has {}, expected {} or none", problem.name(), owner, counted(units.size(), "entry", "entries"),
+              entries);
 }
 
 void check_card(const Problem& problem, const ProblemCard& card) {
@@ -95,8 +94,8 @@ void check_card(const Problem& problem, const ProblemCard& card) {
     require_one_line(problem, "card().boundary_condition_names", name);
   }
   if (!(card.time_unit.factor > 0.0) || !std::isfinite(card.time_unit.factor)) {
-    throw Error(fmt::format("{}: card().time_unit.factor must be a positive number, got {:g}", problem.name(),
-                            card.time_unit.factor));
+    throw Error("{}: card().time_unit.factor must be a positive number, got {:g}", problem.name(),
+                card.time_unit.factor);
   }
   check_units(problem, "configuration_units", card.configuration_units, problem.configuration_size());
   check_units(problem, "control_units", card.control_units, problem.control_size());
@@ -129,7 +128,7 @@ void check_problem(const Problem& problem) try {
 double positive_cost_scale(const Problem& problem) {
   const double scale = call_formula(problem, "cost_scale", [&] { return problem.cost_scale(); });
   if (scale > 0.0 && std::isfinite(scale)) return scale;
-  throw Error(fmt::format("{}: cost_scale must be a positive number, got {:g}", problem.name(), scale));
+  throw Error("{}: cost_scale must be a positive number, got {:g}", problem.name(), scale);
 }
 
 std::string flaw_of_sizes(const MotionPoint& point, Eigen::Index n, Eigen::Index m, Eigen::Index l) {

@@ -39,7 +39,7 @@ struct BoundaryState {
   /// (q, 0).
   [[nodiscard]] static BoundaryState at_rest(Eigen::VectorXd q) {
     const Eigen::Index n = q.size();
-    return {.q = std::move(q), .v = Eigen::VectorXd::Zero(n), .y = {}};
+    return {.q = std::move(q), .v = Eigen::VectorXd::Zero(n)};
   }
 };
 

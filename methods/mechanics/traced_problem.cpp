@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
@@ -22,8 +20,7 @@ namespace {
 
 void require_size(Eigen::Index actual, Eigen::Index wanted, const Problem& problem, const char* formula) {
   if (actual == wanted) return;
-  throw Error(
-      fmt::format("{}: {} has {}, expected {}", problem.name(), formula, counted(actual, "entry", "entries"), wanted));
+  throw Error("{}: {} has {}, expected {}", problem.name(), formula, counted(actual, "entry", "entries"), wanted);
 }
 
 /// Constraints have names all or none.
@@ -183,13 +180,12 @@ void TracedProblem::trace_constraints(const Problem& problem) {
   constraint_count_ = residual.size() + rates.size();
   if (constraint_count_ == 0) return;
   if (constraint_count_ >= n_) {
-    throw Error(fmt::format("{}: {} no degree of freedom for {}; state fewer constraints", problem.name(),
-                            counted(constraint_count_, "constraint leaves", "constraints leave"),
-                            counted(n_, "coordinate")));
+    throw Error("{}: {} no degree of freedom for {}; state fewer constraints", problem.name(),
+                counted(constraint_count_, "constraint leaves", "constraints leave"), counted(n_, "coordinate"));
   }
   for (Eigen::Index i = 0; i < holonomic_count_; ++i) {
     if (reads(Schedule(residual.segment(i, 1)), parameter_inputs(), static_cast<std::size_t>(n_))) continue;
-    throw Error(fmt::format("{}: constraints[{}] depends on no coordinate", problem.name(), i));
+    throw Error("{}: constraints[{}] depends on no coordinate", problem.name(), i);
   }
   ExpressionMatrix by_v(constraint_count_, n_);
   by_v.topRows(holonomic_count_) = jacobian(residual, q);
@@ -215,21 +211,21 @@ void TracedProblem::require_linear(const ExpressionVector& rates, const Expressi
     const auto is_zero = [](const Expression& entry) { return entry.is_zero(); };
     if (is_linear && !std::ranges::all_of(by_v.row(i), is_zero)) continue;
     throw Error(
-        fmt::format("{}: velocity_constraints[{}] is not linear in v; state the entries of A(q) v, which vanish "
-                    "at v = 0",
-                    problem.name(), i));
+        "{}: velocity_constraints[{}] is not linear in v; state the entries of A(q) v, which vanish "
+        "at v = 0",
+        problem.name(), i);
   }
 }
 
 void TracedProblem::require_no_constraints(const char* method) const {
   if (constraint_count_ == 0 && !has_embedding()) return;
   if (holonomic_count_ == 0 && !has_embedding()) {
-    throw Error(fmt::format("{} does not support velocity constraints ({}); state the problem in quasi-velocities",
-                            method, member_name("Problem::velocity_constraints")));
+    throw Error("{} does not support velocity constraints ({}); state the problem in quasi-velocities", method,
+                member_name("Problem::velocity_constraints"));
   }
-  throw Error(fmt::format("{} does not support {} g(q) = 0 ({}); state the problem in minimal coordinates", method,
-                          has_embedding() ? "the embedding of constraints" : "constraints",
-                          has_embedding() ? std::string("EmbeddedProblem") : member_name("Problem::constraints")));
+  throw Error("{} does not support {} g(q) = 0 ({}); state the problem in minimal coordinates", method,
+              has_embedding() ? "the embedding of constraints" : "constraints",
+              has_embedding() ? std::string("EmbeddedProblem") : member_name("Problem::constraints"));
 }
 
 TracedProblem::ConstraintValues TracedProblem::constraints_at(const ExpressionVector& q,
@@ -294,9 +290,8 @@ ExpressionVector TracedProblem::parameters() const {
 
 void TracedProblem::require_first_order(Eigen::Index given) const {
   if (given == l_) return;
-  throw Error(
-      fmt::format("this method does not support first-order states ({}); choose dmoc, hamiltonian, tangent or galerkin",
-                  member_name("Problem::first_order_names")));
+  throw Error("this method does not support first-order states ({}); choose dmoc, hamiltonian, tangent or galerkin",
+              member_name("Problem::first_order_names"));
 }
 
 Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const {
@@ -309,16 +304,11 @@ Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const 
 }
 
 Eigen::MatrixXd TracedProblem::table(const Eigen::MatrixXd& rows) const {
-  Eigen::MatrixXd values(rows.rows(), static_cast<Eigen::Index>(tape_.output_count()));
   std::vector<Tape::Input> columns;
-  std::vector<double*> results;
   for (const double& value : open_values_) columns.push_back({&value, true});
   for (const double& value : unknown_values_) columns.push_back({&value, true});
   for (const auto& column : rows.colwise()) columns.push_back({column.data(), false});
-  for (auto column : values.colwise()) results.push_back(column.data());
-  Tape::Workspace workspace(tape_);
-  tape_.evaluate(static_cast<std::size_t>(rows.rows()), columns, results, workspace);
-  return values;
+  return tape_.table(rows.rows(), columns);
 }
 
 TracedProblem::EndValues TracedProblem::at_ends(const State& first, const State& last) const {

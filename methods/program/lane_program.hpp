@@ -20,8 +20,6 @@ class LaneProgram {
   virtual ~LaneProgram() = default;
   LaneProgram(const LaneProgram&) = delete;
   LaneProgram& operator=(const LaneProgram&) = delete;
-  LaneProgram(LaneProgram&&) = delete;
-  LaneProgram& operator=(LaneProgram&&) = delete;
 
   /// The number of parameters of an instance: inputs of the formulas in addition to the unknowns.
   [[nodiscard]] virtual std::size_t parameter_count() const { return 0; }

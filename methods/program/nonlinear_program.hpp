@@ -18,9 +18,9 @@ struct RoundingFloors {
   double smallest = 0.0;  ///< of all constraints and variables
   double largest = 0.0;   ///< of all constraints and variables
   /// One for every constraint; empty where all floors are equal.
-  Eigen::VectorXd constraints;
+  Eigen::VectorXd constraints = {};
   /// One for every variable, for its entry of (∂a/∂ξ)ᵀλ with |λ| = 1; empty where all floors are equal.
-  Eigen::VectorXd variables;
+  Eigen::VectorXd variables = {};
 
   /// True if one floor holds for all.
   [[nodiscard]] bool are_equal() const noexcept { return constraints.size() == 0; }
@@ -57,8 +57,6 @@ class NonlinearProgram {
   virtual ~NonlinearProgram() = default;
   NonlinearProgram(const NonlinearProgram&) = delete;
   NonlinearProgram& operator=(const NonlinearProgram&) = delete;
-  NonlinearProgram(NonlinearProgram&&) = delete;
-  NonlinearProgram& operator=(NonlinearProgram&&) = delete;
 
   /// Number of unknowns ξ.
   [[nodiscard]] virtual std::size_t variable_count() const = 0;

@@ -30,3 +30,12 @@ template <class Compiled, std::size_t count>
 }
 
 }  // namespace dmocbench
+
+/// The versions of a function or an object, `name`_baseline and so on, for `std::array`.
+// NOLINTBEGIN(cppcoreguidelines-macro-usage): it makes names
+#ifdef DMOCBENCH_X86_KERNELS
+#define DMOCBENCH_VERSIONS(name) name##_baseline, name##_avx2, name##_avx512
+#else
+#define DMOCBENCH_VERSIONS(name) name##_baseline
+#endif
+// NOLINTEND(cppcoreguidelines-macro-usage)

@@ -5,11 +5,7 @@
 namespace dmocbench {
 
 const LaneLoops& lane_loops_of(InstructionSet set) {
-#ifdef DMOCBENCH_X86_KERNELS
-  static constexpr std::array loops{&lane_loops_baseline, &lane_loops_avx2, &lane_loops_avx512};
-#else
-  static constexpr std::array loops{&lane_loops_baseline};
-#endif
+  static constexpr std::array loops{DMOCBENCH_VERSIONS(&lane_loops)};
   return *compiled_for(set, loops);
 }
 

@@ -10,11 +10,7 @@
 namespace dmocbench {
 
 const VectorLoops& vector_loops_of(InstructionSet set) {
-#ifdef DMOCBENCH_X86_KERNELS
-  static constexpr std::array loops{&vector_loops_baseline, &vector_loops_avx2, &vector_loops_avx512};
-#else
-  static constexpr std::array loops{&vector_loops_baseline};
-#endif
+  static constexpr std::array loops{DMOCBENCH_VERSIONS(&vector_loops)};
   return *compiled_for(set, loops);
 }
 

@@ -11,7 +11,6 @@
 #include <thread>
 #include <vector>
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "methods/error.hpp"
@@ -78,8 +77,6 @@ class WorkerTeam {
   }
   WorkerTeam(const WorkerTeam&) = delete;
   WorkerTeam& operator=(const WorkerTeam&) = delete;
-  WorkerTeam(WorkerTeam&&) = delete;
-  WorkerTeam& operator=(WorkerTeam&&) = delete;
   ~WorkerTeam() { dismiss(); }
 
   [[nodiscard]] std::size_t helpers() const noexcept { return threads_.size(); }
@@ -176,7 +173,7 @@ std::size_t thread_count() {
 
 void set_thread_count(std::size_t count) {
   if (count < 1 || count > most_threads) {
-    throw Error(fmt::format("the number of threads must lie between 1 and {}, got {}", most_threads, count));
+    throw Error("the number of threads must lie between 1 and {}, got {}", most_threads, count);
   }
   count_that_was_set = count;
 }

@@ -24,8 +24,6 @@ class StopScope {
   ~StopScope();
   StopScope(const StopScope&) = delete;
   StopScope& operator=(const StopScope&) = delete;
-  StopScope(StopScope&&) = delete;
-  StopScope& operator=(StopScope&&) = delete;
 
   /// True if `stop_requested` is true or the time is over, here or in a scope around.
   [[nodiscard]] bool must_stop() const;

@@ -19,6 +19,7 @@ inline Vector load(const double* from) {
 inline void store(const Vector& values, double* to) { __builtin_memcpy(to, &values, sizeof values); }
 
 inline Vector magnitudes(const Vector& values) { return values < 0.0 ? -values : values; }
+inline double magnitudes(double value) { return __builtin_fabs(value); }
 
 inline double sum_of(const Vector& values) {
   return ((values[0] + values[4]) + (values[2] + values[6])) + ((values[1] + values[5]) + (values[3] + values[7]));
@@ -37,31 +38,27 @@ double largest(const double* x, std::ptrdiff_t size) {
   return result;
 }
 
-double sum_of_magnitudes(const double* x, std::ptrdiff_t size) {
+/// Σ of a term, which takes entries by `at(x)`: eight of them, or one.
+template <class Term>
+inline double sum(std::ptrdiff_t size, const Term& term) {
   Vector sums{};
   std::ptrdiff_t i = 0;
-  for (; i + lanes <= size; i += lanes) sums += magnitudes(load(x + i));
+  for (; i + lanes <= size; i += lanes) sums += term([i](const double* x) { return load(x + i); });
   double rest = 0.0;
-  for (; i < size; ++i) rest += __builtin_fabs(x[i]);
+  for (; i < size; ++i) rest += term([i](const double* x) { return x[i]; });
   return sum_of(sums) + rest;
+}
+
+double sum_of_magnitudes(const double* x, std::ptrdiff_t size) {
+  return sum(size, [x](const auto& at) { return magnitudes(at(x)); });
 }
 
 double dot(const double* x, const double* y, std::ptrdiff_t size) {
-  Vector sums{};
-  std::ptrdiff_t i = 0;
-  for (; i + lanes <= size; i += lanes) sums += load(x + i) * load(y + i);
-  double rest = 0.0;
-  for (; i < size; ++i) rest += x[i] * y[i];
-  return sum_of(sums) + rest;
+  return sum(size, [x, y](const auto& at) { return at(x) * at(y); });
 }
 
 double sum_of_zeros(const double* x, std::ptrdiff_t size) {
-  Vector sums{};
-  std::ptrdiff_t i = 0;
-  for (; i + lanes <= size; i += lanes) sums += load(x + i) * 0.0;
-  double rest = 0.0;
-  for (; i < size; ++i) rest += x[i] * 0.0;
-  return sum_of(sums) + rest;
+  return sum(size, [x](const auto& at) { return at(x) * 0.0; });
 }
 
 void add_products(double* result, const double* x, const double* y, std::ptrdiff_t size) {

@@ -86,14 +86,9 @@ Eigen::MatrixXd conditions_matrix(const LocalFunctions& functions, const Eigen::
     matrix(i, j) += value;
     if (i != j) matrix(j, i) += value;
   };
-  for (std::size_t e = 0; e < functions.hessian.rows.size(); ++e) {
-    add(static_cast<Eigen::Index>(functions.hessian.rows[e]), static_cast<Eigen::Index>(functions.hessian.columns[e]),
-        hessian(k, static_cast<Eigen::Index>(e)));
-  }
-  for (std::size_t e = 0; e < functions.jacobian.rows.size(); ++e) {
-    add(unknowns + static_cast<Eigen::Index>(functions.jacobian.rows[e]),
-        static_cast<Eigen::Index>(functions.jacobian.columns[e]), jacobian(k, static_cast<Eigen::Index>(e)));
-  }
+  functions.hessian.for_each([&](Eigen::Index e, Eigen::Index i, Eigen::Index j) { add(i, j, hessian(k, e)); });
+  functions.jacobian.for_each(
+      [&](Eigen::Index e, Eigen::Index r, Eigen::Index j) { add(unknowns + r, j, jacobian(k, e)); });
   return matrix;
 }
 
@@ -143,9 +138,6 @@ class BackwardRecursion {
   [[nodiscard]] double stiffness(Eigen::Index variable) const {
     return is_fixed(program_, variable) ? 0.0 : conditions_.diagonal[variable];
   }
-  [[nodiscard]] static Eigen::Index place(const std::vector<SeriesPlace>& places, Eigen::Index local, Eigen::Index k) {
-    return static_cast<Eigen::Index>(places[static_cast<std::size_t>(local)].at(static_cast<std::size_t>(k)));
-  }
   [[nodiscard]] Eigen::MatrixXd matrix_of_interval(Eigen::Index k) const;
   [[nodiscard]] Eigen::MatrixXd matrix_of_ends();
   /// Writes the columns of the unknowns `from` .. `from` + `count` of a matrix of conditions into the columns from
@@ -174,10 +166,10 @@ Eigen::MatrixXd BackwardRecursion::matrix_of_interval(Eigen::Index k) const {
   const Eigen::Index node = is_dmoc_ ? n_ : 2 * n_;
   for (Eigen::Index j = 0; j < unknowns; ++j) {
     if (j >= node && j < 2 * node) continue;  // of the right node
-    matrix(j, j) += stiffness(place(blocks_.unknown_places(), j, k));
+    matrix(j, j) += stiffness(index_of(blocks_.unknown_places(), j, k));
   }
   for (Eigen::Index r = 0; r < static_cast<Eigen::Index>(functions.inputs.rows); ++r) {
-    matrix(unknowns + r, unknowns + r) -= conditions_.compliance[place(blocks_.row_places(), r, k)];
+    matrix(unknowns + r, unknowns + r) -= conditions_.compliance[index_of(blocks_.row_places(), r, k)];
   }
   return matrix;
 }
@@ -209,7 +201,8 @@ Eigen::MatrixXd BackwardRecursion::step_back(Eigen::Index k, Deviations& deviati
     equations.add(unknowns + n_, weights, -deviations.state.bottomRows(n_));
   }
   for (Eigen::Index j = 0; j < inner; ++j) {
-    if (is_fixed(program_, place(blocks_.unknown_places(), 2 * node + j, k))) equations.fix(2 * node + j, inside + j);
+    if (is_fixed(program_, index_of(blocks_.unknown_places(), 2 * node + j, k)))
+      equations.fix(2 * node + j, inside + j);
   }
   const Eigen::MatrixXd solutions = equations.solutions();
   deviations = {solutions.topRows(states), solutions.middleRows(states, states)};
@@ -224,23 +217,15 @@ Eigen::MatrixXd BackwardRecursion::matrix_of_ends() {
   const auto unknowns = static_cast<Eigen::Index>(ends->inputs.unknowns);
   const auto rows = static_cast<Eigen::Index>(ends->inputs.rows);
   Eigen::VectorXd inputs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(ends->inputs.count()));
-  for (Eigen::Index j = 0; j < unknowns; ++j) inputs[j] = primal_[place(blocks_.end_unknown_places(), j, 0)];
+  for (Eigen::Index j = 0; j < unknowns; ++j) inputs[j] = primal_[index_of(blocks_.end_unknown_places(), j, 0)];
   inputs[static_cast<Eigen::Index>(ends->inputs.objective_factor())] = 1.0;
   for (Eigen::Index r = 0; r < rows; ++r) {
     inputs[static_cast<Eigen::Index>(ends->inputs.multiplier(static_cast<std::size_t>(r)))] =
-        multipliers_[place(blocks_.end_row_places(), r, 0)];
+        multipliers_[index_of(blocks_.end_row_places(), r, 0)];
   }
-  const auto values = [&](const Schedule& schedule) {
-    const Tape tape(schedule);
-    Tape::Workspace workspace(tape);
-    std::vector<Tape::Input> bound;
-    for (const double& input : inputs) bound.push_back({&input});
-    Eigen::MatrixXd row(1, static_cast<Eigen::Index>(tape.output_count()));
-    std::vector<double*> outputs;
-    for (Eigen::Index i = 0; i < row.cols(); ++i) outputs.push_back(&row(0, i));
-    tape.evaluate(1, bound, outputs, workspace);
-    return row;
-  };
+  std::vector<Tape::Input> bound;
+  for (const double& input : inputs) bound.push_back({&input});
+  const auto values = [&](const Schedule& schedule) { return Tape(schedule).table(1, bound); };
   return conditions_matrix(*ends, values(ends->hessian.schedule), values(ends->jacobian.schedule), 0);
 }
 
@@ -272,7 +257,7 @@ Deviations BackwardRecursion::at_end() {
   if (is_dmoc_) equations.add(tie, n_, unit(n_));  // δp_N
   equations.add(0, states, unit(node, -1.0));
   for (Eigen::Index j = 0; j < node + velocity; ++j) {
-    const Eigen::Index variable = place(blocks_.end_unknown_places(), node + first_velocity + j, 0);
+    const Eigen::Index variable = index_of(blocks_.end_unknown_places(), node + first_velocity + j, 0);
     const Eigen::Index column = j < node ? j : 2 * states + j - node;
     if (is_fixed(program_, variable)) {
       equations.fix(j, column);
@@ -316,9 +301,8 @@ FeedbackGains feedback_gains(Transcription& program, const Eigen::VectorXd& prim
               .transpose();
       if (program.node_state() == NodeState::velocity) {
         const MotionPoint node = trajectory.node(k);
-        const double t = trajectory.node_times[k];
-        of_interval = in_momenta(of_interval, legendre.mass(node.q, node.v, t),
-                                 legendre.momentum_by_configuration(node.q, node.v, t));
+        const auto values = legendre.at(node.q, node.v, trajectory.node_times[k]);
+        of_interval = in_momenta(of_interval, values.mass, values.by_configuration);
       }
       for (Eigen::Index i = 0; i < s; ++i) {
         gains.of_stages[static_cast<std::size_t>(k * s + i)] = of_interval.middleRows(i * m, m);

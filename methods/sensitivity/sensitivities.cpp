@@ -1,7 +1,5 @@
 #include "methods/sensitivity/sensitivities.hpp"
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
 #include "methods/kkt/sparse_kkt.hpp"
@@ -107,8 +105,8 @@ Sensitivities::Sensitivities(NonlinearProgram& program, const Eigen::VectorXd& p
                              const Eigen::VectorXd& multipliers) {
   if (static_cast<std::size_t>(primal.size()) != program.variable_count() ||
       static_cast<std::size_t>(multipliers.size()) != program.constraint_count()) {
-    throw Error(fmt::format("sensitivities need {} variables and {} multipliers, got {} and {}",
-                            program.variable_count(), program.constraint_count(), primal.size(), multipliers.size()));
+    throw Error("sensitivities need {} variables and {} multipliers, got {} and {}", program.variable_count(),
+                program.constraint_count(), primal.size(), multipliers.size());
   }
   optimum_ = std::make_unique<Optimum>(program, primal, multipliers);
   if (!optimum_->at.is_finite()) throw Error("the optimum has no sensitivities: a derivative is not finite");

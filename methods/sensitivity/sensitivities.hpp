@@ -51,8 +51,6 @@ class Sensitivities {
   ~Sensitivities();
   Sensitivities(const Sensitivities&) = delete;
   Sensitivities& operator=(const Sensitivities&) = delete;
-  Sensitivities(Sensitivities&&) = delete;
-  Sensitivities& operator=(Sensitivities&&) = delete;
 
   /// `rate`: see `rate_of_change`, at the solved point. Throws `Error` if the matrix is singular.
   [[nodiscard]] Sensitivity along(const ProgramValues& rate);

@@ -30,8 +30,6 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/judgement/stop_rule.hpp"
 #include "methods/kkt/symmetric_factorisation.hpp"
@@ -292,7 +290,7 @@ void pass_on(Ipopt::OptionsList& list, const std::string& name, const std::strin
   const auto number = parsed<double>(value);
   if (number && list.SetNumericValue(name, *number)) return;
   if (list.SetStringValue(name, value)) return;
-  throw Error(fmt::format("Ipopt rejects the option {}={}; the Ipopt manual lists the options", name, value));
+  throw Error("Ipopt rejects the option {}={}; the Ipopt manual lists the options", name, value);
 }
 
 void set_options(Ipopt::IpoptApplication& application, const SolverOptions& options, const NamedOptions& named) {
@@ -323,14 +321,13 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& o
 }  // namespace
 
 IpoptSolver::IpoptSolver(SolverOptions options, NamedOptions named)
-    : SolverWithoutMemory(std::move(options)), named_(std::move(named)) {
+    : SolverWithoutMemory(
+          "ipopt", "interior-point method with filter line search (Ipopt " IPOPT_VERSION "), exact sparse derivatives",
+          std::move(options)),
+      named_(std::move(named)) {
   if (named_.empty()) return;
   const auto lock = lock_mumps();
   static_cast<void>(application_with(this->options(), named_));
-}
-
-std::string IpoptSolver::description() const {
-  return "interior-point method with filter line search (Ipopt " IPOPT_VERSION "), exact sparse derivatives";
 }
 
 Solution IpoptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
@@ -16,8 +14,6 @@ class IpoptSolver final : public SolverWithoutMemory {
  public:
   /// Throws `Error` if Ipopt does not take one of the named options.
   explicit IpoptSolver(SolverOptions options, NamedOptions named = {});
-  [[nodiscard]] std::string name() const override { return "ipopt"; }
-  [[nodiscard]] std::string description() const override;
 
  private:
   [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;

@@ -25,8 +25,6 @@ class IterationScope {
   ~IterationScope();
   IterationScope(const IterationScope&) = delete;
   IterationScope& operator=(const IterationScope&) = delete;
-  IterationScope(IterationScope&&) = delete;
-  IterationScope& operator=(IterationScope&&) = delete;
 
  private:
   friend bool iterations_are_watched() noexcept;

@@ -37,7 +37,7 @@ NamedOptions read_known_options(std::string_view solver, const NamedOptions& giv
     if (option == options.end()) {
       others.emplace(name, text);
     } else if (!option->read(text)) {
-      throw Error(fmt::format("the solver {}: {} must be {}, not {}", solver, name, listed(option->takes, "or"), text));
+      throw Error("the solver {}: {} must be {}, not {}", solver, name, listed(option->takes, "or"), text);
     }
   }
   return others;
@@ -46,8 +46,8 @@ NamedOptions read_known_options(std::string_view solver, const NamedOptions& giv
 void read_named_options(std::string_view solver, const NamedOptions& given, const std::vector<NamedOption>& options) {
   const NamedOptions others = read_known_options(solver, given, options);
   if (others.empty()) return;
-  throw Error(fmt::format("the solver {} has no option {}; it has {}", solver, others.begin()->first,
-                          listed(names_of(options, &NamedOption::name), "and")));
+  throw Error("the solver {} has no option {}; it has {}", solver, others.begin()->first,
+              listed(names_of(options, &NamedOption::name), "and"));
 }
 
 }  // namespace dmocbench

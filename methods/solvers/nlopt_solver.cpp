@@ -59,8 +59,8 @@ std::pair<const Setting&, double> read_option(const std::string& name, const std
   const double value = parsed<double>(text).value_or(-1.0);
   const bool is_whole = name != "maxeval" || (value == std::floor(value) && value <= std::numeric_limits<int>::max());
   if (!std::isfinite(value) || value < 0.0 || !is_whole) {
-    throw Error(fmt::format("NLopt rejects the option {}={}; give a {}number of at least 0", name, text,
-                            name == "maxeval" ? "whole " : ""));
+    throw Error("NLopt rejects the option {}={}; give a {}number of at least 0", name, text,
+                name == "maxeval" ? "whole " : "");
   }
   return {setting, value};
 }
@@ -273,14 +273,7 @@ class SlsqpRun {
   std::exception_ptr exception_;
 };
 
-}  // namespace
-
-NloptSolver::NloptSolver(SolverOptions options, NamedOptions named)
-    : SolverWithoutMemory(std::move(options)), named_(std::move(named)) {
-  for (const auto& [name, text] : named_) static_cast<void>(read_option(name, text));
-}
-
-std::string NloptSolver::description() const {
+std::string description_of_slsqp() {
   int major = 0;
   int minor = 0;
   int patch = 0;
@@ -288,7 +281,14 @@ std::string NloptSolver::description() const {
   return fmt::format(
       "SLSQP, a dense quasi-Newton method of sequential quadratic programming (NLopt {}.{}.{}) for at most {} free "
       "variables",
-      major, minor, patch, most_free_variables);
+      major, minor, patch, NloptSolver::most_free_variables);
+}
+
+}  // namespace
+
+NloptSolver::NloptSolver(SolverOptions options, NamedOptions named)
+    : SolverWithoutMemory("nlopt", description_of_slsqp(), std::move(options)), named_(std::move(named)) {
+  for (const auto& [name, text] : named_) static_cast<void>(read_option(name, text));
 }
 
 Solution NloptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {

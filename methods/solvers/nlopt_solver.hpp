@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
 #include "methods/solvers/solver.hpp"
 
@@ -31,8 +30,6 @@ class NloptSolver final : public SolverWithoutMemory {
 
   /// Throws `Error` that names the option if one is out of range or not SLSQP's.
   explicit NloptSolver(SolverOptions options, NamedOptions named = {});
-  [[nodiscard]] std::string name() const override { return "nlopt"; }
-  [[nodiscard]] std::string description() const override;
 
  private:
   [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;

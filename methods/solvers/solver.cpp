@@ -203,7 +203,10 @@ class RunWithoutMemory final : public PreparedRun {
 
 }  // namespace
 
-Solver::Solver(SolverOptions options) : options_(std::move(options)) { options_.validate(); }
+Solver::Solver(std::string name, std::string description, SolverOptions options)
+    : name_(std::move(name)), description_(std::move(description)), options_(std::move(options)) {
+  options_.validate();
+}
 
 std::unique_ptr<PreparedRun> SolverWithoutMemory::prepare(CountedProgram& program) const {
   return std::make_unique<RunWithoutMemory>(
@@ -224,14 +227,14 @@ void Solver::check(const NonlinearProgram& program, const Eigen::VectorXd& start
                    std::optional<double> barrier_parameter) {
   const auto require = [](Eigen::Index given, std::size_t wanted, const char* what, const char* of_program) {
     if (static_cast<std::size_t>(given) == wanted) return;
-    throw Error(fmt::format("{} {} entries, but the program has {} {}", what, given, wanted, of_program));
+    throw Error("{} {} entries, but the program has {} {}", what, given, wanted, of_program);
   };
   require(start.size(), program.variable_count(), "the start has", "variables");
   if (multipliers.size() > 0) {
     require(multipliers.size(), program.constraint_count(), "the multipliers have", "constraints");
   }
   if (barrier_parameter && (!(*barrier_parameter > 0.0) || std::isinf(*barrier_parameter))) {
-    throw Error(fmt::format("the barrier parameter must be a positive number, got {}", *barrier_parameter));
+    throw Error("the barrier parameter must be a positive number, got {}", *barrier_parameter);
   }
 }
 

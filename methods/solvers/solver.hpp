@@ -28,8 +28,6 @@ class PreparedRun {
   virtual ~PreparedRun() = default;
   PreparedRun(const PreparedRun&) = delete;
   PreparedRun& operator=(const PreparedRun&) = delete;
-  PreparedRun(PreparedRun&&) = delete;
-  PreparedRun& operator=(PreparedRun&&) = delete;
 
   /// The method itself, from checked arguments of `Solver::solve`. Sets its own status, the last iterate (none
   /// if it rejects the program), the multipliers if it has them, and its counts of iterations; a message only where it
@@ -51,13 +49,11 @@ class Solver {
   virtual ~Solver() = default;
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
-  Solver(Solver&&) = delete;
-  Solver& operator=(Solver&&) = delete;
 
   /// snake_case, as on the command line.
-  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] std::string name() const { return name_; }
   /// One line.
-  [[nodiscard]] virtual std::string description() const = 0;
+  [[nodiscard]] std::string description() const { return description_; }
 
   /// Solves from `start` (variable_count() entries). Not converging is a status. Throws `Error` on misuse only: a wrong
   /// size, a barrier parameter that is not positive.
@@ -92,7 +88,7 @@ class Solver {
 
  protected:
   /// Throws `Error` if an option is out of range.
-  explicit Solver(SolverOptions options);
+  Solver(std::string name, std::string description, SolverOptions options);
 
  private:
   friend class PreparedSolve;
@@ -124,6 +120,8 @@ class Solver {
   Scaling run_and_judge(CountedProgram& counted, PreparedRun& run, const WarmStart& start, Confirmation& confirmation,
                         bool asks_newton, Solution& solution) const;
 
+  std::string name_;
+  std::string description_;
   SolverOptions options_;
 };
 

@@ -36,7 +36,7 @@ Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& name
   for (Eigen::Index k = 0; const Row& row : table.rows()) {
     for (Eigen::Index i = 0; const std::string& name : names) {
       const auto value = row.number(prefix + name);
-      if (!value) throw Error(fmt::format("{}: {}", file.string(), fault_of_field(table, row, prefix + name)));
+      if (!value) throw Error("{}: {}", file.string(), fault_of_field(table, row, prefix + name));
       values(k, i++) = *value;
     }
     ++k;
@@ -64,7 +64,7 @@ Eigen::VectorXd times_in(const Table& table, const std::filesystem::path& file) 
   Eigen::VectorXd times = columns(table, {"t"}, "", file);
   for (Eigen::Index k = 0; k < times.size(); ++k) {
     if (std::isfinite(times[k]) && (k == 0 || times[k] > times[k - 1])) continue;
-    throw Error(fmt::format("{}: t must be finite and increasing, but is not in row {}", file.string(), k + 1));
+    throw Error("{}: t must be finite and increasing, but is not in row {}", file.string(), k + 1);
   }
   return times;
 }
@@ -127,9 +127,9 @@ void require_one_motion(const Trajectory& motion, const std::filesystem::path& n
     return;
   }
   throw Error(
-      fmt::format("{} has stages from t = {:g} to {:g}, but the nodes in {} extend from 0 to {:g}: they belong to "
-                  "different trajectories, or one of the files is truncated",
-                  stages.string(), first_stage, last_stage, nodes.filename().string(), motion.node_times[last]));
+      "{} has stages from t = {:g} to {:g}, but the nodes in {} extend from 0 to {:g}: they belong to "
+      "different trajectories, or one of the files is truncated",
+      stages.string(), first_stage, last_stage, nodes.filename().string(), motion.node_times[last]);
 }
 
 /// Throws `Error` if a motion lasts so much longer or shorter than the problem's that its times must be in another
@@ -137,9 +137,8 @@ void require_one_motion(const Trajectory& motion, const std::filesystem::path& n
 void require_similar_horizon(const Problem& problem, double horizon, const std::filesystem::path& nodes) {
   constexpr double most = 10.0;
   if (horizon <= most * problem.horizon() && most * horizon >= problem.horizon()) return;
-  throw Error(fmt::format(
-      "{}: the trajectory lasts {:g}, but {} lasts {:g}; a start can be stretched by a factor of at most {:g}",
-      nodes.string(), horizon, problem.name(), problem.horizon(), most));
+  throw Error("{}: the trajectory lasts {:g}, but {} lasts {:g}; a start can be stretched by a factor of at most {:g}",
+              nodes.string(), horizon, problem.name(), problem.horizon(), most);
 }
 
 std::vector<std::string> unknown_names(const Problem& problem) {
@@ -301,7 +300,7 @@ Table rows_of_phase(const Table& table, const std::string& phase, double start) 
   return own;
 }
 
-void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more, double factor = 1.0) {
+void append_columns(Eigen::MatrixXd& to, const Eigen::MatrixXd& more, double factor) {
   if (more.cols() == 0) return;
   to.conservativeResize(more.rows(), to.cols() + more.cols());
   to.rightCols(more.cols()) = factor * more;
@@ -319,7 +318,7 @@ Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const 
   for (std::size_t i = 0; i < problem.phases().size(); ++i) {
     const auto& [name, phase, follows] = problem.phases()[i];
     const auto first = std::ranges::find(nodes.rows(), name, [](const Row& row) { return row.text("phase"); });
-    if (first == nodes.rows().end()) throw Error(fmt::format("{} has no rows of the phase {}", file.string(), name));
+    if (first == nodes.rows().end()) throw Error("{} has no rows of the phase {}", file.string(), name);
     const double start = first->needed("t");
     const SharedParameters shared(problem, *phase);
     const std::optional<Table> own_stages = stages ? std::optional(rows_of_phase(*stages, name, start)) : std::nullopt;
@@ -332,18 +331,14 @@ Trajectory side_by_side(const PhasedProblem& problem, const Table& nodes, const 
       all.stage_times = own.stage_times / share;
     }
     if (own.q.rows() != all.node_times.size() || own.stage_u.rows() != all.stage_times.size()) {
-      throw Error(fmt::format(
+      throw Error(
           "{}: the phase {} has {} nodes and {} controls, but the first phase has {} and {}; all phases need the same "
           "numbers of nodes and controls",
-          file.string(), name, own.q.rows(), own.stage_u.rows(), all.node_times.size(), all.stage_times.size()));
+          file.string(), name, own.q.rows(), own.stage_u.rows(), all.node_times.size(), all.stage_times.size());
     }
-    append_columns(all.q, own.q);
-    append_columns(all.v, own.v, share);
-    append_columns(all.stage_u, own.stage_u);
-    append_columns(all.y, own.y);
-    append_columns(all.psi_q, own.psi_q);
-    append_columns(all.psi_p, own.psi_p);
-    append_columns(all.psi_y, own.psi_y);
+    for (const TrajectoryTable& table : trajectory_tables) {
+      append_columns(all.*table.values, own.*table.values, table.is_per_time ? share : 1.0);
+    }
   }
   const std::vector<std::string> names = unknown_names(problem);
   all.unknowns.resize(std::ssize(names));
@@ -367,9 +362,9 @@ Trajectory motion_in_tables(const Problem& problem, const Table& nodes, const st
   Trajectory trajectory;
   trajectory.tableau = gauss_tableau(1);
   trajectory.node_times = times_in(nodes, file);
-  if (trajectory.node_times.size() < 2) throw Error(fmt::format("{} contains no trajectory", file.string()));
+  if (trajectory.node_times.size() < 2) throw Error("{} contains no trajectory", file.string());
   if (std::abs(trajectory.node_times[0]) > 1e-9 * trajectory.node_times.tail<1>()[0])
-    throw Error(fmt::format("{}: t must begin at 0", file.string()));
+    throw Error("{}: t must begin at 0", file.string());
   require_similar_horizon(problem, trajectory.node_times.tail<1>()[0], file);
   trajectory.q = columns(nodes, problem.configuration_names(), "", file);
   trajectory.v = columns(nodes, problem.configuration_names(), "v_", file);
@@ -379,7 +374,7 @@ Trajectory motion_in_tables(const Problem& problem, const Table& nodes, const st
   } else {
     const std::filesystem::path stages_file = stages_file_of(file);
     trajectory.stage_times = times_in(*stages, stages_file);
-    if (trajectory.stage_times.size() == 0) throw Error(fmt::format("{} contains no trajectory", stages_file.string()));
+    if (trajectory.stage_times.size() == 0) throw Error("{} contains no trajectory", stages_file.string());
     require_one_motion(trajectory, file, stages_file);
     trajectory.stage_u = columns(*stages, problem.control_names(), "", stages_file);
   }
@@ -441,7 +436,7 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
     }
     return values;
   };
-  PointFunction quantities(problem.configuration_size(), problem.control_size(), formulas, problem.first_order_size());
+  PointFunction quantities(problem, formulas);
   Eigen::MatrixXd values(trajectory.node_times.size(), quantities.output_count());
   Eigen::VectorXd at_node(quantities.output_count());
   for (Eigen::Index k = 0; k < trajectory.node_times.size(); ++k) {
@@ -527,7 +522,7 @@ void write_motion(const Problem& problem, const Trajectory& trajectory, const st
   for (const auto& [file, text] : {std::pair(&stages_file, &stages), std::pair(&nodes_file, &nodes)}) {
     std::ofstream stream(*file, std::ios::binary);
     stream << *text << std::flush;
-    if (!stream) throw Error(fmt::format("cannot write {}", file->string()));
+    if (!stream) throw Error("cannot write {}", file->string());
   }
 }
 
@@ -535,7 +530,7 @@ std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {
   constexpr std::string_view ending = "_nodes.csv";
   const std::string name = nodes_file.string();
   if (name.size() <= ending.size() || !name.ends_with(ending)) {
-    throw Error(fmt::format("the name of a node table must end with {}, but is {}", ending, name));
+    throw Error("the name of a node table must end with {}, but is {}", ending, name);
   }
   return name.substr(0, name.size() - ending.size()) + "_stages.csv";
 }
@@ -549,8 +544,8 @@ bool is_file_of_motion(const std::filesystem::path& file, const std::string& nod
 
 MotionTexts read_motion_texts(const std::filesystem::path& file) {
   std::error_code none;  // a missing file has no stages next to it
-  if (!std::filesystem::exists(file, none)) throw Error(fmt::format("there is no file {}", file.string()));
-  MotionTexts texts{.nodes = read_file(file), .stages = {}};
+  if (!std::filesystem::exists(file, none)) throw Error("there is no file {}", file.string());
+  MotionTexts texts{.nodes = read_file(file)};
   if (!file.string().ends_with("_nodes.csv")) return texts;
   const std::filesystem::path stages_file = stages_file_of(file);
   if (std::filesystem::exists(stages_file, none)) texts.stages = read_file(stages_file);
@@ -566,10 +561,6 @@ Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, con
   const Table nodes = table_in(texts.nodes, file);
   if (!texts.stages.empty()) stages = table_in(texts.stages, stages_file_of(file));
   return motion_in_tables(problem, nodes, stages, file);
-}
-
-Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file) {
-  return smooth_motion(read_motion_tables(problem, nodes_file));
 }
 
 }  // namespace dmocbench

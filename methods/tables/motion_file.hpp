@@ -51,24 +51,19 @@ void write_motion(const Problem& problem, const Trajectory& trajectory, const st
 /// Whether a file is one of the two that hold the motion of this node table.
 [[nodiscard]] bool is_file_of_motion(const std::filesystem::path& file, const std::string& nodes_file);
 
-/// Reads a motion from a table of the columns `t`, NAME and `v_NAME` per configuration, with costates where it has them
-/// (`node_table`). The controls are read from X_stages.csv next to a file X_nodes.csv if it exists, else from the
-/// file's columns with their names, else taken from the guess. The motion is piecewise cubic Hermite in q and v, with
-/// controls linear between their times. Throws `Error` that names the file and the missing columns, or if the two
-/// tables are not of one motion from t = 0 on, or if it lasts more than ten times as long as the problem's, or less
-/// than a tenth of it.
-[[nodiscard]] Motion read_motion(const Problem& problem, const std::filesystem::path& file);
-
 /// The texts of the files of a motion.
 struct MotionTexts {
-  std::string nodes;   ///< of the file
-  std::string stages;  ///< of X_stages.csv next to it; empty if there is none
+  std::string nodes;        ///< of the file
+  std::string stages = {};  ///< of X_stages.csv next to it; empty if there is none
 };
 /// Reads them. Throws `Error` that names the file that cannot be read.
 [[nodiscard]] MotionTexts read_motion_texts(const std::filesystem::path& file);
 
-/// Such tables as a trajectory: the nodes with their costates, where the file has a number for every one of them, and
-/// the controls, whatever method computed them. Throws as `read_motion`.
+/// Reads a motion from a table of the columns `t`, NAME and `v_NAME` per configuration, with costates where it has a
+/// number for every one of them (`node_table`). The controls are read from X_stages.csv next to a file X_nodes.csv if
+/// it exists, else from the file's columns with their names, else taken from the guess. Throws `Error` that names the
+/// file and the missing columns, or if the two tables are not of one motion from t = 0 on, or if it lasts more than ten
+/// times as long as the problem's, or less than a tenth of it.
 [[nodiscard]] Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& file);
 /// The same of files that were read before.
 [[nodiscard]] Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts,

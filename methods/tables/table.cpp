@@ -88,8 +88,8 @@ std::optional<double> Row::number(std::string_view column) const {
 double Row::needed(std::string_view column) const {
   if (const auto value = number(column)) return *value;
   const std::string& field = text(column);
-  throw Error(fmt::format("{}, column {}: {}", place_.empty() ? "a row" : place_, column,
-                          field.empty() ? "there is no number" : "\"" + field + "\" is not a finite number"));
+  throw Error("{}, column {}: {}", place_.empty() ? "a row" : place_, column,
+              field.empty() ? "there is no number" : "\"" + field + "\" is not a finite number");
 }
 
 std::vector<std::string> Row::columns() const {
@@ -105,8 +105,7 @@ std::vector<double> Row::numbers(std::string_view column) const {
     const std::string_view word = rest.substr(0, rest.find(' '));
     const auto number = parsed<double>(word);
     if (!number || !std::isfinite(*number)) {
-      throw Error(
-          fmt::format("{}, column {}: \"{}\" is not a finite number", place_.empty() ? "a row" : place_, column, word));
+      throw Error("{}, column {}: \"{}\" is not a finite number", place_.empty() ? "a row" : place_, column, word);
     }
     numbers.push_back(*number);
     rest.remove_prefix(std::min(word.size() + 1, rest.size()));
@@ -142,8 +141,7 @@ Table Table::from_csv(std::string_view text) {
   for (std::size_t line = 2; !text.empty(); ++line) {
     const std::vector<std::string> fields = take_record(text);
     if (fields.size() != table.columns_.size()) {
-      throw Error(
-          fmt::format("record {} has {} fields, but the header has {}", line, fields.size(), table.columns_.size()));
+      throw Error("record {} has {} fields, but the header has {}", line, fields.size(), table.columns_.size());
     }
     Row row;
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -157,10 +155,10 @@ Table Table::from_csv(std::string_view text) {
 std::string read_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw Error(fmt::format("cannot read {}: it is a folder", path.string()));
+    throw Error("cannot read {}: it is a folder", path.string());
   }
   if (std::filesystem::is_other(path, ignored)) {
-    throw Error(fmt::format("cannot read {}: it is not a regular file; copy its contents to one", path.string()));
+    throw Error("cannot read {}: it is not a regular file; copy its contents to one", path.string());
   }
   try {
     std::ifstream stream(path, std::ios::binary);
@@ -168,14 +166,14 @@ std::string read_file(const std::filesystem::path& path) {
     if (stream) return content;
   } catch (const std::ios_base::failure&) {  // the opened file cannot be read
   }
-  throw Error(fmt::format("cannot read {}", path.string()));
+  throw Error("cannot read {}", path.string());
 }
 
 Table table_in(const std::string& text, const std::filesystem::path& file) {
   try {
     return Table::from_csv(text);
   } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", file.string(), error.what()));
+    throw Error("{}: {}", file.string(), error.what());
   }
 }
 

@@ -33,8 +33,6 @@ class ReadFields {
   ~ReadFields();
   ReadFields(const ReadFields&) = delete;
   ReadFields& operator=(const ReadFields&) = delete;
-  ReadFields(ReadFields&&) = delete;
-  ReadFields& operator=(ReadFields&&) = delete;
 
   /// The fields read since it was made.
   [[nodiscard]] const ByPlace& rows() const noexcept { return rows_; }

@@ -105,6 +105,10 @@ struct Block {
   }
   /// The same as Eigen counts.
   [[nodiscard]] Eigen::Index index(Eigen::Index i = 0) const noexcept { return static_cast<Eigen::Index>(at(i)); }
+  /// Its series of this length in a vector of the program, a column per component.
+  [[nodiscard]] Eigen::MatrixXd columns(const Eigen::VectorXd& from, Eigen::Index entries) const {
+    return from.segment(index(), entries * width).reshaped(entries, width);
+  }
   /// The same block with its series begun `nodes` nodes later.
   [[nodiscard]] Block later(std::size_t nodes) const noexcept {
     Block block = *this;

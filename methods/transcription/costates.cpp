@@ -14,10 +14,7 @@ Eigen::VectorXd local_multipliers(const Transcription& transcription, const Eige
                                   Eigen::Index k) {
   const std::vector<SeriesPlace>& places = transcription.blocks().row_places();
   Eigen::VectorXd local(static_cast<Eigen::Index>(places.size()));
-  for (std::size_t r = 0; r < places.size(); ++r) {
-    local[static_cast<Eigen::Index>(r)] =
-        multipliers[static_cast<Eigen::Index>(places[r].at(static_cast<std::size_t>(k)))];
-  }
+  for (Eigen::Index r = 0; r < local.size(); ++r) local[r] = multipliers[index_of(places, r, k)];
   return local / transcription.cost_scale();
 }
 
@@ -73,10 +70,8 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
 
   Costates result{at_nodes.leftCols(n), Eigen::MatrixXd(intervals + 1, n), at_nodes.rightCols(l)};
   if (!has_second) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Index head = blocks.row(Equation::euler_lagrange).index(i);
-      result.psi_p.col(i) = multipliers.segment(head, intervals + 1) / transcription.cost_scale();
-    }
+    result.psi_p =
+        blocks.row(Equation::euler_lagrange).columns(multipliers, intervals + 1) / transcription.cost_scale();
     return result;
   }
   result.psi_p = at_nodes.middleCols(n, n);
@@ -91,15 +86,11 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   for (Eigen::Index k = 0; k <= intervals; ++k) {
     const MotionPoint node{
         series(Quantity::configuration, k), v.row(k).transpose(), {}, series(Quantity::first_order, k)};
-    const double t = times[k];
-    const Eigen::VectorXd psi_p =
-        solve_square(legendre.mass(node.q, node.v, t, node.y), Eigen::VectorXd(result.psi_p.row(k).transpose()));
+    const auto values = legendre.at(node.q, node.v, times[k], node.y);
+    const Eigen::VectorXd psi_p = solve_square(values.mass, Eigen::VectorXd(result.psi_p.row(k).transpose()));
     result.psi_p.row(k) = psi_p.transpose();
-    result.psi_q.row(k) -=
-        (legendre.momentum_by_configuration(node.q, node.v, t, node.y).transpose() * psi_p).transpose();
-    if (l == 0) continue;
-    result.psi_y.row(k) -=
-        (legendre.momentum_by_first_order(node.q, node.v, t, node.y).transpose() * psi_p).transpose();
+    result.psi_q.row(k) -= (values.by_configuration.transpose() * psi_p).transpose();
+    if (l > 0) result.psi_y.row(k) -= (values.by_first_order.transpose() * psi_p).transpose();
   }
   return result;
 }
@@ -122,10 +113,10 @@ void move_to_projected_momenta(const TracedProblem& problem, const Eigen::Matrix
     psi_q += constraints.force_by_configuration(mu).transpose() * psi_p;
     // The gradients of G H_p, D by q and G L_vv⁻¹ by p, and the gradients of g vanish along motions.
     const Eigen::VectorXd normal = jacobian * psi_p;
-    const Eigen::MatrixXd mass = legendre.mass(node.q, node.v, t, node.y);
-    if (is_invertible(mass)) {
-      const Eigen::MatrixXd by_p = solve_square(mass, Eigen::MatrixXd(jacobian.transpose()));  // L_vv⁻¹ Gᵀ
-      Eigen::MatrixXd by_q = -by_p.transpose() * legendre.momentum_by_configuration(node.q, node.v, t, node.y);
+    const auto values = legendre.at(node.q, node.v, t, node.y);
+    if (is_invertible(values.mass)) {
+      const Eigen::MatrixXd by_p = solve_square(values.mass, Eigen::MatrixXd(jacobian.transpose()));  // L_vv⁻¹ Gᵀ
+      Eigen::MatrixXd by_q = -by_p.transpose() * values.by_configuration;
       for (Eigen::Index a = 0; a < c; ++a) {
         by_q.row(a) += node.v.transpose() * constraints.force_by_configuration(Eigen::VectorXd::Unit(c, a));
       }

@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
@@ -26,16 +24,16 @@ namespace {
 /// The state of an end: its unknowns, and numbers for the rest.
 struct End {
   ExpressionVector q;
-  ExpressionVector p;  // Hamiltonian only
+  ExpressionVector p = {};  // Hamiltonian only
   ExpressionVector v;
-  ExpressionVector y;
+  ExpressionVector y = {};
 };
 
 /// Hidden constraints are formed with L_vv at rest. Throws `Error` if L_vv is another one in motion.
 void require_quadratic(const Problem& problem, const TracedProblem& traced) {
   LegendreTransform legendre(traced);
   const BoundaryState at = problem.initial_state();
-  const auto mass_at = [&](const Eigen::VectorXd& v) { return legendre.mass(at.q, v, 0.0, at.y); };
+  const auto mass_at = [&](const Eigen::VectorXd& v) { return legendre.at(at.q, v, 0.0, at.y).mass; };
   const Eigen::MatrixXd at_rest = mass_at(Eigen::VectorXd::Zero(at.q.size()));
   for (const double share : {0.25, 0.5, 0.75, 1.0}) {
     // At the speeds of the guess, each coordinate with another one.
@@ -61,20 +59,20 @@ ReleasedComponents released(const Problem& problem, const TracedProblem& traced,
     for (Eigen::Index i = 0; i < bounds.lower.size(); ++i) is_free.push_back(!bounds.is_fixed(i));
     std::vector<Eigen::Index> columns = independent_columns(jacobian, is_free);
     if (std::ssize(columns) < jacobian.rows()) {
-      throw Error(fmt::format("{}: {} are dependent at {}: {} has rank {}, not {}", problem.name(),
-                              has_velocity ? "velocity_constraints" : "constraints", member_name(name),
-                              has_velocity ? "A" : "G = dg/dq", columns.size(), jacobian.rows()));
+      throw Error("{}: {} are dependent at {}: {} has rank {}, not {}", problem.name(),
+                  has_velocity ? "velocity_constraints" : "constraints", member_name(name),
+                  has_velocity ? "A" : "G = dg/dq", columns.size(), jacobian.rows());
     }
     std::erase_if(columns, [&](Eigen::Index i) { return is_free[static_cast<std::size_t>(i)]; });
     return columns;
   };
   const Eigen::MatrixXd jacobian = constraints.jacobian();
-  ReleasedComponents result{.q = choose(jacobian.topRows(constraints.holonomic_count()), end.q), .second = {}};
+  ReleasedComponents result{.q = choose(jacobian.topRows(constraints.holonomic_count()), end.q)};
   if (!fixes_momentum) {
     result.second = choose(jacobian, end.v);
     return result;
   }
-  const Eigen::MatrixXd mass = LegendreTransform(traced).mass(state.q, state.v, t, state.y);
+  const Eigen::MatrixXd mass = LegendreTransform(traced).at(state.q, state.v, t, state.y).mass;
   result.second = choose(solve_square(mass, Eigen::MatrixXd(jacobian.transpose())).transpose(), end.v);
   return result;
 }
@@ -117,7 +115,7 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
   InputCounter unknowns(parameters);
   const auto take_end = [&](bool has_velocity, const BoundaryState& given) {
     const Eigen::Index n = closed.configuration_size();
-    End end{.q = unknowns.take(n), .p = {}, .v = given.v.cast<Expression>(), .y = {}};
+    End end{.q = unknowns.take(n), .v = given.v.cast<Expression>()};
     if (rules.node_state == NodeState::momentum) end.p = unknowns.take(n);
     if (rules.node_state == NodeState::velocity) end.v = unknowns.take(n);
     end.y = unknowns.take(closed.first_order_size());
@@ -245,10 +243,10 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
     const double excess = is_below ? path.lower[entry] - value : value - path.upper[entry];
     if (!(excess > uncertainty(h, x, values))) continue;  // a NaN at an end may be a number inside
     throw Error(
-        fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} at t = {:g}, "
-                    "but must be at {} {:g}",
-                    problem.name(), member_name(point.name), i, names.empty() ? "" : " (" + names[i] + ")", value,
-                    point.time, is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]));
+        "{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} at t = {:g}, "
+        "but must be at {} {:g}",
+        problem.name(), member_name(point.name), i, names.empty() ? "" : " (" + names[i] + ")", value, point.time,
+        is_below ? "least" : "most", is_below ? path.lower[entry] : path.upper[entry]);
   }
 }
 
@@ -278,9 +276,9 @@ void require_motion_constraints_at_ends(const Problem& problem, const TracedProb
       if (std::abs(values[i]) <= known_digits * (1.0 + terms[i])) continue;
       const Eigen::Index of_velocity = i - traced.holonomic_count();
       const bool is_holonomic = of_velocity < 0;
-      throw Error(fmt::format("{}: {} violates {}constraints[{}]: {} = {:.3g}, but must be 0", problem.name(),
-                              member_name(name), is_holonomic ? "" : "velocity_", is_holonomic ? i : of_velocity,
-                              is_holonomic ? what : "A v", values[i]));
+      throw Error("{}: {} violates {}constraints[{}]: {} = {:.3g}, but must be 0", problem.name(), member_name(name),
+                  is_holonomic ? "" : "velocity_", is_holonomic ? i : of_velocity, is_holonomic ? what : "A v",
+                  values[i]);
     }
   };
   for (const auto& [end, name] : {std::pair(&bounds.first, "initial_state"), std::pair(&bounds.last, "final_state")}) {

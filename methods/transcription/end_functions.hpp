@@ -16,8 +16,8 @@ namespace dmocbench {
 /// Components of an end that are given and that constraints imply too: stated twice, they would leave the
 /// rows of the program dependent. They are not fixed; the rows of the constraints determine them.
 struct ReleasedComponents {
-  std::vector<Eigen::Index> q;       ///< of the configuration
-  std::vector<Eigen::Index> second;  ///< of v, or of p where that is fixed (Hamiltonian)
+  std::vector<Eigen::Index> q;            ///< of the configuration
+  std::vector<Eigen::Index> second = {};  ///< of v, or of p where that is fixed (Hamiltonian)
 };
 
 /// How the two ends of the horizon enter a program.

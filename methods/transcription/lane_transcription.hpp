@@ -23,8 +23,6 @@ class LaneTranscription final : public LaneProgram {
   ~LaneTranscription() override;
   LaneTranscription(const LaneTranscription&) = delete;
   LaneTranscription& operator=(const LaneTranscription&) = delete;
-  LaneTranscription(LaneTranscription&&) = delete;
-  LaneTranscription& operator=(LaneTranscription&&) = delete;
 
   /// All parameters of the problem, if the transcription keeps some of them open; else 0.
   [[nodiscard]] std::size_t parameter_count() const override;

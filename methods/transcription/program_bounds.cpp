@@ -208,8 +208,7 @@ RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::Ve
   const double terms = of_entries * survey.largest_configuration;
   // λ is multiplied by L_vv/h, which does not vanish with q; where L_vv depends on q, it grows with it.
   const double products = std::max(of_entries, terms);
-  RoundingFloors floors{
-      .smallest = terms / steps.maxCoeff(), .largest = products / steps.minCoeff(), .constraints = {}, .variables = {}};
+  RoundingFloors floors{.smallest = terms / steps.maxCoeff(), .largest = products / steps.minCoeff()};
   if (floors.smallest == floors.largest) return floors;
   floors.constraints = floors_at(structure.rows, terms * steps.cwiseInverse(), floors.smallest);
   floors.variables = floors_at(structure.unknowns, products * steps.cwiseInverse(), floors.largest);

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -66,9 +64,9 @@ SingleShooting::SingleShooting(Transcription& program)
   const Eigen::Index entries = std::ssize(simulated_) * std::ssize(kept_);
   if (entries > most_entries) {
     throw Error(
-        fmt::format("single shooting keeps a dense matrix of {} states by {} unknowns, which may have at most {} "
-                    "entries; use fewer intervals, or multiple_shooting",
-                    simulated_.size(), kept_.size(), most_entries));
+        "single shooting keeps a dense matrix of {} states by {} unknowns, which may have at most {} "
+        "entries; use fewer intervals, or multiple_shooting",
+        simulated_.size(), kept_.size(), most_entries);
   }
   set_structures();
   outputs_.resize(program.grid().relative_widths().size(), static_cast<Eigen::Index>(interval_.output_count()));

@@ -186,9 +186,7 @@ Eigen::MatrixXd second_rates(const Problem& problem, NodeState node_state, const
   const ParameterScope scope = with_unknowns(problem, trajectory.unknowns);
   const TracedProblem traced(problem);
   EquationsOfMotion motion(traced);
-  PointFunction force(
-      traced.configuration_size(), traced.control_size(),
-      [&](const ControlledState& x) { return traced.at(x).generalised_force; }, traced.first_order_size());
+  PointFunction force(traced, [&](const ControlledState& x) { return traced.at(x).generalised_force; });
   Eigen::MatrixXd rates(trajectory.stage_q.rows(), trajectory.stage_q.cols());
   Eigen::VectorXd rate(rates.cols());
   for (Eigen::Index row = 0; row < rates.rows(); ++row) {

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
@@ -250,13 +248,6 @@ void take_out_turns(const Transcription& transcription, Trajectory& trajectory) 
   }
 }
 
-/// The series of a block, a column per component.
-Eigen::MatrixXd table_of(const UnknownBlock& block, const Eigen::VectorXd& primal, Eigen::Index length) {
-  Eigen::MatrixXd table(length, block.width);
-  for (Eigen::Index i = 0; i < block.width; ++i) table.col(i) = primal.segment(block.index(i), length);
-  return table;
-}
-
 /// z_N = Σ h Σ b_i c is worth the multiplier of every row z_{k+1} - z_k - h Σ b_i c.
 Eigen::VectorXd read_prices(const Transcription& transcription, const Eigen::VectorXd& multipliers) {
   const RowBlock& rows = transcription.blocks().row(Equation::integral);
@@ -272,7 +263,7 @@ Eigen::VectorXd read_prices(const Transcription& transcription, const Eigen::Vec
 Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& primal,
                            const Eigen::VectorXd& multipliers) {
   if (static_cast<std::size_t>(primal.size()) != transcription.variable_count()) {
-    throw Error(fmt::format("a trajectory needs {} variables, got {}", transcription.variable_count(), primal.size()));
+    throw Error("a trajectory needs {} variables, got {}", transcription.variable_count(), primal.size());
   }
   const ProgramBlocks& blocks = transcription.blocks();
   const Eigen::Index n = transcription.traced_problem().configuration_size();
@@ -280,9 +271,9 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   trajectory.tableau = transcription.tableau();
   trajectory.node_times = transcription.node_times(primal);
   const Eigen::Index nodes = trajectory.node_times.size();
-  trajectory.q = table_of(blocks.unknown(Quantity::configuration), primal, nodes);
-  trajectory.y = table_of(blocks.unknown(Quantity::first_order), primal, nodes);
-  trajectory.integrals = table_of(blocks.unknown(Quantity::integral), primal, nodes).bottomRows(1).transpose();
+  trajectory.q = blocks.unknown(Quantity::configuration).columns(primal, nodes);
+  trajectory.y = blocks.unknown(Quantity::first_order).columns(primal, nodes);
+  trajectory.integrals = blocks.unknown(Quantity::integral).columns(primal, nodes).bottomRows(1).transpose();
   trajectory.unknowns = transcription.unknown_parameters(primal);
   transcription.set_unknown_parameters(trajectory.unknowns);
   read_momenta(transcription, primal, n, trajectory);

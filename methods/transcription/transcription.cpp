@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/member_name.hpp"
@@ -38,20 +36,20 @@ void require_equalities_fit(const Problem& problem, const TracedProblem& traced,
     ++equalities;
     if (controls.stages() < tableau.stages()) {
       throw Error(
-          fmt::format("{}: {} makes path_constraints[{}] an equality at {} points of an interval, more than its {} "
-                      "control nodes; use at least as many --control-nodes",
-                      problem.name(), member_name("bounds().path"), i, tableau.stages(), controls.stages()));
+          "{}: {} makes path_constraints[{}] an equality at {} points of an interval, more than its {} "
+          "control nodes; use at least as many --control-nodes",
+          problem.name(), member_name("bounds().path"), i, tableau.stages(), controls.stages());
     }
     const bool is_same = controls.shares_controls || !traced.constraints_read_controls()[static_cast<std::size_t>(i)];
     if (!has_stages_at_nodes || !is_same) continue;
     throw Error(
-        fmt::format("{}: {} makes path_constraints[{}] an equality, which two intervals would impose on the same node; "
-                    "use --tableau gauss",
-                    problem.name(), member_name("bounds().path"), i));
+        "{}: {} makes path_constraints[{}] an equality, which two intervals would impose on the same node; "
+        "use --tableau gauss",
+        problem.name(), member_name("bounds().path"), i);
   }
   if (equalities <= traced.control_size()) return;
-  throw Error(fmt::format("{}: {} makes {} path constraints equalities; at most {}, one per control, are possible",
-                          problem.name(), member_name("bounds().path"), equalities, traced.control_size()));
+  throw Error("{}: {} makes {} path constraints equalities; at most {}, one per control, are possible", problem.name(),
+              member_name("bounds().path"), equalities, traced.control_size());
 }
 
 /// A path constraint that vanishes at an end by a boundary condition is not imposed a second time by a stage at that
@@ -94,9 +92,9 @@ void require_changeable(const Problem& problem, const TracedProblem& traced, con
     const auto number = static_cast<std::size_t>(i);
     if (now[i] == before[i] || !traced.are_constants()[number]) continue;
     throw Error(
-        fmt::format("{}: formulas of this transcription contain the parameter {} with the value {:g}; to change it, "
-                    "keep it open when the transcription is created",
-                    problem.name(), problem.parameters()[number].name, before[i]));
+        "{}: formulas of this transcription contain the parameter {} with the value {:g}; to change it, "
+        "keep it open when the transcription is created",
+        problem.name(), problem.parameters()[number].name, before[i]);
   }
 }
 
@@ -236,12 +234,11 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
       (static_cast<long long>(constraint_count()) - static_cast<long long>(intervals) * inequalities);
   if (surplus >= 0) return;
   if (gain <= 0) {
-    throw Error(
-        fmt::format("{} has no free control, so no number of intervals can satisfy both end states", problem.name()));
+    throw Error("{} has no free control, so no number of intervals can satisfy both end states", problem.name());
   }
   const auto smallest = static_cast<long long>(intervals) + (-surplus + gain - 1) / gain;
-  throw Error(fmt::format("{} with {} has fewer free variables than equations on {} intervals; use at least {}",
-                          problem.name(), element.name(), intervals, smallest));
+  throw Error("{} with {} has fewer free variables than equations on {} intervals; use at least {}", problem.name(),
+              element.name(), intervals, smallest);
 }
 
 long long Transcription::inequalities_of_an_interval() const {
@@ -274,13 +271,7 @@ std::span<const Tape::Input> Transcription::bind(const VectorIn& x, const Vector
 }
 
 Eigen::MatrixXd Transcription::tabulate(const Schedule& schedule, const VectorIn& x, const VectorIn& multipliers) {
-  const Tape tape(schedule);
-  Tape::Workspace workspace(tape);
-  Eigen::MatrixXd table(grid_.relative_widths().size(), static_cast<Eigen::Index>(tape.output_count()));
-  std::vector<double*> outputs;
-  for (auto column : table.colwise()) outputs.push_back(column.data());
-  tape.evaluate(blocks_.intervals(), bind(x, multipliers, 1.0), outputs, workspace);
-  return table;
+  return Tape(schedule).table(grid_.relative_widths().size(), bind(x, multipliers, 1.0));
 }
 
 double Transcription::objective(const VectorIn& x) {
@@ -333,11 +324,10 @@ void Transcription::set_final_state(const BoundaryState& state) { set_end(state,
 void Transcription::set_end(const BoundaryState& state, EndBounds ProblemBounds::*end, const char* name) {
   const Eigen::Index n = traced_.configuration_size();
   if (state.q.size() != n || state.v.size() != n || !state.q.allFinite() || !state.v.allFinite()) {
-    throw Error(fmt::format("{}: {} needs {} numbers each for q and v", problem_->name(), member_name(name), n));
+    throw Error("{}: {} needs {} numbers each for q and v", problem_->name(), member_name(name), n);
   }
   if (state.y.size() != traced_.first_order_size() || !state.y.allFinite()) {
-    throw Error(
-        fmt::format("{}: {} needs {} numbers y", problem_->name(), member_name(name), traced_.first_order_size()));
+    throw Error("{}: {} needs {} numbers y", problem_->name(), member_name(name), traced_.first_order_size());
   }
   Values values = present_values();
   const auto fix = [](const Eigen::VectorXd& at, Bounds& bounds) {
@@ -366,8 +356,8 @@ void Transcription::set_horizon(double horizon) {
 /// Where the velocity of an end, or T, is not an unknown, the formulas of the ends contain its value.
 void Transcription::require_readable_ends(const Values& values) const {
   const auto refuse = [&](const char* what) {
-    throw Error(fmt::format("{}: the boundary conditions or the final cost contain {}, which cannot be changed",
-                            problem_->name(), what));
+    throw Error("{}: the boundary conditions or the final cost contain {}, which cannot be changed", problem_->name(),
+                what);
   };
   if (!end_functions_) return;
   const bool gives_velocities = end_rules_.node_state != NodeState::velocity;
@@ -390,8 +380,8 @@ void Transcription::use(Values values) {
   values.bounds = complete_bounds(*problem_, std::move(values.bounds));
   const HorizonBounds& horizon = values.bounds.horizon;
   if (!(values.horizon >= horizon.lower) || !(values.horizon <= horizon.upper)) {
-    throw Error(fmt::format("{}: the horizon {:g} lies outside its bounds {:g} and {:g}", problem_->name(),
-                            values.horizon, horizon.lower, horizon.upper));
+    throw Error("{}: the horizon {:g} lies outside its bounds {:g} and {:g}", problem_->name(), values.horizon,
+                horizon.lower, horizon.upper);
   }
   if (horizon.is_free() != end_rules_.free_horizon) {
     throw Error(problem_->name() +

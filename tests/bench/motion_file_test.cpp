@@ -7,6 +7,7 @@
 #include "bench/run/result_file.hpp"
 #include "bench/run/start_provider.hpp"
 #include "methods/mechanics/phased_problem.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "problems/cart_pole_cartesian.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
@@ -35,7 +36,10 @@ class MotionFile : public tests::InTemporaryFolder {
     write_file(folder() / "X_stages.csv", stages);
   }
   [[nodiscard]] std::filesystem::path nodes_file() const { return folder() / "X_nodes.csv"; }
-  [[nodiscard]] Motion read() const { return read_motion(*problem_, nodes_file()); }
+  [[nodiscard]] Motion motion_in(const std::filesystem::path& file) const {
+    return smooth_motion(read_motion_tables(*problem_, file));
+  }
+  [[nodiscard]] Motion read() const { return motion_in(nodes_file()); }
   /// Asks for the start in the file as an experiment does.
   void provide() const {
     StartProvider starts({.start = nodes_file().string()}, {});
@@ -122,7 +126,7 @@ TEST_F(MotionFile, NeedsNoStagesBesideIt) {
   EXPECT_DOUBLE_EQ(read().at(0.25).u[0], 2.0);
   EXPECT_DOUBLE_EQ(read().at(0.5).q[0], 0.5);
   std::filesystem::rename(nodes_file(), folder() / "mine.csv");
-  EXPECT_DOUBLE_EQ(read_motion(*problem_, folder() / "mine.csv").at(1.0).q[0], 1.0);
+  EXPECT_DOUBLE_EQ(motion_in(folder() / "mine.csv").at(1.0).q[0], 1.0);
   write_file(nodes_file(), "t,q,v_q\n0.1,0,0\n1,1,0\n");
   expect_error_naming({"X_nodes.csv", "begin at 0"}, [&] { static_cast<void>(read()); });
 }

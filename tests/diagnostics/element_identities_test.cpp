@@ -75,11 +75,11 @@ TEST(Identities, DoNotHoldOfAnElementWhoseOrderIsOverstated) {
 class Spoilt final : public Element {
  public:
   using Change = std::function<void(IntervalTrace&, const IntervalUnknowns&)>;
-  Spoilt(const std::string& method, Change change) : sound_(make_element(method)), change_(std::move(change)) {}
+  Spoilt(const std::string& method, Change change)
+      : Element("spoilt", "does not satisfy an identity", make_element(method)->node_state()),
+        sound_(make_element(method)),
+        change_(std::move(change)) {}
 
-  [[nodiscard]] std::string name() const override { return "spoilt"; }
-  [[nodiscard]] std::string description() const override { return "does not satisfy an identity"; }
-  [[nodiscard]] NodeState node_state() const override { return sound_->node_state(); }
   [[nodiscard]] bool has_stage_unknowns() const override { return sound_->has_stage_unknowns(); }
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const override {

@@ -71,8 +71,6 @@ class GuardedColumn {
   }
   GuardedColumn(const GuardedColumn&) = delete;
   GuardedColumn& operator=(const GuardedColumn&) = delete;
-  GuardedColumn(GuardedColumn&&) = delete;
-  GuardedColumn& operator=(GuardedColumn&&) = delete;
   ~GuardedColumn() { munmap(memory_, inner_ + 2 * page_); }
 
   [[nodiscard]] double* data() const { return numbers_; }

@@ -19,10 +19,10 @@ TEST(LegendreTransform, IsAngularMomentumAndRadialVelocityOnTheOrbit) {
   const Eigen::Vector2d q(1.5, 0.7);
   const Eigen::Vector2d v(-0.2, 0.6);
   EXPECT_LT((legendre.momentum(q, v, 0.0) - Eigen::Vector2d(-0.2, 1.5 * 1.5 * 0.6)).norm(), 1e-15);
-  EXPECT_LT((legendre.mass(q, v, 0.0) - Eigen::Matrix2d(Eigen::Vector2d(1.0, 2.25).asDiagonal())).norm(), 1e-15);
+  EXPECT_LT((legendre.at(q, v, 0.0).mass - Eigen::Matrix2d(Eigen::Vector2d(1.0, 2.25).asDiagonal())).norm(), 1e-15);
   Eigen::Matrix2d by_configuration;
   by_configuration << 0.0, 0.0, 2.0 * 1.5 * 0.6, 0.0;
-  EXPECT_LT((legendre.momentum_by_configuration(q, v, 0.0) - by_configuration).norm(), 1e-15);
+  EXPECT_LT((legendre.at(q, v, 0.0).by_configuration - by_configuration).norm(), 1e-15);
 }
 
 TEST(LegendreTransform, InvertsItselfForEveryProblem) {
@@ -50,7 +50,7 @@ TEST(LegendreTransform, OfARelativisticParticleIsItsClosedForm) {
     const Eigen::VectorXd v = Eigen::VectorXd::Constant(1, velocity);
     const double p = velocity / std::sqrt(1.0 - velocity * velocity);
     EXPECT_NEAR(legendre.momentum(q, v, 0.0)[0], p, 1e-13 * (1.0 + std::abs(p)));
-    EXPECT_NEAR(legendre.mass(q, v, 0.0)(0, 0), std::pow(1.0 - velocity * velocity, -1.5), 1e-10);
+    EXPECT_NEAR(legendre.at(q, v, 0.0).mass(0, 0), std::pow(1.0 - velocity * velocity, -1.5), 1e-10);
     // v = p / sqrt(1 + p²). Newton starts on the convex side, nearer to the speed of light, where it cannot overshoot.
     const double gap = 1.0 - std::abs(velocity);
     const Eigen::VectorXd nearby = Eigen::VectorXd::Constant(1, velocity + std::copysign(0.3 * gap, velocity));

@@ -24,10 +24,8 @@ constexpr double one_percent_more = 1.01;
 /// A family of elements that makes the chosen mistake.
 class MutantElement final : public Element {
  public:
-  explicit MutantElement(std::unique_ptr<Element> element) : element_(std::move(element)) {}
-  [[nodiscard]] std::string name() const override { return element_->name(); }
-  [[nodiscard]] std::string description() const override { return element_->description(); }
-  [[nodiscard]] NodeState node_state() const override { return element_->node_state(); }
+  explicit MutantElement(std::unique_ptr<Element> element)
+      : Element(element->name(), element->description(), element->node_state()), element_(std::move(element)) {}
   [[nodiscard]] Tableau rates(const Tableau& tableau) const override { return element_->rates(tableau); }
   [[nodiscard]] Tableau controls(const Tableau& tableau) const override { return element_->controls(tableau); }
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,

@@ -78,7 +78,7 @@ TEST(TwoLinkManipulator, HasAPositiveDefiniteMassEverywhere) {
   const auto problem = uneven();
   LegendreTransform legendre{TracedProblem(*problem)};
   for (double angle = -pi; angle <= pi; angle += 0.1) {
-    const Eigen::Matrix2d mass = legendre.mass(Eigen::Vector2d(angle, 0.0), Eigen::Vector2d::Zero(), 0.0);
+    const Eigen::Matrix2d mass = legendre.at(Eigen::Vector2d(angle, 0.0), Eigen::Vector2d::Zero(), 0.0).mass;
     EXPECT_GT(mass(0, 0), 0.0);
     EXPECT_GT(mass.determinant(), 0.0);
   }

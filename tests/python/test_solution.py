@@ -110,6 +110,15 @@ class Copies(unittest.TestCase):
                 a, b = (db.solve(problem, **options, start=start) for start in (solution, kept))
                 self.assertEqual((a.status, a.iterations, a.cost), (b.status, b.iterations, b.cost))
 
+    def test_by_pickle_keep_the_forces_of_constraint(self):
+        for method, names in (("dmoc", ("left_impulses", "right_impulses")), ("tangent", ("stage_constraint_forces",))):
+            solution = db.solve("chaplygin_sleigh_cartesian", method=method, intervals=16)
+            kept = pickle.loads(pickle.dumps(solution))
+            for name in names:
+                forces, copied = (getattr(one._answer.motion, name) for one in (solution, kept))
+                self.assertGreater(abs(forces).max(), 0.0)
+                self.assertTrue(np.array_equal(forces, copied))
+
     def test_by_pickle_know_their_estimated_error_or_why_there_is_none(self):
         solution = db.solve(PendulumSwingUp(), intervals=32)
         self.assertEqual(pickle.loads(pickle.dumps(solution)).estimated_error(), solution.estimated_error())

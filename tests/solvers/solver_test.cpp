@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/judgement/confirm.hpp"
-#include "methods/kkt/sparse_kkt.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
@@ -36,7 +35,7 @@ class CoarseProgram final : public tests::SmallProgram {
   [[nodiscard]] const RoundingFloors& rounding_floors() const override { return floors_; }
 
  private:
-  RoundingFloors floors_{.smallest = 1e-3, .largest = 1e-3, .constraints = {}, .variables = {}};
+  RoundingFloors floors_{.smallest = 1e-3, .largest = 1e-3};
 };
 
 TEST(Solvers, StopWhereRoundingBegins) {
@@ -60,22 +59,14 @@ TEST(Solvers, StopWhereRoundingBegins) {
   }
 }
 
-TEST(Solvers, TakeTypedOptionsAndLinearSystemsOfAnExperiment) {
+TEST(Solvers, TakeTypedOptions) {
   const tests::KnownProgram known = tests::hock_schittkowski().back();
   tests::SmallProgram program(known.statement);
-  const auto solve = [&](const InteriorPointOptions& choices) {
-    return InteriorPointSolver({}, choices).solve(program, known.start);
-  };
-  const Solution by_sparse =
-      solve({.factorisation = InteriorPointOptions::Factorisation::sparse, .make_kkt_system = {}});
-  EXPECT_EQ(by_sparse.status, Status::solved);
-  int made = 0;
-  const Solution by_ours = solve({.factorisation = {}, .make_kkt_system = [&](NonlinearProgram& of) {
-                                    ++made;
-                                    return std::make_unique<kkt::SparseKkt>(of);
-                                  }});
-  EXPECT_EQ(made, 1);
-  EXPECT_EQ(by_ours.primal, by_sparse.primal);
+  const InteriorPointSolver typed({}, {.factorisation = InteriorPointOptions::Factorisation::sparse});
+  const Solution answer = typed.solve(program, known.start);
+  EXPECT_EQ(answer.status, Status::solved);
+  EXPECT_EQ(make_solver("interior_point", {}, {{"factorisation", "sparse"}})->solve(program, known.start).primal,
+            answer.primal);
 }
 
 TEST(SolverOptions, AreValidByDefault) { EXPECT_NO_THROW(SolverOptions().validate()); }

@@ -70,13 +70,12 @@ std::map<std::string, double> errors_of_reduced(const Trajectory& motion) {
     raise("q", (motion.q.row(k).transpose() - q).norm());
     raise("p", (motion.p.row(k).transpose() - legendre.momentum(q, v, 0.0)).norm());
     // Along x, y, θ with the velocity along the blade kept, and along both velocities.
-    const Eigen::MatrixXd mass = legendre.mass(q, v, 0.0);
-    const Eigen::MatrixXd by_q = legendre.momentum_by_configuration(q, v, 0.0);
-    const Eigen::MatrixXd quasi_mass = of_quasi.mass(at.q, at.v, 0.0, at.y);
+    const auto values = legendre.at(q, v, 0.0);
+    const Eigen::MatrixXd quasi_mass = of_quasi.at(at.q, at.v, 0.0, at.y).mass;
     const Eigen::VectorXd psi_q = motion.psi_q.row(k).transpose();
     const Eigen::VectorXd psi_p = motion.psi_p.row(k).transpose();
     const auto found = [&](const Eigen::Vector3d& dq, const Eigen::Vector3d& dv) {
-      return psi_q.dot(dq) + psi_p.dot(by_q * dq + mass * dv);
+      return psi_q.dot(dq) + psi_p.dot(values.by_configuration * dq + values.mass * dv);
     };
     const Eigen::Index row = k * stride;
     for (Eigen::Index i = 0; i < 2; ++i) {

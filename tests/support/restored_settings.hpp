@@ -15,8 +15,6 @@ class Threads {
   explicit Threads(std::size_t count) : before_(thread_count()) { set_thread_count(count); }
   Threads(const Threads&) = delete;
   Threads& operator=(const Threads&) = delete;
-  Threads(Threads&&) = delete;
-  Threads& operator=(Threads&&) = delete;
   ~Threads() { set_thread_count(before_); }
 
  private:
@@ -29,8 +27,6 @@ class EnvironmentVariable {
   explicit EnvironmentVariable(const char* name) : name_(name), before_(value()) {}
   EnvironmentVariable(const EnvironmentVariable&) = delete;
   EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
-  EnvironmentVariable(EnvironmentVariable&&) = delete;
-  EnvironmentVariable& operator=(EnvironmentVariable&&) = delete;
   ~EnvironmentVariable() {
     unset();
     if (before_) set(*before_);

@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "bench/run/solve_case.hpp"
 #include "methods/adaptive/error_estimate.hpp"
 #include "methods/error.hpp"
@@ -23,8 +21,8 @@ Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const So
   const SolvedCase solved =
       solve_case(the_case, Start{guessed_motion(*problem)}, *make_solver("auto", options), options.tolerance, 1);
   if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
-  throw Error(fmt::format("{} has no usable solution ({}): {}", the_case.label(), name_of(solved.solution.status),
-                          solved.solution.message));
+  throw Error("{} has no usable solution ({}): {}", the_case.label(), name_of(solved.solution.status),
+              solved.solution.message);
 }
 
 /// Bounds that a parameter can switch off are switched off: the indirect method does not support bounds.

@@ -21,8 +21,6 @@ class Plant {
   ~Plant();
   Plant(const Plant&) = delete;
   Plant& operator=(const Plant&) = delete;
-  Plant(Plant&&) = delete;
-  Plant& operator=(Plant&&) = delete;
 
   /// At the initial state of the problem.
   void begin();

@@ -68,8 +68,7 @@ FlowMomentum momentum_along(const InvariantSystem& system) {
 /// Ω(a, b) = aᵀ W b of a form dp∧dq, with p = L_v(q, v).
 Eigen::MatrixXd lagrangian_form(LegendreTransform& legendre, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   const Eigen::Index n = q.size();
-  const Eigen::MatrixXd by_q = legendre.momentum_by_configuration(q, v, 0.0);
-  const Eigen::MatrixXd by_v = legendre.mass(q, v, 0.0);
+  const auto [p, by_v, by_q, by_y] = legendre.at(q, v, 0.0);
   Eigen::MatrixXd form = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   form.topLeftCorner(n, n) = by_q.transpose() - by_q;
   form.topRightCorner(n, n) = -by_v;

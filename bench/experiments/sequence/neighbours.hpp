@@ -18,8 +18,6 @@ class Neighbours {
   virtual ~Neighbours() = default;
   Neighbours(const Neighbours&) = delete;
   Neighbours& operator=(const Neighbours&) = delete;
-  Neighbours(Neighbours&&) = delete;
-  Neighbours& operator=(Neighbours&&) = delete;
 
   /// "receding_horizon" or "homotopy".
   [[nodiscard]] virtual std::string name() const = 0;

@@ -65,7 +65,7 @@ void MinorTrace::check(const std::vector<Case>& cases, const ExperimentCard& car
   own.insert(own.end(), {".csv", ".json"});
   for (const std::string& suffix : own) {
     if (place_of(file_) != place_of(card.options.out / (card.options.name + suffix))) continue;
-    throw Error(fmt::format("--trace {} is a file that this run writes; choose another", file_));
+    throw Error("--trace {} is a file that this run writes; choose another", file_);
   }
   if (!is_in_folder(file_, card.options.out)) require_writable(file_);
 }

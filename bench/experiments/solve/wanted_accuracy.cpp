@@ -72,7 +72,7 @@ void WantedAccuracy::check(const std::vector<Case>& cases) {
   try {
     adaptive_.validate();
   } catch (const Error& error) {
-    throw Error(fmt::format("--accuracy: {}", error.what()));
+    throw Error("--accuracy: {}", error.what());
   }
 }
 

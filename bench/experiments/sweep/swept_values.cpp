@@ -65,8 +65,8 @@ double on_grid(const SweptQuantity& quantity, int i, int count) {
 
 void require_few(double count) {
   if (count <= static_cast<double>(most_instances)) return;
-  throw Error(fmt::format("a sweep takes at most {} instances, not {:.0f}; split it into runs with different --name",
-                          most_instances, count));
+  throw Error("a sweep takes at most {} instances, not {:.0f}; split it into runs with different --name",
+              most_instances, count);
 }
 
 }  // namespace
@@ -77,25 +77,24 @@ SweptQuantity parse_over(const std::string& text, bool is_sampled) {
   SweptQuantity quantity{.name = std::string(name)};
   const std::size_t first = range.find(':');
   if (first == std::string_view::npos) {
-    throw Error(fmt::format("{} takes LOWER:UPPER:COUNT, or LOWER:UPPER with --samples, got \"{}\"", option, range));
+    throw Error("{} takes LOWER:UPPER:COUNT, or LOWER:UPPER with --samples, got \"{}\"", option, range);
   }
   const std::size_t second = range.find(':', first + 1);
   quantity.lower = parse_number(option, range.substr(0, first));
   quantity.upper =
       parse_number(option, range.substr(first + 1, second == std::string_view::npos ? second : second - first - 1));
   if (!std::isfinite(quantity.lower) || !std::isfinite(quantity.upper) || !(quantity.lower < quantity.upper)) {
-    throw Error(fmt::format("{}: the range must be finite and increasing, got {:g} to {:g}", option, quantity.lower,
-                            quantity.upper));
+    throw Error("{}: the range must be finite and increasing, got {:g} to {:g}", option, quantity.lower,
+                quantity.upper);
   }
   const bool has_count = second != std::string_view::npos;
-  if (has_count && is_sampled) throw Error(fmt::format("{}: --samples draws the values; omit the count", option));
+  if (has_count && is_sampled) throw Error("{}: --samples draws the values; omit the count", option);
   if (!has_count && is_sampled) return quantity;
-  if (!has_count)
-    throw Error(fmt::format("{}: the count is missing; write LOWER:UPPER:COUNT, or use --samples", option));
+  if (!has_count) throw Error("{}: the count is missing; write LOWER:UPPER:COUNT, or use --samples", option);
   const auto count = parsed<int>(range.substr(second + 1));
   if (!count || *count < 2 || *count > most_instances) {
-    throw Error(fmt::format("{}: the count must be a whole number between 2 and {}, got \"{}\"", option, most_instances,
-                            range.substr(second + 1)));
+    throw Error("{}: the count must be a whole number between 2 and {}, got \"{}\"", option, most_instances,
+                range.substr(second + 1));
   }
   quantity.count = *count;
   return quantity;
@@ -106,7 +105,7 @@ std::vector<std::vector<double>> instances_of(const std::vector<SweptQuantity>& 
   std::set<std::string> names;
   double product = 1.0;
   for (const SweptQuantity& quantity : quantities) {
-    if (!names.insert(quantity.name).second) throw Error(fmt::format("--over {} is given twice", quantity.name));
+    if (!names.insert(quantity.name).second) throw Error("--over {} is given twice", quantity.name);
     product *= quantity.count.value_or(1);
   }
   require_few(samples ? static_cast<double>(*samples) : product);
@@ -135,15 +134,14 @@ void require_quantities(const Problem& problem, const std::vector<SweptQuantity>
       continue;
     }
     if (entry->number >= problem.configuration_size()) {
-      throw Error(fmt::format("--over {}: the end states of {} have {} of q and of v", quantity.name, problem.name(),
-                              counted(problem.configuration_size(), "entry", "entries")));
+      throw Error("--over {}: the end states of {} have {} of q and of v", quantity.name, problem.name(),
+                  counted(problem.configuration_size(), "entry", "entries"));
     }
     const ProblemBounds bounds = problem.bounds();
     const EndBounds& end = entry->is_first ? bounds.first : bounds.last;
     const Bounds& part = entry->is_velocity ? end.v : end.q;
     if (!part.is_fixed(entry->number)) {
-      throw Error(fmt::format("--over {}: {} does not prescribe that entry, so it cannot be varied", quantity.name,
-                              problem.name()));
+      throw Error("--over {}: {} does not prescribe that entry, so it cannot be varied", quantity.name, problem.name());
     }
   }
 }

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "bench/run/solve_case.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/elements/families.hpp"
@@ -14,8 +12,7 @@ namespace dmocbench {
 /// one, and one whose program can be written as formulas of its unknowns.
 [[nodiscard]] inline const Case& exchanged_case(const std::vector<Case>& cases) {
   if (cases.size() != 1) {
-    throw Error(
-        fmt::format("needs exactly one case (one problem, method, number of stages and grid), got {}", cases.size()));
+    throw Error("needs exactly one case (one problem, method, number of stages and grid), got {}", cases.size());
   }
   if (family_of(cases.front().method).is_condensed) {
     throw Error(

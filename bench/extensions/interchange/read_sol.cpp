@@ -34,7 +34,7 @@ class ReadSol final : public ExperimentOf<IndependentChecks> {
     } catch (const Error& error) {
       const std::string reason = error.what();
       if (reason.find(file_) != std::string::npos) throw;
-      throw Error(fmt::format("--sol {}: {}", file_, reason));
+      throw Error("--sol {}: {}", file_, reason);
     }
     return chosen;
   }

@@ -22,11 +22,11 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& file) {
 
 /// Throws `Error` unless all files can be written and none exists.
 void check(const std::filesystem::path& nl) {
-  if (nl.extension() != ".nl") throw Error(fmt::format("--to {}: the name must end in .nl", nl.string()));
+  if (nl.extension() != ".nl") throw Error("--to {}: the name must end in .nl", nl.string());
   for (const std::filesystem::path& file : files_of(nl)) {
     std::error_code none;
     if (std::filesystem::exists(std::filesystem::symlink_status(file, none))) {
-      throw Error(fmt::format("--to: {} exists already; remove it or name another file", file.string()));
+      throw Error("--to: {} exists already; remove it or name another file", file.string());
     }
     require_writable(file);
   }

@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "bench/extensions/primitives/roadmap_systems.hpp"
 #include "bench/run/solve_case.hpp"
 #include "methods/error.hpp"
@@ -60,9 +58,9 @@ Trajectory first_motion(const Problem& problem, const PrimitiveOptions& options)
   stop_if_requested();
   if (!is_solved(solution.status)) {
     throw Error(
-        fmt::format("{}: a lattice of states needs a first trajectory, but DMOC did not find one from the guess with N "
-                    "= {}: {}; improve the guess",
-                    problem.name(), intervals, solution.message));
+        "{}: a lattice of states needs a first trajectory, but DMOC did not find one from the guess with N "
+        "= {}: {}; improve the guess",
+        problem.name(), intervals, solution.message);
   }
   return read_trajectory(*program, solution.primal, {});
 }

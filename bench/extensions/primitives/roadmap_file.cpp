@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/run/json_place.hpp"
@@ -91,11 +90,8 @@ RoadmapJson json_of(const PrimitiveLibrary& library) {
 
 PrimitiveLibrary library_from(const JsonPlace& content) {
   PrimitiveLibrary library{.problem = content.at("problem").text(),
-                           .parameters = {},
                            .step = content.at("step").number(),
-                           .intervals_per_step = content.at("intervals_per_step").count(),
-                           .states = {},
-                           .primitives = {}};
+                           .intervals_per_step = content.at("intervals_per_step").count()};
   for (const auto& [name, value] : content.at("parameters").members()) {
     library.parameters.emplace_back(name, value.number());
   }
@@ -125,7 +121,7 @@ RoadmapJson checked_content(std::string_view text) {
   const JsonPlace place(json, "its JSON");
   if (!place.has("format") || json["format"] != roadmap_format) throw Error("it is not a roadmap");
   if (const JsonPlace version = place.at("version"); version.json() != roadmap_version) {
-    throw Error(fmt::format("it has version {}, but this program reads version {}", version.number(), roadmap_version));
+    throw Error("it has version {}, but this program reads version {}", version.number(), roadmap_version);
   }
   const RoadmapJson& content = place.at("content").json();
   if (place.at("crc32").text() != checksum_of(content.dump())) {
@@ -193,7 +189,7 @@ StoredRoadmap read_roadmap(const std::filesystem::path& file, const Problem& pro
   try {
     return roadmap_of(text, problem);
   } catch (const Error& error) {
-    throw Error(fmt::format("{} cannot be used as the roadmap of {}: {}", file.string(), problem.name(), error.what()));
+    throw Error("{} cannot be used as the roadmap of {}: {}", file.string(), problem.name(), error.what());
   }
 }
 

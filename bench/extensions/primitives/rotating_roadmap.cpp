@@ -35,8 +35,7 @@ class TurningTrims {
       const double share = static_cast<double>(k) / parts_of_rates;
       Trim guess{.q = first.q + share * (last.q - first.q),
                  .rates = Eigen::VectorXd::Constant(1, first_rate_ + k * rate_spacing_),
-                 .u = first.u,
-                 .state = {}};
+                 .u = first.u};
       guess.q[turning_] = first.q[turning_];
       trims_.push_back(k == 0 ? first : solver_.solve(guess, shape_));
     }
@@ -78,7 +77,7 @@ class TurningTrims {
       if (i != turning_) shape_.push_back(i);
     }
     const Eigen::VectorXd rate = state.v.segment(turning_, 1);
-    return solver_.solve({.q = state.q, .rates = rate, .u = Eigen::VectorXd::Zero(problem.control_size()), .state = {}},
+    return solver_.solve({.q = state.q, .rates = rate, .u = Eigen::VectorXd::Zero(problem.control_size())},
                          {axis.size()});
   }
 

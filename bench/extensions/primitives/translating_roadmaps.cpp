@@ -60,8 +60,7 @@ class PlaneLattice {
     rates[0] = speed.x * cell_x_ / step_;
     rates[1] = speed.y * cell_y_ / step_;
     const Eigen::Index first_control = start_.size() + rates.size();
-    trims_.push_back(
-        solver_.solve({.q = start_, .rates = rates, .u = u, .state = {}}, {first_control, first_control + 1}));
+    trims_.push_back(solver_.solve({.q = start_, .rates = rates, .u = u}, {first_control, first_control + 1}));
     speeds_.push_back(speed);
   }
   [[nodiscard]] const std::vector<Trim>& trims() const noexcept { return trims_; }

@@ -43,7 +43,7 @@ OptimalSteps SteppedTransfer::solve(StepPolicy rule, const StepFunction& sigma, 
 
 OptimalSteps SteppedTransfer::steps_of(const Solution& solution, std::size_t variables,
                                        const std::function<Trajectory()>& read) const {
-  OptimalSteps result{.status = std::string(name_of(solution.status)), .variables = variables, .errors = std::nullopt};
+  OptimalSteps result{.status = std::string(name_of(solution.status)), .variables = variables};
   if (!is_solved(solution.status)) return result;
   const Trajectory motion = read();
   const TrajectoryError error = trajectory_error(motion, optimum_->sampled_like(motion));

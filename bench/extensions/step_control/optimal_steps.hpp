@@ -27,7 +27,7 @@ struct StepsErrors {
 struct OptimalSteps {
   std::string status;
   std::size_t variables = 0;  ///< of the program
-  std::optional<StepsErrors> errors;
+  std::optional<StepsErrors> errors = {};
 };
 
 /// The eccentric transfer and its certified optimum.

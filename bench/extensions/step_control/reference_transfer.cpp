@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "bench/run/solve_case.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/error.hpp"
@@ -33,8 +31,7 @@ Trajectory solved_transfer(const std::shared_ptr<const Problem>& problem, const 
                       .grid = Grid::uniform(intervals)};
   SolvedCase solved = solve_case(the_case, Start{start}, solver, solver.options().tolerance, 1, true);
   if (!solved.trajectory || !is_usable(solved)) {
-    throw Error(
-        fmt::format("{} is not solved and cannot be a reference: {}", the_case.label(), solved.solution.message));
+    throw Error("{} is not solved and cannot be a reference: {}", the_case.label(), solved.solution.message);
   }
   return *std::move(solved.trajectory);
 }

@@ -169,6 +169,8 @@ class Motion:
     psi_q: Array | None
     psi_p: Array | None
     psi_y: Array | None
+    left_impulses: Array | None
+    right_impulses: Array | None
     stage_t: Array | None
     stage_q: Array | None
     stage_v: Array | None
@@ -179,6 +181,7 @@ class Motion:
     stage_psi_q: Array | None
     stage_psi_p: Array | None
     stage_psi_y: Array | None
+    stage_constraint_forces: Array | None
     price_q: Array | None
     price_v: Array | None
     price_y: Array | None

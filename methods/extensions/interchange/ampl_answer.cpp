@@ -4,8 +4,6 @@
 #include <cctype>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/program/counted_program.hpp"
@@ -31,8 +29,7 @@ class SolutionLines {
   std::string_view next(std::string_view wanted) {
     const std::size_t end = rest_.find('\n');
     if (end == std::string_view::npos) {
-      throw Error(
-          fmt::format("the file ends at line {}, before {}; it is truncated or not a .sol file", number_ + 1, wanted));
+      throw Error("the file ends at line {}, before {}; it is truncated or not a .sol file", number_ + 1, wanted);
     }
     const std::string_view line = trimmed(rest_.substr(0, end));
     rest_.remove_prefix(end + 1);
@@ -44,13 +41,12 @@ class SolutionLines {
   Number number(std::string_view wanted) {
     const std::string_view line = next(wanted);
     const auto value = parsed<Number>(line.starts_with('+') ? line.substr(1) : line);
-    if (!value)
-      throw Error(fmt::format("line {} must be a number ({}), but is \"{}\"", number_, wanted, shortened(line)));
+    if (!value) throw Error("line {} must be a number ({}), but is \"{}\"", number_, wanted, shortened(line));
     return *value;
   }
   Eigen::Index count(std::string_view wanted) {
     const auto value = number<Eigen::Index>(wanted);
-    if (value < 0) throw Error(fmt::format("line {} ({}) is negative", number_, wanted));
+    if (value < 0) throw Error("line {} ({}) is negative", number_, wanted);
     return value;
   }
   [[nodiscard]] std::size_t line_number() const noexcept { return number_; }
@@ -95,7 +91,7 @@ void skip_options(SolutionLines& lines) {
 
 Eigen::VectorXd values(SolutionLines& lines, Eigen::Index count, std::string_view wanted) {
   if (std::cmp_greater(count, lines.characters_left())) {  // a line each
-    throw Error(fmt::format("the file ends at line {}, before {}; it is truncated", lines.line_number(), wanted));
+    throw Error("the file ends at line {}, before {}; it is truncated", lines.line_number(), wanted);
   }
   Eigen::VectorXd result(count);
   for (double& value : result) value = lines.number<double>(wanted);
@@ -106,7 +102,7 @@ Eigen::VectorXd values(SolutionLines& lines, Eigen::Index count, std::string_vie
 Eigen::Index all_or_none(SolutionLines& lines, Eigen::Index size, std::string_view wanted) {
   const Eigen::Index count = lines.count(wanted);
   if (count == 0 || count == size) return count;
-  throw Error(fmt::format("line {}: {} is {}, but must be 0 or {}", lines.line_number(), wanted, count, size));
+  throw Error("line {}: {} is {}, but must be 0 or {}", lines.line_number(), wanted, count, size);
 }
 
 /// "objno 0 CODE".
@@ -115,7 +111,7 @@ int code_of(std::string_view line) {
   const std::size_t last = line.rfind(' ');
   const auto code = parsed<int>(line.substr(last == std::string_view::npos ? 0 : last + 1));
   if (!line.starts_with(begin) || last < begin.size() || !code) {
-    throw Error(fmt::format(R"(the last line must be "objno 0 CODE", but reads "{}")", SolutionLines::shortened(line)));
+    throw Error(R"(the last line must be "objno 0 CODE", but reads "{}")", SolutionLines::shortened(line));
   }
   return *code;
 }
@@ -159,16 +155,16 @@ AmplSolution read_ampl_solution(std::string_view text) {
 }
 
 AmplAnswer::AmplAnswer(AmplSolution answer, SolverOptions options)
-    : SolverWithoutMemory(std::move(options)), answer_(std::move(answer)) {}
+    : SolverWithoutMemory("ampl", "solution of another solver, from its .sol file", std::move(options)),
+      answer_(std::move(answer)) {}
 
 void AmplAnswer::require_fit(const NonlinearProgram& program) const {
   if (std::cmp_equal(answer_.variable_count, program.variable_count()) &&
       std::cmp_equal(answer_.constraint_count, program.constraint_count())) {
     return;
   }
-  throw Error(fmt::format(
-      "the solution belongs to a program with {} variables and {} constraints, but this program has {} and {}",
-      answer_.variable_count, answer_.constraint_count, program.variable_count(), program.constraint_count()));
+  throw Error("the solution belongs to a program with {} variables and {} constraints, but this program has {} and {}",
+              answer_.variable_count, answer_.constraint_count, program.variable_count(), program.constraint_count());
 }
 
 Solution AmplAnswer::run(CountedProgram& program, const Eigen::VectorXd& /*start*/) const {

@@ -42,9 +42,6 @@ class AmplAnswer final : public SolverWithoutMemory {
   /// Returns this answer for every program.
   explicit AmplAnswer(AmplSolution answer, SolverOptions options = {});
 
-  [[nodiscard]] std::string name() const override { return "ampl"; }
-  [[nodiscard]] std::string description() const override { return "solution of another solver, from its .sol file"; }
-
   /// Throws `Error` if the answer is not one of a program of that size.
   void require_fit(const NonlinearProgram& program) const;
 

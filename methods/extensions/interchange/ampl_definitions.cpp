@@ -1,5 +1,7 @@
 #include "methods/extensions/interchange/ampl_definitions.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,53 +16,32 @@ using Step = Schedule::Step;
 
 /// The number of an operation in AMPL's format.
 int ampl_number(Operation operation) {
-  switch (operation) {  // NOLINT(clang-diagnostic-switch-enum): operations that AMPL lacks are rejected below
-    case Operation::add:
-      return 0;
-    case Operation::subtract:
-      return 1;
-    case Operation::multiply:
-      return 2;
-    case Operation::divide:
-    case Operation::reciprocal:
-      return 3;
-    case Operation::power:
-      return 5;
-    case Operation::negate:
-      return 16;
-    case Operation::hyperbolic_tangent:
-      return 37;
-    case Operation::tangent:
-      return 38;
-    case Operation::square_root:
-      return 39;
-    case Operation::hyperbolic_sine:
-      return 40;
-    case Operation::sine:
-      return 41;
-    case Operation::logarithm:
-      return 43;
-    case Operation::exponential:
-      return 44;
-    case Operation::hyperbolic_cosine:
-      return 45;
-    case Operation::cosine:
-      return 46;
-    case Operation::arc_tangent2:
-      return 48;
-    case Operation::arc_tangent:
-      return 49;
-    case Operation::inverse_hyperbolic_sine:
-      return 50;
-    case Operation::arc_sine:
-      return 51;
-    case Operation::arc_cosine:
-      return 53;
-    default:
-      throw Error(
-          "a formula contains an operation that AMPL's format does not have, such as erf or a spline; write it with +, "
-          "-, *, /, powers and elementary functions");
-  }
+  constexpr std::array numbers{std::pair(Operation::add, 0),
+                               std::pair(Operation::subtract, 1),
+                               std::pair(Operation::multiply, 2),
+                               std::pair(Operation::divide, 3),
+                               std::pair(Operation::reciprocal, 3),
+                               std::pair(Operation::power, 5),
+                               std::pair(Operation::negate, 16),
+                               std::pair(Operation::hyperbolic_tangent, 37),
+                               std::pair(Operation::tangent, 38),
+                               std::pair(Operation::square_root, 39),
+                               std::pair(Operation::hyperbolic_sine, 40),
+                               std::pair(Operation::sine, 41),
+                               std::pair(Operation::logarithm, 43),
+                               std::pair(Operation::exponential, 44),
+                               std::pair(Operation::hyperbolic_cosine, 45),
+                               std::pair(Operation::cosine, 46),
+                               std::pair(Operation::arc_tangent2, 48),
+                               std::pair(Operation::arc_tangent, 49),
+                               std::pair(Operation::inverse_hyperbolic_sine, 50),
+                               std::pair(Operation::arc_sine, 51),
+                               std::pair(Operation::arc_cosine, 53)};
+  const auto found = std::ranges::find(numbers, operation, [](const auto& pair) { return pair.first; });
+  if (found != numbers.end()) return found->second;
+  throw Error(
+      "a formula contains an operation that AMPL's format does not have, such as erf or a spline; write it with +, "
+      "-, *, /, powers and elementary functions");
 }
 
 /// The uses of a step, which decide about its definition.

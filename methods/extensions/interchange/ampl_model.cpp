@@ -302,8 +302,7 @@ class AmplWriter {
 
 AmplModel ampl_model(const Transcription& program, const Eigen::VectorXd& start) {
   if (static_cast<std::size_t>(start.size()) != program.variable_count()) {
-    throw Error(fmt::format("the start has {} entries, but the program has {} variables", start.size(),
-                            program.variable_count()));
+    throw Error("the start has {} entries, but the program has {} variables", start.size(), program.variable_count());
   }
   return {.nl = AmplWriter(program).text(start),
           .row = lines(ampl_row_names(program)) + "cost\n",

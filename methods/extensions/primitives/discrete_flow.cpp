@@ -85,15 +85,10 @@ DiscreteFlow::DiscreteFlow(const Problem& problem, double h)
 
 Eigen::MatrixXd DiscreteFlow::evaluated(const Tape& tape, const Eigen::MatrixXd& states,
                                         const Eigen::MatrixXd& controls) const {
-  Eigen::MatrixXd results(states.rows(), static_cast<Eigen::Index>(tape.output_count()));
   std::vector<Tape::Input> inputs;
-  std::vector<double*> outputs;
   for (Eigen::Index i = 0; i < 2 * n_; ++i) inputs.push_back({states.col(i).data(), false});
   for (Eigen::Index i = 0; i < m_; ++i) inputs.push_back({controls.col(i).data(), false});
-  for (Eigen::Index i = 0; i < results.cols(); ++i) outputs.push_back(results.col(i).data());
-  Tape::Workspace workspace(tape);
-  tape.evaluate(static_cast<std::size_t>(states.rows()), inputs, outputs, workspace);
-  return results;
+  return tape.table(states.rows(), inputs);
 }
 
 void DiscreteFlow::advance(Eigen::MatrixXd& states, const Eigen::MatrixXd& controls, Eigen::VectorXd& costs) const {

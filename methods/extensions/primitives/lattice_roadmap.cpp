@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/extensions/primitives/discrete_flow.hpp"
 #include "methods/extensions/primitives/meeting_trees.hpp"
@@ -118,18 +116,18 @@ void check(const Problem& problem, const LatticeOptions& options) {
   const Eigen::Index n = problem.configuration_size();
   if (options.controls.cols() != problem.control_size() || options.controls.rows() == 0 ||
       options.cell.size() != 2 * n || !(options.cell.array() > 0.0).all()) {
-    throw Error(fmt::format("a lattice of {} needs constant controls with {} entries and cells with {} positive sizes",
-                            problem.name(), problem.control_size(), 2 * n));
+    throw Error("a lattice of {} needs constant controls with {} entries and cells with {} positive sizes",
+                problem.name(), problem.control_size(), 2 * n);
   }
   if (options.connection < 1 || options.connection > options.time_steps || options.intervals_per_step < 1) {
-    throw Error(fmt::format("connections of {} time steps do not fit into a horizon of {} time steps",
-                            options.connection, options.time_steps));
+    throw Error("connections of {} time steps do not fit into a horizon of {} time steps", options.connection,
+                options.time_steps);
   }
   const auto intervals = static_cast<Eigen::Index>(options.connection) * options.intervals_per_step;
   if (intervals * problem.control_size() < 2 * n) {
-    throw Error(fmt::format(
+    throw Error(
         "connections of {} intervals have fewer control values than a state of {} has entries; use more intervals",
-        intervals, problem.name()));
+        intervals, problem.name());
   }
 }
 

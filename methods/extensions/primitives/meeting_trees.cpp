@@ -19,7 +19,7 @@ struct Reached {
   Eigen::VectorXd costs;
 };
 
-Reached reached_from(const MotionTreeLayer& layer, const DiscreteFlow& flow, const MotionTreeOptions& options) {
+Reached reached_from(const MotionTreeLayer& layer, const DiscreteFlow& flow, const LatticeOptions& options) {
   const Eigen::Index choices = options.controls.rows();
   const Eigen::Index count = layer.states.rows();
   // State i with control k is row k · count + i.
@@ -42,12 +42,13 @@ bool is_allowed(const Eigen::VectorXd& state, const Bounds& bounds) {
 }
 
 /// The cheapest state of every cell, cells in the order of the lattice.
-std::vector<Eigen::Index> cheapest_of_cells(const Reached& reached, const MotionTreeOptions& options) {
+std::vector<Eigen::Index> cheapest_of_cells(const Reached& reached, const LatticeOptions& options,
+                                            const Bounds& configurations) {
   std::map<std::vector<long long>, Eigen::Index> cells;
   std::vector<long long> cell(static_cast<std::size_t>(options.cell.size()));
   for (Eigen::Index row = 0; row < reached.states.rows(); ++row) {
     const Eigen::VectorXd state = reached.states.row(row).transpose();
-    if (!is_allowed(state, options.configuration)) continue;
+    if (!is_allowed(state, configurations)) continue;
     for (std::size_t i = 0; i < cell.size(); ++i) {
       const auto entry = static_cast<Eigen::Index>(i);
       cell[i] = std::llround(state[entry] / options.cell[entry]);
@@ -61,14 +62,13 @@ std::vector<Eigen::Index> cheapest_of_cells(const Reached& reached, const Motion
   return rows;
 }
 
-MotionTreeLayer layer_behind(const MotionTreeLayer& layer, const DiscreteFlow& flow, const MotionTreeOptions& options) {
+MotionTreeLayer layer_behind(const MotionTreeLayer& layer, const DiscreteFlow& flow, const LatticeOptions& options,
+                             const Bounds& configurations) {
   const Reached reached = reached_from(layer, flow, options);
-  const std::vector<Eigen::Index> rows = cheapest_of_cells(reached, options);
+  const std::vector<Eigen::Index> rows = cheapest_of_cells(reached, options, configurations);
   const std::size_t kept = std::min(rows.size(), options.most_states);
   MotionTreeLayer next{.states = Eigen::MatrixXd(static_cast<Eigen::Index>(kept), reached.states.cols()),
-                       .costs = Eigen::VectorXd(static_cast<Eigen::Index>(kept)),
-                       .parents = {},
-                       .controls = {}};
+                       .costs = Eigen::VectorXd(static_cast<Eigen::Index>(kept))};
   for (std::size_t i = 0; i < kept; ++i) {
     const Eigen::Index row = rows[i * rows.size() / kept];
     next.states.row(static_cast<Eigen::Index>(i)) = reached.states.row(row);
@@ -82,12 +82,12 @@ MotionTreeLayer layer_behind(const MotionTreeLayer& layer, const DiscreteFlow& f
 }  // namespace
 
 std::vector<MotionTreeLayer> grow_tree(const DiscreteFlow& flow, const BoundaryState& root,
-                                       const MotionTreeOptions& options) {
+                                       const LatticeOptions& options, const Bounds& configurations, int steps) {
   std::vector<MotionTreeLayer> layers(1);
   layers[0].states.resize(1, 2 * root.q.size());
   layers[0].states.row(0) << root.q.transpose(), root.v.transpose();
   layers[0].costs = Eigen::VectorXd::Zero(1);
-  for (int i = 0; i < options.layers; ++i) layers.push_back(layer_behind(layers.back(), flow, options));
+  for (int i = 0; i < steps; ++i) layers.push_back(layer_behind(layers.back(), flow, options, configurations));
   return layers;
 }
 
@@ -258,24 +258,16 @@ double Joining::curvature_of(const Problem& problem) {
   return sum / static_cast<double>(m);
 }
 
-MotionTreeOptions tree_options(const Problem& problem, const LatticeOptions& options, int layers) {
-  return {.layers = layers,
-          .intervals_per_step = options.intervals_per_step,
-          .controls = options.controls,
-          .cell = options.cell,
-          .most_states = options.most_states,
-          .configuration = problem.bounds().q};
-}
-
 }  // namespace
 
 MeetingTrees::MeetingTrees(const Problem& problem, const DiscreteFlow& flow, const LatticeOptions& options) {
   constexpr std::size_t pairs_per_connection = 20;
   const int steps = options.time_steps - options.connection;
   const int forward_steps = (steps + 1) / 2;
-  forward_ = grow_tree(flow, problem.initial_state(), tree_options(problem, options, forward_steps));
-  backward_ = grow_tree(DiscreteFlow(problem, -flow.step()), problem.final_state(),
-                        tree_options(problem, options, steps - forward_steps));
+  const Bounds configurations = problem.bounds().q;
+  forward_ = grow_tree(flow, problem.initial_state(), options, configurations, forward_steps);
+  backward_ = grow_tree(DiscreteFlow(problem, -flow.step()), problem.final_state(), options, configurations,
+                        steps - forward_steps);
   const Joining joining(problem, flow, options, *this);
   connections_ = joining.joined(joining.cheapest_pairs(pairs_per_connection * options.most_connections));
   connections_.resize(std::min(connections_.size(), options.most_connections));

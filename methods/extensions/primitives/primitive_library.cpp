@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/mechanics/point_function.hpp"
 
@@ -52,9 +50,9 @@ void require_true_costs(const PrimitiveLibrary& library, const Problem& problem)
     }
     if (std::abs(each.cost - sum) <= digits * size + share_of_largest * largest) continue;
     throw Error(
-        fmt::format("the primitives of {} are damaged: the stated cost of a primitive is {:g}, but the cost of its "
-                    "trajectory is {:g}",
-                    problem.name(), each.cost, sum));
+        "the primitives of {} are damaged: the stated cost of a primitive is {:g}, but the cost of its "
+        "trajectory is {:g}",
+        problem.name(), each.cost, sum);
   }
 }
 
@@ -64,31 +62,28 @@ PrimitiveLibrary PrimitiveLibrary::of(const Problem& problem, double step, int i
   return {.problem = problem.name(),
           .parameters = parameters_with_values(problem),
           .step = step,
-          .intervals_per_step = intervals_per_step,
-          .states = {},
-          .primitives = {}};
+          .intervals_per_step = intervals_per_step};
 }
 
 void PrimitiveLibrary::require_made_for(const Problem& asked) const {
   if (problem != asked.name()) {
-    throw Error(fmt::format("the primitives belong to {}, not to {}", problem, asked.name()));
+    throw Error("the primitives belong to {}, not to {}", problem, asked.name());
   }
   const auto expected = parameters_with_values(asked);
   if (parameters.size() != expected.size()) {
-    throw Error(fmt::format("the primitives of {} were computed with other parameters; compute them again", problem));
+    throw Error("the primitives of {} were computed with other parameters; compute them again", problem);
   }
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (parameters[i] == expected[i]) continue;
-    throw Error(fmt::format("the primitives of {} were computed with {} = {:g}, not {} = {:g}; compute them again",
-                            problem, parameters[i].first, parameters[i].second, expected[i].first, expected[i].second));
+    throw Error("the primitives of {} were computed with {} = {:g}, not {} = {:g}; compute them again", problem,
+                parameters[i].first, parameters[i].second, expected[i].first, expected[i].second);
   }
   const Eigen::Index n = asked.configuration_size();
   constexpr double most_steps = 1e6;  // of a horizon
   bool all_fit = asked.horizon() / most_steps <= step && std::isfinite(step) && intervals_per_step >= 1;
   for (const BoundaryState& state : states) all_fit = all_fit && has_size(state.q, n, 1) && has_size(state.v, n, 1);
   for (const Primitive& each : primitives) all_fit = all_fit && fits(each, *this, n, asked.control_size());
-  if (!all_fit)
-    throw Error(fmt::format("the primitives of {} are damaged: their sizes do not match; compute them again", problem));
+  if (!all_fit) throw Error("the primitives of {} are damaged: their sizes do not match; compute them again", problem);
   require_true_costs(*this, asked);
 }
 

@@ -28,13 +28,13 @@ struct Primitive {
 
 /// Primitives of one problem with one time step. The problem must neither depend on time nor have a final cost.
 struct PrimitiveLibrary {
-  std::string problem;                                     ///< its name
-  std::vector<std::pair<std::string, double>> parameters;  ///< all of them
-  double step = 0.0;                                       ///< length of a time step, in the problem's unit of time
-  int intervals_per_step = 1;                              ///< intervals of the midpoint rule in each
-  std::vector<BoundaryState> states;                       ///< of trims, or of a lattice
+  std::string problem;                                          ///< its name
+  std::vector<std::pair<std::string, double>> parameters = {};  ///< all of them
+  double step = 0.0;                       ///< length of a time step, in the problem's unit of time
+  int intervals_per_step = 1;              ///< intervals of the midpoint rule in each
+  std::vector<BoundaryState> states = {};  ///< of trims, or of a lattice
   /// All of them, in the order in which they were found.
-  std::vector<Primitive> primitives;
+  std::vector<Primitive> primitives = {};
 
   /// An empty library.
   [[nodiscard]] static PrimitiveLibrary of(const Problem& problem, double step, int intervals_per_step);

@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -26,9 +24,8 @@ void require_in_place(const PrimitiveLibrary& library, const std::vector<Roadmap
       return;
     }
   }
-  throw Error(
-      fmt::format("the edge of the roadmap from node {} to node {} does not have the same ends as its primitive {}",
-                  edge.from, edge.to, edge.primitive));
+  throw Error("the edge of the roadmap from node {} to node {} does not have the same ends as its primitive {}",
+              edge.from, edge.to, edge.primitive);
 }
 
 /// V(j, t) with the edge by which it is reached, for all nodes and time steps.
@@ -46,7 +43,7 @@ class CostTable {
   [[nodiscard]] double at(std::size_t node, int t) const { return values_[place(node, t)]; }
 
   [[nodiscard]] RoadmapPath path_to(std::size_t node, int t) const {
-    RoadmapPath path{.edges = {}, .cost = at(node, t), .duration = t};
+    RoadmapPath path{.cost = at(node, t), .duration = t};
     while (t > 0) {
       const std::size_t edge = edges_[place(node, t)];
       path.edges.push_back(edge);
@@ -99,23 +96,15 @@ Roadmap::Roadmap(const PrimitiveLibrary& library, std::vector<RoadmapNode> nodes
   for (std::size_t node = 0; node < nodes_.size(); ++node) first_edge_[node + 1] += first_edge_[node];
 }
 
-std::optional<RoadmapPath> cheapest_path(const Roadmap& roadmap, std::size_t from, std::size_t to, int duration,
-                                         Arrival arrival) {
+std::optional<RoadmapPath> cheapest_path(const Roadmap& roadmap, std::size_t from, std::size_t to, int duration) {
   if (std::max(from, to) >= roadmap.nodes().size()) {
-    throw Error(fmt::format("the roadmap has {} nodes, numbered from 0: there is no path from node {} to node {}",
-                            roadmap.nodes().size(), from, to));
+    throw Error("the roadmap has {} nodes, numbered from 0: there is no path from node {} to node {}",
+                roadmap.nodes().size(), from, to);
   }
-  if (duration < 0)
-    throw Error(fmt::format("a path cannot take {} time steps; the number must not be negative", duration));
+  if (duration < 0) throw Error("a path cannot take {} time steps; the number must not be negative", duration);
   const CostTable table(roadmap, from, duration);
-  int best = duration;
-  if (arrival == Arrival::at_latest) {
-    for (int t = duration; t >= 0; --t) {
-      if (table.at(to, t) <= table.at(to, best)) best = t;
-    }
-  }
-  if (table.at(to, best) == unreachable) return std::nullopt;
-  return table.path_to(to, best);
+  if (table.at(to, duration) == unreachable) return std::nullopt;
+  return table.path_to(to, duration);
 }
 
 }  // namespace dmocbench

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -61,22 +60,16 @@ class Roadmap {
 
 /// Edges of a roadmap one after the other.
 struct RoadmapPath {
-  std::vector<std::size_t> edges;  ///< numbers in `Roadmap::edges`
-  double cost = 0.0;               ///< the sum of their costs
-  int duration = 0;                ///< the sum of their durations, in time steps
+  std::vector<std::size_t> edges = {};  ///< numbers in `Roadmap::edges`
+  double cost = 0.0;                    ///< the sum of their costs
+  int duration = 0;                     ///< the sum of their durations, in time steps
 };
 
-/// The time at which a path has to arrive.
-enum class Arrival : std::uint8_t {
-  exactly,    ///< at the end of the horizon, as problems with a fixed horizon require
-  at_latest,  ///< then or before
-};
-
-/// The path of least cost from one node to another within a horizon of `duration` time steps, by dynamic programming:
+/// The path of least cost from one node to another that takes exactly `duration` time steps, by dynamic programming:
 ///   V(j, t) = min over the edges e = (i, j) of V(i, t - duration(e)) + cost(e),  V(from, 0) = 0.
-/// Costs may be negative. Among equal ones the path that arrives first is taken. None if there is no path. Takes of the
-/// order of (edges · duration) operations. Throws `Error` if a node does not exist or the duration is negative.
+/// Costs may be negative. None if there is no path. Takes of the order of (edges · duration) operations. Throws `Error`
+/// if a node does not exist or the duration is negative.
 [[nodiscard]] std::optional<RoadmapPath> cheapest_path(const Roadmap& roadmap, std::size_t from, std::size_t to,
-                                                       int duration, Arrival arrival = Arrival::exactly);
+                                                       int duration);
 
 }  // namespace dmocbench

@@ -4,8 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/transcription/elements/element.hpp"
@@ -67,7 +65,7 @@ class PrimitiveBatch {
     solve_batch(program_, lanes_of(program_), usual_, next, take,
                 {.tolerance = options_.tolerance,
                  .most_iterations = options_.most_iterations,
-                 .falls_back = options_.falls_back,
+                 .falls_back = false,
                  .stop_requested = options_.stop_requested});
     for (std::size_t i = 0; i < requests.size(); ++i) {
       if (answers[i].size() > 0) *results[i] = primitive_of(*requests[i], answers[i]);
@@ -110,9 +108,8 @@ class PrimitiveBatch {
 
 void require_possible(const PrimitiveRequest& request, const PrimitiveLibrary& library) {
   if (request.first < library.states.size() && request.last < library.states.size() && request.duration >= 1) return;
-  throw Error(
-      fmt::format("a primitive from state {} to state {} in {} time steps does not belong to a library with {} states",
-                  request.first, request.last, request.duration, library.states.size()));
+  throw Error("a primitive from state {} to state {} in {} time steps does not belong to a library with {} states",
+              request.first, request.last, request.duration, library.states.size());
 }
 
 }  // namespace
@@ -126,10 +123,10 @@ void require_primitives(const Transcription& program) {
     return;
   }
   throw Error(
-      fmt::format("{} has no primitives: both ends and the horizon must be fixed, and a final cost, boundary "
-                  "conditions, integral constraints, unknown parameters, first-order states, constraints g(q) = 0 and "
-                  "bounds between the ends are not supported",
-                  program.problem().name()));
+      "{} has no primitives: both ends and the horizon must be fixed, and a final cost, boundary "
+      "conditions, integral constraints, unknown parameters, first-order states, constraints g(q) = 0 and "
+      "bounds between the ends are not supported",
+      program.problem().name());
 }
 
 void solve_primitives(const Problem& problem, const std::vector<PrimitiveRequest>& requests, PrimitiveLibrary& library,

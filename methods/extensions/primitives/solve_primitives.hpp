@@ -33,7 +33,6 @@ struct PrimitiveOptions {
   /// The most iterations of a solve.
   int most_iterations = 100;
   Eigen::VectorXd start_control;  ///< m entries; none for the problem's guess at t = 0
-  bool falls_back = false;  ///< as in `BatchOptions`: instances that lanes cannot solve are solved again, one by one
   /// Called between solves; true ends them.
   std::function<bool()> stop_requested = {};
 };

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <boost/container_hash/hash.hpp>
-#include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
@@ -110,8 +109,8 @@ class Growth {
   [[nodiscard]] StoredRoadmap kept() const {
     const auto goal = numbers_.find(key_at(request_.goal));
     if (goal == numbers_.end()) {
-      throw Error(fmt::format("the {} primitives of {} do not reach the goal within {} time steps",
-                              library_.primitives.size(), library_.problem, request_.duration));
+      throw Error("the {} primitives of {} do not reach the goal within {} time steps", library_.primitives.size(),
+                  library_.problem, request_.duration);
     }
     const std::vector<int> rest = times_to(goal->second);
     std::vector<std::size_t> number(nodes_.size(), nodes_.size());

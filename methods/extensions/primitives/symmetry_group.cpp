@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/mechanics/point_function.hpp"
 
@@ -29,7 +27,7 @@ namespace {
 
 std::vector<Generator> generators_of(const Problem& problem) {
   if (!problem.symmetry(input_vector(0, problem.configuration_size()))) {
-    throw Error(fmt::format("{} defines no symmetry, so it has no trims", problem.name()));
+    throw Error("{} defines no symmetry, so it has no trims", problem.name());
   }
   return {[&problem](const ExpressionVector& q) { return problem.symmetry(q).value(); }};
 }
@@ -47,7 +45,7 @@ Displacement affine_parts(const Problem& problem, const Generator& generator) {
   for (Eigen::Index i = 0; i < n; ++i) parts.linear.col(i) = at(Eigen::VectorXd::Unit(n, i)) - parts.shift;
   const Eigen::VectorXd elsewhere = Eigen::VectorXd::LinSpaced(n, -1.3, 2.9);
   if (!(at(elsewhere) - parts.configuration(elsewhere)).isZero(1e-12)) {
-    throw Error(fmt::format("a generator of {} is not affine in the configuration", problem.name()));
+    throw Error("a generator of {} is not affine in the configuration", problem.name());
   }
   return parts;
 }

@@ -2,8 +2,6 @@
 
 #include <span>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
@@ -46,8 +44,8 @@ TrimSolver::TrimSolver(const Problem& problem, const SymmetryGroup& group)
 
 Eigen::VectorXd TrimSolver::point_of(const Trim& trim) const {
   if (trim.q.size() != n_ || trim.rates.size() != group_.dimension() || trim.u.size() != problem_.control_size()) {
-    throw Error(fmt::format("the guess of a trim of {} needs {} configurations, {} rates and {} controls",
-                            problem_.name(), n_, group_.dimension(), problem_.control_size()));
+    throw Error("the guess of a trim of {} needs {} configurations, {} rates and {} controls", problem_.name(), n_,
+                group_.dimension(), problem_.control_size());
   }
   Eigen::VectorXd point(n_ + trim.rates.size() + trim.u.size());
   point << trim.q, trim.rates, trim.u;
@@ -56,11 +54,6 @@ Eigen::VectorXd TrimSolver::point_of(const Trim& trim) const {
 
 std::vector<double> TrimSolver::values_at(const Eigen::VectorXd& point) const {
   return replay<double>(schedule_, std::span<const double>(point.data(), static_cast<std::size_t>(point.size())));
-}
-
-Eigen::VectorXd TrimSolver::residual(const Trim& trim) const {
-  const std::vector<double> values = values_at(point_of(trim));
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), n_);
 }
 
 Trim TrimSolver::solve(const Trim& guess, const std::vector<Eigen::Index>& unknowns) const {
@@ -85,8 +78,7 @@ Trim TrimSolver::solve(const Trim& guess, const std::vector<Eigen::Index>& unkno
     const Eigen::VectorXd rates = point.segment(n_, group_.dimension());
     return {.q = q, .rates = rates, .u = point.tail(guess.u.size()), .state = {q, group_.velocity(q, rates)}};
   }
-  throw Error(
-      fmt::format("Newton's method did not converge to a relative equilibrium of {} from its guess", problem_.name()));
+  throw Error("Newton's method did not converge to a relative equilibrium of {} from its guess", problem_.name());
 }
 
 }  // namespace dmocbench

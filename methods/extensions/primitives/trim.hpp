@@ -17,7 +17,7 @@ struct Trim {
   Eigen::VectorXd rates;  ///< c, an entry per generator
   Eigen::VectorXd u;      ///< m entries, in the frame that moves
   /// (q, Σ c_i ξ_i(q)).
-  BoundaryState state;
+  BoundaryState state = {};
 };
 
 /// Solves for relative equilibria of a problem that does not depend on time. With v = Σ c_i ξ_i(q) and the acceleration
@@ -33,8 +33,6 @@ class TrimSolver {
   /// numbers only, counted through (q, c, u); where they are more than the equations, by steps of least length. Throws
   /// `Error` if it does not converge.
   [[nodiscard]] Trim solve(const Trim& guess, const std::vector<Eigen::Index>& unknowns) const;
-  /// The residual of the equations, n entries.
-  [[nodiscard]] Eigen::VectorXd residual(const Trim& trim) const;
 
  private:
   [[nodiscard]] Eigen::VectorXd point_of(const Trim& trim) const;

@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
@@ -93,9 +91,8 @@ class DensityOfSteps {
 
 void require_positive_step(double sigma, double t) {
   if (sigma > 0.0 && std::isfinite(sigma)) return;
-  throw Error(fmt::format(
-      "the step size function is {:g} at t = {:g}; it must be positive and finite along the whole trajectory", sigma,
-      t));
+  throw Error("the step size function is {:g} at t = {:g}; it must be positive and finite along the whole trajectory",
+              sigma, t);
 }
 
 StepTimes step_times(const StepFunction& sigma, const Motion& motion, Eigen::Index intervals) {

@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/extensions/step_control/extended_action.hpp"
@@ -229,14 +227,9 @@ Eigen::VectorXd StepControlProgram::start(const Motion& motion) const {
 
 Trajectory StepControlProgram::read(const Eigen::VectorXd& x) {
   if (static_cast<std::size_t>(x.size()) != variable_count()) {
-    throw Error(fmt::format("a trajectory needs {} variables, got {}", variable_count(), x.size()));
+    throw Error("a trajectory needs {} variables, got {}", variable_count(), x.size());
   }
-  const Tape tape(reading_);
-  Tape::Workspace workspace(tape);
-  Eigen::MatrixXd table(intervals_, static_cast<Eigen::Index>(tape.output_count()));
-  std::vector<double*> outputs;
-  for (auto column : table.colwise()) outputs.push_back(column.data());
-  tape.evaluate(structure_.intervals, part_->bind(x, Eigen::VectorXd(), 1.0), outputs, workspace);
+  const Eigen::MatrixXd table = Tape(reading_).table(intervals_, part_->bind(x, Eigen::VectorXd(), 1.0));
 
   const Eigen::Index s = tableau_.stages();
   Trajectory motion;

@@ -88,11 +88,7 @@ std::vector<GroupMemory> cut_into_groups(const Shape& shape, std::size_t interva
 }
 
 SegmentKernelChoice segment_kernels_of(InstructionSet set) {
-#ifdef DMOCBENCH_X86_KERNELS
-  static constexpr std::array choices{segment_kernel_baseline, segment_kernel_avx2, segment_kernel_avx512};
-#else
-  static constexpr std::array choices{segment_kernel_baseline};
-#endif
+  static constexpr std::array choices{DMOCBENCH_VERSIONS(segment_kernel)};
   return compiled_for(set, choices);
 }
 

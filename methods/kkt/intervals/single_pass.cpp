@@ -18,11 +18,7 @@ constexpr double smallest_conditioned_pivot = 1e-5;
 constexpr int most_carried = 32;
 
 PassKernel pass_kernel_of(const Shape& shape, InstructionSet set) {
-#ifdef DMOCBENCH_X86_KERNELS
-  static constexpr std::array choices{pass_kernel_baseline, pass_kernel_avx2, pass_kernel_avx512};
-#else
-  static constexpr std::array choices{pass_kernel_baseline};
-#endif
+  static constexpr std::array choices{DMOCBENCH_VERSIONS(pass_kernel)};
   return compiled_for(set, choices)(shape);
 }
 

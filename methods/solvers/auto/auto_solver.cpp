@@ -85,11 +85,10 @@ AutoOptions auto_options(const NamedOptions& named) {
 }
 
 AutoSolver::AutoSolver(const SolverOptions& options, AutoOptions choices)
-    : Solver(options), first_(options, std::move(choices.interior_point)), second_(options, std::move(choices.ipopt)) {}
-
-std::string AutoSolver::description() const {
-  return "interior_point, then ipopt from the last point, then interior_point from a feasible trajectory";
-}
+    : Solver("auto", "interior_point, then ipopt from the last point, then interior_point from a feasible trajectory",
+             options),
+      first_(options, std::move(choices.interior_point)),
+      second_(options, std::move(choices.ipopt)) {}
 
 std::unique_ptr<PreparedRun> AutoSolver::prepare(CountedProgram& program) const {
   return std::make_unique<AutoRun>(first_, second_, program);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "methods/solvers/ipopt_solver.hpp"
@@ -31,8 +30,6 @@ class AutoSolver final : public Solver {
  public:
   /// Throws `Error` if Ipopt does not take one of the named options.
   explicit AutoSolver(const SolverOptions& options, AutoOptions choices = {});
-  [[nodiscard]] std::string name() const override { return "auto"; }
-  [[nodiscard]] std::string description() const override;
   [[nodiscard]] std::unique_ptr<PreparedRun> prepare(CountedProgram& program) const override;
 
  private:

@@ -26,8 +26,6 @@ class BatchSource {
   virtual ~BatchSource() = default;
   BatchSource(const BatchSource&) = delete;
   BatchSource& operator=(const BatchSource&) = delete;
-  BatchSource(BatchSource&&) = delete;
-  BatchSource& operator=(BatchSource&&) = delete;
 
   /// Begins the next generation of instances; false if there are no more. It is called while no thread hands out,
   /// solves or takes instances.

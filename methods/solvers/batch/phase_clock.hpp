@@ -19,8 +19,6 @@ class PhaseClock {
     ~Within() { clock_.enter(before_); }
     Within(const Within&) = delete;
     Within& operator=(const Within&) = delete;
-    Within(Within&&) = delete;
-    Within& operator=(Within&&) = delete;
 
    private:
     PhaseClock& clock_;

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 #include "methods/kkt/intervals/lane_kkt.hpp"
 #include "methods/runtime/parallel.hpp"
@@ -42,8 +40,8 @@ class PlainSource final : public BatchSource {
 
 Eigen::VectorXd usual_jacobian(NonlinearProgram& program, const Eigen::VectorXd& usual) {
   if (static_cast<std::size_t>(usual.size()) != program.variable_count()) {
-    throw Error(fmt::format("the default start of a batch has {} entries, but the program has {} variables",
-                            usual.size(), program.variable_count()));
+    throw Error("the default start of a batch has {} entries, but the program has {} variables", usual.size(),
+                program.variable_count());
   }
   Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size()));
   program.jacobian(usual, jacobian);
@@ -56,7 +54,7 @@ std::unique_ptr<kkt::LaneKkt> make_kkt(const NonlinearProgram& program, const Ei
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.variable_count()));
   const Eigen::VectorXd compliance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count()));
   auto made = kkt::LaneKkt::make(program, {hessian, jacobian, diagonal, compliance});
-  if (!made) throw Error(fmt::format("this program cannot be solved in a batch: {}", made.error()));
+  if (!made) throw Error("this program cannot be solved in a batch: {}", made.error());
   return std::move(*made);
 }
 

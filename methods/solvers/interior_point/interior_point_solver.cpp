@@ -43,7 +43,6 @@ constexpr double correctable = 2.0;  // see try_second_order_correction
 /// does not allow it.
 tl::expected<std::unique_ptr<kkt::KktSystem>, std::string> make_kkt(NonlinearProgram& program,
                                                                     const InteriorPointOptions& choices) {
-  if (choices.make_kkt_system) return choices.make_kkt_system(program);
   if (choices.factorisation == InteriorPointOptions::Factorisation::sparse) {
     return std::make_unique<kkt::SparseKkt>(program);
   }
@@ -372,11 +371,10 @@ std::pair<InteriorPointOptions, NamedOptions> interior_point_options_among(const
 }
 
 InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOptions choices)
-    : Solver(std::move(options)), choices_(std::move(choices)) {}
-
-std::string InteriorPointSolver::description() const {
-  return "interior-point method with exact Hessian; solves its linear systems by elimination, interval by interval";
-}
+    : Solver("interior_point",
+             "interior-point method with exact Hessian; solves its linear systems by elimination, interval by interval",
+             std::move(options)),
+      choices_(std::move(choices)) {}
 
 std::unique_ptr<PreparedRun> InteriorPointSolver::prepare(CountedProgram& program) const {
   auto kkt = interior_point::make_kkt(program, choices_);

@@ -1,19 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <utility>
 
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
-
-namespace kkt {
-class KktSystem;
-}
 
 /// The choices of a user of `InteriorPointSolver`.
 struct InteriorPointOptions {
@@ -23,9 +17,6 @@ struct InteriorPointOptions {
     sparse,     ///< by MUMPS, for any program
   };
   Factorisation factorisation = Factorisation::intervals;  ///< the factorisation that is tried first
-  /// Supplies the linear systems of an experiment in place of `factorisation`, one `KktSystem` (kkt_system.hpp) per
-  /// solve; it throws `Error` where it has none for the program, which outlives it. Empty for ours.
-  std::function<std::unique_ptr<kkt::KktSystem>(NonlinearProgram& program)> make_kkt_system = {};
 };
 
 /// The factorisation with that name, "intervals" or "sparse". Throws `Error` that lists the names if there is none.
@@ -44,8 +35,6 @@ class InteriorPointSolver final : public Solver {
   /// Throws `Error` if an option is out of range.
   explicit InteriorPointSolver(SolverOptions options = {}, InteriorPointOptions choices = {});
 
-  [[nodiscard]] std::string name() const override { return "interior_point"; }
-  [[nodiscard]] std::string description() const override;
   [[nodiscard]] std::unique_ptr<PreparedRun> prepare(CountedProgram& program) const override;
 
  private:

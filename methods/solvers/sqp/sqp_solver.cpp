@@ -250,11 +250,11 @@ SequentialOptions sequential_options(const NamedOptions& named) {
 }
 
 SqpSolver::SqpSolver(SolverOptions options, SequentialOptions choices)
-    : SolverWithoutMemory(std::move(options)), choices_(std::move(choices)) {}
-
-std::string SqpSolver::description() const {
-  return "sequential quadratic programming with an active-set method and exact Hessian; counts every minor iteration";
-}
+    : SolverWithoutMemory("sqp",
+                          "sequential quadratic programming with an active-set method and exact Hessian; counts every "
+                          "minor iteration",
+                          std::move(options)),
+      choices_(std::move(choices)) {}
 
 Solution SqpSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
   return run_alone(program, start, options(),

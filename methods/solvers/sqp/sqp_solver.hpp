@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <string_view>
 
 #include "methods/solvers/minor_iteration.hpp"
@@ -42,8 +41,6 @@ class SqpSolver final : public SolverWithoutMemory {
  public:
   /// Throws `Error` if an option is out of range.
   explicit SqpSolver(SolverOptions options = {}, SequentialOptions choices = {});
-  [[nodiscard]] std::string name() const override { return "sqp"; }
-  [[nodiscard]] std::string description() const override;
 
  private:
   [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;

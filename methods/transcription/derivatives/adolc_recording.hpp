@@ -39,8 +39,6 @@ class AdolcTag {
   }
   AdolcTag(const AdolcTag&) = delete;
   AdolcTag& operator=(const AdolcTag&) = delete;
-  AdolcTag(AdolcTag&&) = delete;
-  AdolcTag& operator=(AdolcTag&&) = delete;
 
   /// What ADOL-C's functions take.
   [[nodiscard]] short number() const noexcept { return number_; }

@@ -33,8 +33,6 @@ class DerivativeBackEnd {
   virtual ~DerivativeBackEnd() = default;
   DerivativeBackEnd(const DerivativeBackEnd&) = delete;
   DerivativeBackEnd& operator=(const DerivativeBackEnd&) = delete;
-  DerivativeBackEnd(DerivativeBackEnd&&) = delete;
-  DerivativeBackEnd& operator=(DerivativeBackEnd&&) = delete;
 
   /// ∂cost/∂unknown; `result` has `DerivativePlaces::gradient.size` entries.
   virtual void gradient(Inputs inputs, VectorOut result) = 0;

@@ -35,6 +35,13 @@ struct LocalMatrix {
   Schedule schedule;                 ///< a formula per entry
   std::vector<std::size_t> rows;     ///< of every entry
   std::vector<std::size_t> columns;  ///< of every entry
+
+  /// Calls `visit(e, row, column)` for every entry.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    const auto index = [](std::size_t number) { return static_cast<Eigen::Index>(number); };
+    for (std::size_t e = 0; e < rows.size(); ++e) visit(index(e), index(rows[e]), index(columns[e]));
+  }
 };
 
 /// A sparse vector of a part: formula e is the entry of local unknown or row `places[e]`.

@@ -16,23 +16,23 @@ class PointDerivatives {
   explicit PointDerivatives(const TracedProblem& problem, const Eigen::VectorXd& prices = {})
       : n_(problem.configuration_size()),
         l_(problem.first_order_size()),
-        function_(
-            n_, problem.control_size(),
-            [&](const ControlledState& x) {
-              const TracedProblem::Values values = problem.at(x);
-              Expression cost = values.running_cost;
-              for (Eigen::Index i = 0; i < prices.size(); ++i) cost -= Expression(prices[i]) * values.integrands[i];
-              const ExpressionVector& rates = values.first_order_rates;
-              ExpressionVector outputs(2 * n_ + 4 * n_ * n_ + l_ * (1 + 4 * n_ + l_));
-              outputs << gradient(cost, x.q), gradient(cost, x.v), jacobian(values.generalised_force, x.q).reshaped(),
-                  jacobian(values.generalised_force, x.v).reshaped(), values.mass.reshaped(),
-                  values.momentum_by_configuration.reshaped(), gradient(cost, x.y),
-                  jacobian(values.generalised_force, x.y).reshaped(), jacobian(rates, x.q).reshaped(),
-                  jacobian(rates, x.v).reshaped(), values.momentum_by_first_order.reshaped(),
-                  jacobian(rates, x.y).reshaped();
-              return outputs;
-            },
-            problem.first_order_size()),
+        function_(problem,
+                  [&](const ControlledState& x) {
+                    const TracedProblem::Values values = problem.at(x);
+                    Expression cost = values.running_cost;
+                    for (Eigen::Index i = 0; i < prices.size(); ++i)
+                      cost -= Expression(prices[i]) * values.integrands[i];
+                    const ExpressionVector& rates = values.first_order_rates;
+                    ExpressionVector outputs(2 * n_ + 4 * n_ * n_ + l_ * (1 + 4 * n_ + l_));
+                    outputs << gradient(cost, x.q), gradient(cost, x.v),
+                        jacobian(values.generalised_force, x.q).reshaped(),
+                        jacobian(values.generalised_force, x.v).reshaped(), values.mass.reshaped(),
+                        values.momentum_by_configuration.reshaped(), gradient(cost, x.y),
+                        jacobian(values.generalised_force, x.y).reshaped(), jacobian(rates, x.q).reshaped(),
+                        jacobian(rates, x.v).reshaped(), values.momentum_by_first_order.reshaped(),
+                        jacobian(rates, x.y).reshaped();
+                    return outputs;
+                  }),
         values_(function_.output_count()) {}
 
   /// Everything below refers to the point evaluated last.

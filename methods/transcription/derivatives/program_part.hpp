@@ -27,8 +27,6 @@ class ProgramPart {
   // Inputs point into this object.
   ProgramPart(const ProgramPart&) = delete;
   ProgramPart& operator=(const ProgramPart&) = delete;
-  ProgramPart(ProgramPart&&) = delete;
-  ProgramPart& operator=(ProgramPart&&) = delete;
   ~ProgramPart() = default;
 
   /// The inputs of the formulas at a point (see `LocalInputs`); `multipliers` may be empty where no formula reads them.

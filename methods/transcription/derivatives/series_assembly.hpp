@@ -26,6 +26,12 @@ struct SeriesPlace {
   friend bool operator==(const SeriesPlace&, const SeriesPlace&) = default;
 };
 
+/// The entry of local quantity `local` of an interval, as Eigen counts.
+[[nodiscard]] inline Eigen::Index index_of(const std::vector<SeriesPlace>& places, Eigen::Index local,
+                                           Eigen::Index interval) {
+  return static_cast<Eigen::Index>(places[static_cast<std::size_t>(local)].at(static_cast<std::size_t>(interval)));
+}
+
 /// How series are combined with the array.
 enum class AssemblyMode : std::uint8_t {
   whole,  ///< all are written; those that no series reaches are set to 0

@@ -30,10 +30,6 @@ IntervalTrace with_momenta(IntervalTrace trace, const IntervalUnknowns& unknowns
 
 }  // namespace
 
-std::string HamiltonianElement::description() const {
-  return "collocation of Hamilton's equations in (q, p) with the symplectic partitioned Runge-Kutta method";
-}
-
 Eigen::Index HamiltonianElement::multipliers(const Tableau& tableau) const {
   if (tableau.stages() == 1) return 2;
   if (has_stages_at_nodes(tableau)) return tableau.stages();
@@ -97,8 +93,6 @@ IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tabl
   trace.right_momentum = unknowns.right_second;
   return trace;
 }
-
-std::string TangentElement::description() const { return "collocation of the Euler-Lagrange equations in (q, v)"; }
 
 Eigen::Index TangentElement::multipliers(const Tableau& tableau) const {
   const Eigen::Index s = tableau.stages();

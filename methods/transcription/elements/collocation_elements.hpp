@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "methods/transcription/elements/element.hpp"
@@ -22,9 +21,10 @@ namespace dmocbench {
 /// p_k⁻ and p_{k+1} = p_{k+1}⁺, DMOC's momenta.
 class HamiltonianElement final : public Element {
  public:
-  [[nodiscard]] std::string name() const override { return "hamiltonian"; }
-  [[nodiscard]] std::string description() const override;
-  [[nodiscard]] NodeState node_state() const override { return NodeState::momentum; }
+  HamiltonianElement()
+      : Element("hamiltonian",
+                "collocation of Hamilton's equations in (q, p) with the symplectic partitioned Runge-Kutta method",
+                NodeState::momentum) {}
   [[nodiscard]] Eigen::Index multipliers(const Tableau& tableau) const override;
   [[nodiscard]] std::vector<bool> velocity_multipliers(const Tableau& tableau) const override;
   [[nodiscard]] bool takes_embedding(const Tableau& tableau) const override { return tableau.stages() == 1; }
@@ -48,9 +48,7 @@ class HamiltonianElement final : public Element {
 /// multipliers, without g = 0 and μ.
 class TangentElement final : public Element {
  public:
-  [[nodiscard]] std::string name() const override { return "tangent"; }
-  [[nodiscard]] std::string description() const override;
-  [[nodiscard]] NodeState node_state() const override { return NodeState::velocity; }
+  TangentElement() : Element("tangent", "collocation of the Euler-Lagrange equations in (q, v)", NodeState::velocity) {}
   [[nodiscard]] Eigen::Index multipliers(const Tableau& tableau) const override;
   [[nodiscard]] std::vector<bool> velocity_multipliers(const Tableau& tableau) const override;
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,

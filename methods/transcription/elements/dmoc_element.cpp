@@ -4,10 +4,6 @@
 
 namespace dmocbench {
 
-std::string DmocElement::description() const {
-  return "Discrete Mechanics and Optimal Control: the discrete Lagrange-d'Alembert principle for q";
-}
-
 Eigen::Index DmocElement::multipliers(const Tableau& tableau) const {
   if (tableau.stages() == 1) return 1;
   if (has_stages_at_nodes(tableau)) return tableau.stages() - 1;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,9 +31,9 @@ namespace dmocbench {
 /// in `program_bounds` and `end_functions`.
 class DmocElement final : public Element {
  public:
-  [[nodiscard]] std::string name() const override { return "dmoc"; }
-  [[nodiscard]] std::string description() const override;
-  [[nodiscard]] NodeState node_state() const override { return NodeState::configuration; }
+  DmocElement()
+      : Element("dmoc", "Discrete Mechanics and Optimal Control: the discrete Lagrange-d'Alembert principle for q",
+                NodeState::configuration) {}
   [[nodiscard]] Eigen::Index multipliers(const Tableau& tableau) const override;
   [[nodiscard]] std::vector<bool> velocity_multipliers(const Tableau& tableau) const override;
   [[nodiscard]] bool takes_embedding(const Tableau& tableau) const override { return tableau.stages() == 1; }

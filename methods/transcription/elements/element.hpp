@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "methods/expression/vectors.hpp"
@@ -108,15 +109,13 @@ class Element {
   virtual ~Element() = default;
   Element(const Element&) = delete;
   Element& operator=(const Element&) = delete;
-  Element(Element&&) = delete;
-  Element& operator=(Element&&) = delete;
 
   /// As on the command line.
-  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] std::string name() const { return name_; }
   /// One line.
-  [[nodiscard]] virtual std::string description() const = 0;
+  [[nodiscard]] std::string description() const { return description_; }
   /// The second part of the nodes' states.
-  [[nodiscard]] virtual NodeState node_state() const = 0;
+  [[nodiscard]] NodeState node_state() const noexcept { return node_state_; }
   /// True if the stages are unknowns of the program, with equations of their own; false if an interval is a map of its
   /// left node and controls (shooting).
   [[nodiscard]] virtual bool has_stage_unknowns() const { return true; }
@@ -138,7 +137,13 @@ class Element {
                                             const IntervalUnknowns& unknowns) const = 0;
 
  protected:
-  Element() = default;
+  Element(std::string name, std::string description, NodeState node_state)
+      : name_(std::move(name)), description_(std::move(description)), node_state_(node_state) {}
+
+ private:
+  std::string name_;
+  std::string description_;
+  NodeState node_state_;
 };
 
 /// The unknowns of an interval of an element as the next inputs of `counter`: nodes (q, p or v, y), rates of q, of p or

@@ -19,34 +19,28 @@ namespace {
 Tableau tableau_of_space(std::string_view family, int stages, std::string_view what) {
   const std::vector<int> offered = tableau_stages(family);
   if (std::ranges::count(offered, stages) > 0) return make_tableau(family, stages);
-  throw Error(fmt::format("galerkin: {} must be one of {}, not {}", what, fmt::join(offered, ", "), stages));
+  throw Error("galerkin: {} must be one of {}, not {}", what, fmt::join(offered, ", "), stages);
 }
 
 /// `space` if the quadrature has enough points for it; `what` names its size, such as "degree 3".
 const Tableau& fit_for(const Tableau& quadrature, const Tableau& space, const std::string& what) {
   if (space.stages() <= quadrature.stages()) return space;
-  throw Error(fmt::format("galerkin with {} needs at least {} quadrature points, got {}", what, space.stages(),
-                          quadrature.stages()));
+  throw Error("galerkin with {} needs at least {} quadrature points, got {}", what, space.stages(),
+              quadrature.stages());
 }
 
 }  // namespace
 
 GalerkinElement::GalerkinElement(int degree, int control_nodes, bool has_continuous_controls)
-    : rates_(tableau_of_space("gauss", degree, "the degree of configurations")),
+    : Element(galerkin_name(degree, control_nodes, has_continuous_controls),
+              fmt::format(
+                  "Galerkin variational integrator with q of degree {}, {} controls of degree {} and any quadrature",
+                  degree, has_continuous_controls ? "continuous" : "discontinuous", control_nodes - 1),
+              NodeState::configuration),
+      rates_(tableau_of_space("gauss", degree, "the degree of configurations")),
       controls_(has_continuous_controls
                     ? tableau_of_space("lobatto_shared", control_nodes, "the number of shared control nodes")
                     : tableau_of_space("gauss", control_nodes, "the number of control nodes")) {}
-
-std::string GalerkinElement::name() const {
-  return galerkin_name(static_cast<int>(rates_.stages()), static_cast<int>(controls_.stages()),
-                       controls_.shares_controls);
-}
-
-std::string GalerkinElement::description() const {
-  return fmt::format("Galerkin variational integrator with q of degree {}, {} controls of degree {} and any quadrature",
-                     rates_.stages(), controls_.shares_controls ? "continuous" : "discontinuous",
-                     controls_.stages() - 1);
-}
 
 Tableau GalerkinElement::rates(const Tableau& quadrature) const {
   return fit_for(quadrature, rates_, fmt::format("degree {}", rates_.stages()));
@@ -80,8 +74,8 @@ std::unique_ptr<Element> make_galerkin_element(std::string_view spaces) {
   const auto degree = parsed<int>(numbers.substr(0, bar));
   const auto nodes = bar == std::string_view::npos ? std::nullopt : parsed<int>(numbers.substr(bar + 1));
   if (!degree || !nodes) {
-    throw Error(fmt::format(R"("{}_{}" does not name a degree and a number of control nodes, as "{}" does)",
-                            galerkin_family, spaces, galerkin_name(2, 1, is_continuous)));
+    throw Error(R"("{}_{}" does not name a degree and a number of control nodes, as "{}" does)", galerkin_family,
+                spaces, galerkin_name(2, 1, is_continuous));
   }
   return std::make_unique<GalerkinElement>(*degree, *nodes, is_continuous);
 }

@@ -31,10 +31,6 @@ class GalerkinElement final : public Element {
   /// Degree s of q, number m of control nodes. Throws `Error` if one is not offered.
   GalerkinElement(int degree, int control_nodes, bool has_continuous_controls);
 
-  /// "galerkin_2_1", "galerkin_2_2_shared": s, m, and whether controls are continuous.
-  [[nodiscard]] std::string name() const override;
-  [[nodiscard]] std::string description() const override;
-  [[nodiscard]] NodeState node_state() const override { return NodeState::configuration; }
   /// Gauss with s stages. Throws `Error` if the quadrature has fewer points.
   [[nodiscard]] Tableau rates(const Tableau& quadrature) const override;
   /// Gauss, or Lobatto with shared controls, with m stages. Throws `Error` if the quadrature has fewer points.
@@ -50,7 +46,7 @@ class GalerkinElement final : public Element {
 /// The name of the family, as on the command line.
 inline constexpr std::string_view galerkin_family = "galerkin";
 
-/// As `GalerkinElement::name`.
+/// "galerkin_2_1", "galerkin_2_2_shared": s, m, and whether controls are continuous.
 [[nodiscard]] std::string galerkin_name(int degree, int control_nodes, bool has_continuous_controls);
 
 /// The element of spaces S_M or S_M_shared, such as "2_1". Throws `Error` that names the missing part.

@@ -6,10 +6,6 @@
 
 namespace dmocbench {
 
-std::string SecondOrderElement::description() const {
-  return "collocation of the Euler-Lagrange equations as second-order equations in q";
-}
-
 Tableau SecondOrderElement::rates(const Tableau& tableau) const {
   const int points = static_cast<int>(tableau.stages()) + 1;
   return collocation_tableau("gauss", gauss_nodes(points), 2 * points);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "methods/transcription/elements/element.hpp"
 
 namespace dmocbench {
@@ -24,9 +22,9 @@ namespace dmocbench {
 /// solved for it in formulas: (s + 1)n + sm unknowns, DMOC has sn + sm and tangent-space collocation 2sn + sm.
 class SecondOrderElement final : public Element {
  public:
-  [[nodiscard]] std::string name() const override { return "second_order"; }
-  [[nodiscard]] std::string description() const override;
-  [[nodiscard]] NodeState node_state() const override { return NodeState::configuration; }
+  SecondOrderElement()
+      : Element("second_order", "collocation of the Euler-Lagrange equations as second-order equations in q",
+                NodeState::configuration) {}
   /// Gauss with s + 1 points.
   [[nodiscard]] Tableau rates(const Tableau& tableau) const override;
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,

@@ -119,18 +119,14 @@ State on_cubic(const Flow& left, const Flow& right, const Expression& h, double 
 }  // namespace
 
 ShootingElement::ShootingElement(Shooting shooting, ExplicitIntegrator integrator, int substeps)
-    : shooting_(shooting), integrator_(std::move(integrator)), substeps_(substeps) {
+    : Element(shooting_name(shooting_family(shooting), integrator.name, substeps),
+              fmt::format("direct {} shooting in (q, v) with {} step{} of {} per interval",
+                          shooting == Shooting::single ? "single" : "multiple", substeps, substeps == 1 ? "" : "s",
+                          integrator.name),
+              NodeState::velocity),
+      integrator_(std::move(integrator)),
+      substeps_(substeps) {
   require_substeps(substeps);
-}
-
-std::string ShootingElement::name() const {
-  return shooting_name(shooting_family(shooting_), integrator_.name, substeps_);
-}
-
-std::string ShootingElement::description() const {
-  return fmt::format("direct {} shooting in (q, v) with {} step{} of {} per interval",
-                     shooting_ == Shooting::single ? "single" : "multiple", substeps_, substeps_ == 1 ? "" : "s",
-                     integrator_.name);
 }
 
 IntervalTrace ShootingElement::trace(const TracedProblem& problem, const Tableau& tableau,
@@ -165,7 +161,7 @@ IntervalTrace ShootingElement::trace(const TracedProblem& problem, const Tableau
 void require_substeps(int substeps) {
   constexpr int most = ShootingElement::most_substeps;
   if (substeps >= 1 && substeps <= most) return;
-  throw Error(fmt::format("shooting supports 1 to {} substeps per interval, got {}", most, substeps));
+  throw Error("shooting supports 1 to {} substeps per interval, got {}", most, substeps);
 }
 
 std::string shooting_name(std::string_view family, std::string_view integrator, int substeps) {
@@ -177,7 +173,7 @@ std::unique_ptr<Element> make_shooting_element(Shooting shooting, std::string_vi
   const auto substeps = bar == std::string_view::npos ? std::nullopt : parsed<int>(integration.substr(bar + 1));
   if (!substeps) {
     const std::string name = fmt::format("{}_{}", shooting_family(shooting), integration);
-    throw Error(fmt::format(R"("{}" does not name a number of substeps, as "{}_1" does)", name, name));
+    throw Error(R"("{}" does not name a number of substeps, as "{}_1" does)", name, name);
   }
   return std::make_unique<ShootingElement>(shooting, explicit_integrator(integration.substr(0, bar)), *substeps);
 }

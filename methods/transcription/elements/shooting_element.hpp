@@ -61,16 +61,11 @@ class ShootingElement final : public Element {
   /// Beyond it, formulas of an interval become too long.
   static constexpr int most_substeps = 64;
 
-  /// "multiple_shooting_rk4_1" or "single_shooting_rk4_1": the integrator and the number of its steps per interval.
-  [[nodiscard]] std::string name() const override;
-  [[nodiscard]] std::string description() const override;
-  [[nodiscard]] NodeState node_state() const override { return NodeState::velocity; }
   [[nodiscard]] bool has_stage_unknowns() const override { return false; }
   [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const override;
 
  private:
-  Shooting shooting_;
   ExplicitIntegrator integrator_;
   int substeps_;
 };
@@ -78,7 +73,8 @@ class ShootingElement final : public Element {
 /// Throws `Error` unless `substeps` is in [1, `ShootingElement::most_substeps`].
 void require_substeps(int substeps);
 
-/// FAMILY_INTEGRATOR_SUBSTEPS, such as "multiple_shooting_rk4_1".
+/// FAMILY_INTEGRATOR_SUBSTEPS, such as "multiple_shooting_rk4_1": the integrator and the number of its steps per
+/// interval.
 [[nodiscard]] std::string shooting_name(std::string_view family, std::string_view integrator, int substeps);
 
 /// The element of an integration INTEGRATOR_SUBSTEPS, such as "rk4_1". Throws `Error` that names a missing part.

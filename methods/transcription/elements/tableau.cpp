@@ -11,7 +11,6 @@
 #include <Eigen/LU>
 #include <boost/math/special_functions/legendre.hpp>
 #include <boost/math/tools/roots.hpp>
-#include <fmt/format.h>
 
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
@@ -101,14 +100,14 @@ Tableau collocation_tableau(std::string family, const std::vector<long double>& 
 
 Tableau gauss_tableau(int stages) {
   if (stages < 1 || stages > most_stages) {
-    throw Error(fmt::format("gauss supports 1 to {} stages, got {}", most_stages, stages));
+    throw Error("gauss supports 1 to {} stages, got {}", most_stages, stages);
   }
   return collocation_tableau("gauss", gauss_nodes(stages), 2 * stages);
 }
 
 Tableau lobatto_tableau(int stages, bool shares_controls) {
   if (stages < fewest_lobatto_stages || stages > most_stages) {
-    throw Error(fmt::format("lobatto supports {} to {} stages, got {}", fewest_lobatto_stages, most_stages, stages));
+    throw Error("lobatto supports {} to {} stages, got {}", fewest_lobatto_stages, most_stages, stages);
   }
   Tableau tableau =
       collocation_tableau(shares_controls ? "lobatto_shared" : "lobatto", lobatto_nodes(stages), 2 * stages - 2);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -14,7 +12,7 @@ Grid::Grid(Eigen::VectorXd nodes, Eigen::VectorXd widths) : nodes_(std::move(nod
 
 Grid Grid::uniform(long long intervals) {
   if (intervals < 1 || intervals > most_intervals) {
-    throw Error(fmt::format("the number of intervals must lie between 1 and {}, got {}", most_intervals, intervals));
+    throw Error("the number of intervals must lie between 1 and {}, got {}", most_intervals, intervals);
   }
   const auto count = static_cast<Eigen::Index>(intervals);
   Eigen::VectorXd nodes(count + 1);
@@ -31,13 +29,13 @@ Grid Grid::from_nodes(Eigen::VectorXd relative_times) {
   Eigen::VectorXd widths = relative_times.tail(count) - relative_times.head(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!(widths[k] > 0.0)) {
-      throw Error(fmt::format("relative node times must ascend: entry {} is not greater than entry {}", k + 1, k));
+      throw Error("relative node times must ascend: entry {} is not greater than entry {}", k + 1, k);
     }
     if (widths[k] < narrowest) {
       throw Error(
-          fmt::format("relative node times {} and {} are {:.1e} apart, less than {:g}: round-off would dominate the "
-                      "step between them; remove one of the two",
-                      k, k + 1, widths[k], narrowest));
+          "relative node times {} and {} are {:.1e} apart, less than {:g}: round-off would dominate the "
+          "step between them; remove one of the two",
+          k, k + 1, widths[k], narrowest);
     }
   }
   return {std::move(relative_times), std::move(widths)};
@@ -48,9 +46,8 @@ Grid Grid::with_nodes_at(const std::vector<double>& times) const {
   const auto count = std::ssize(times);
   const Eigen::Index last = nodes_.size() - 1;
   if (last <= count) {
-    throw Error(
-        fmt::format("{} times between the ends need a node each, so the grid needs at least {} intervals, not {}",
-                    count, count + 1, last));
+    throw Error("{} times between the ends need a node each, so the grid needs at least {} intervals, not {}", count,
+                count + 1, last);
   }
   Eigen::VectorXd moved(nodes_.size());
   Eigen::Index from = 0;  // the node that was moved last, and where to

@@ -181,11 +181,11 @@ class WindowSearch {
     if (!(margins(path.at(held, 2), bounds_).col(i).array() >= 0.0).all()) return;
     const std::vector<std::string> names = problem_.card().path_constraint_names;
     const auto number = static_cast<std::size_t>(i);
-    throw Error(fmt::format(
+    throw Error(
         "{}: path_constraints[{}]{} is active on the guess only from t = {:.4g} to {:.4g}, between the stages at t = "
         "{:.4g} and {:.4g}, so no stage imposes it; use more intervals, or a grid with a stage there",
         problem_.name(), i, number < names.size() ? " (" + names[number] + ")" : "", times_[first], times_[end - 1],
-        *(after - 1), *after));
+        *(after - 1), *after);
   }
 
   const Problem& problem_;

@@ -74,26 +74,11 @@ std::vector<PhaseTrajectory> phase_trajectories(const PhasedProblem& problem, co
     Trajectory own;
     own.tableau = all.tableau;
     own.node_times = share * all.node_times;
-    own.q = columns(all.q, part.q);
-    own.p = columns(all.p, part.q);
-    own.v = columns(all.v, part.q, 1.0 / share);
     own.stage_times = share * all.stage_times;
-    own.stage_q = columns(all.stage_q, part.q);
-    own.stage_v = columns(all.stage_v, part.q, 1.0 / share);
-    own.stage_u = columns(all.stage_u, part.u);
-    own.stage_p = columns(all.stage_p, part.q);
-    own.left_impulses = columns(all.left_impulses, part.q);
-    own.right_impulses = columns(all.right_impulses, part.q);
-    own.stage_constraint_forces = columns(all.stage_constraint_forces, part.q, 1.0 / share);
-    own.y = columns(all.y, part.y);
-    own.stage_y = columns(all.stage_y, part.y);
-    own.stage_y_rates = columns(all.stage_y_rates, part.y, 1.0 / share);
-    own.psi_y = columns(all.psi_y, part.y);
-    own.psi_q = columns(all.psi_q, part.q);
-    own.psi_p = columns(all.psi_p, part.q);
-    own.stage_psi_q = columns(all.stage_psi_q, part.q);
-    own.stage_psi_p = columns(all.stage_psi_p, part.q);
-    own.stage_psi_y = columns(all.stage_psi_y, part.y);
+    for (const auto& [name, values, kind, is_per_time] : trajectory_tables) {
+      const PhasedProblem::Slice& slice = kind == 'q' ? part.q : kind == 'u' ? part.u : part.y;
+      own.*values = columns(all.*values, slice, is_per_time ? 1.0 / share : 1.0);
+    }
     own.cost = std::numeric_limits<double>::quiet_NaN();
     own.unknowns = own_unknowns(problem, i, all.unknowns);
     own.prices = own_prices(problem, i, all.prices, share);

@@ -16,7 +16,6 @@ struct PhaseTrajectory {
 };
 
 /// The parts of all phases in their order.
-[[nodiscard]] std::vector<PhaseTrajectory> phase_trajectories(const PhasedProblem& problem,
-                                                              const Trajectory& trajectory);
+[[nodiscard]] std::vector<PhaseTrajectory> phase_trajectories(const PhasedProblem& problem, const Trajectory& all);
 
 }  // namespace dmocbench

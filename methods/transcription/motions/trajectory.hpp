@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 #include "methods/mechanics/state.hpp"
@@ -100,5 +102,35 @@ struct Trajectory {
   /// True if there are costates at the stages.
   [[nodiscard]] bool has_stage_costates() const noexcept { return stage_psi_q.size() > 0; }
 };
+
+/// A table of a trajectory.
+struct TrajectoryTable {
+  const char* name;                     ///< as in Python
+  Eigen::MatrixXd Trajectory::*values;  ///< the table
+  char columns;                         ///< one per configuration 'q', per control 'u' or per first-order state 'y'
+  bool is_per_time = false;             ///< whether its entries are per unit of time
+};
+
+/// All of them.
+inline constexpr auto trajectory_tables =
+    std::to_array<TrajectoryTable>({{"q", &Trajectory::q, 'q'},
+                                    {"v", &Trajectory::v, 'q', true},
+                                    {"p", &Trajectory::p, 'q'},
+                                    {"y", &Trajectory::y, 'y'},
+                                    {"psi_q", &Trajectory::psi_q, 'q'},
+                                    {"psi_p", &Trajectory::psi_p, 'q'},
+                                    {"psi_y", &Trajectory::psi_y, 'y'},
+                                    {"left_impulses", &Trajectory::left_impulses, 'q'},
+                                    {"right_impulses", &Trajectory::right_impulses, 'q'},
+                                    {"stage_q", &Trajectory::stage_q, 'q'},
+                                    {"stage_v", &Trajectory::stage_v, 'q', true},
+                                    {"stage_u", &Trajectory::stage_u, 'u'},
+                                    {"stage_p", &Trajectory::stage_p, 'q'},
+                                    {"stage_y", &Trajectory::stage_y, 'y'},
+                                    {"stage_y_rates", &Trajectory::stage_y_rates, 'y', true},
+                                    {"stage_psi_q", &Trajectory::stage_psi_q, 'q'},
+                                    {"stage_psi_p", &Trajectory::stage_psi_p, 'q'},
+                                    {"stage_psi_y", &Trajectory::stage_psi_y, 'y'},
+                                    {"stage_constraint_forces", &Trajectory::stage_constraint_forces, 'q', true}});
 
 }  // namespace dmocbench

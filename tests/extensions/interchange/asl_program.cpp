@@ -23,8 +23,6 @@ struct AslProgram::Library {
   explicit Library(AslReader reader) : asl(ASL_alloc(reader == AslReader::whole ? ASL_read_fgh : ASL_read_pfgh)) {}
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
-  Library(Library&&) = delete;
-  Library& operator=(Library&&) = delete;
   ~Library() { ASL_free(&asl); }
 };
 

@@ -28,8 +28,6 @@ class AslProgram {
   explicit AslProgram(const std::filesystem::path& file, AslReader reader = AslReader::partially_separable);
   AslProgram(const AslProgram&) = delete;
   AslProgram& operator=(const AslProgram&) = delete;
-  AslProgram(AslProgram&&) = delete;
-  AslProgram& operator=(AslProgram&&) = delete;
   ~AslProgram();
 
   Eigen::Index variables = 0;

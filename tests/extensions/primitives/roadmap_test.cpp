@@ -48,14 +48,12 @@ BareGraph random_graph(std::mt19937& random, std::size_t nodes, int edges) {
 }
 
 /// The least cost of all paths, each of them tried.
-double least_of_all(const Roadmap& roadmap, std::size_t node, std::size_t goal, int duration, Arrival arrival) {
-  const bool may_end = node == goal && (duration == 0 || arrival == Arrival::at_latest);
-  double least = may_end ? 0.0 : std::numeric_limits<double>::infinity();
+double least_of_all(const Roadmap& roadmap, std::size_t node, std::size_t goal, int duration) {
+  double least = node == goal && duration == 0 ? 0.0 : std::numeric_limits<double>::infinity();
   const auto [first, last] = roadmap.leaving(node);
   for (std::size_t edge = first; edge < last; ++edge) {
     if (roadmap.duration(edge) > duration) continue;
-    const double rest =
-        least_of_all(roadmap, roadmap.edges()[edge].to, goal, duration - roadmap.duration(edge), arrival);
+    const double rest = least_of_all(roadmap, roadmap.edges()[edge].to, goal, duration - roadmap.duration(edge));
     least = std::min(least, roadmap.cost(edge) + rest);
   }
   return least;
@@ -81,16 +79,14 @@ TEST(CheapestPath, IsTheBestOfAllPathsOnSmallGraphs) {
   int found = 0;
   for (int graph = 0; graph < 200; ++graph) {
     const Roadmap roadmap = random_graph(random, 5, 12).roadmap();
-    for (const Arrival arrival : {Arrival::exactly, Arrival::at_latest}) {
-      const double least = least_of_all(roadmap, 0, 4, 7, arrival);
-      const auto path = cheapest_path(roadmap, 0, 4, 7, arrival);
-      ASSERT_EQ(path.has_value(), std::isfinite(least)) << graph;
-      if (!path) continue;
-      ++found;
-      EXPECT_NEAR(path->cost, least, 1e-12) << graph;
-      EXPECT_TRUE(arrival == Arrival::exactly ? path->duration == 7 : path->duration <= 7) << graph;
-      expect_to_be_a_path(roadmap, *path, 0, 4);
-    }
+    const double least = least_of_all(roadmap, 0, 4, 7);
+    const auto path = cheapest_path(roadmap, 0, 4, 7);
+    ASSERT_EQ(path.has_value(), std::isfinite(least)) << graph;
+    if (!path) continue;
+    ++found;
+    EXPECT_NEAR(path->cost, least, 1e-12) << graph;
+    EXPECT_EQ(path->duration, 7) << graph;
+    expect_to_be_a_path(roadmap, *path, 0, 4);
   }
   EXPECT_GT(found, 100);
 }
@@ -101,8 +97,8 @@ TEST(CheapestPath, TakesTheDearEdgeWhereTheCheapOneIsTooSlow) {
   graph.connect(0, 1, 2, 3.0);
   graph.connect(1, 2, 1, 1.0);
   const Roadmap roadmap = graph.roadmap();
-  EXPECT_DOUBLE_EQ(cheapest_path(roadmap, 0, 2, 6, Arrival::at_latest)->cost, 1.1);
-  EXPECT_DOUBLE_EQ(cheapest_path(roadmap, 0, 2, 5, Arrival::at_latest)->cost, 4.0);
+  EXPECT_DOUBLE_EQ(cheapest_path(roadmap, 0, 2, 6)->cost, 1.1);
+  EXPECT_DOUBLE_EQ(cheapest_path(roadmap, 0, 2, 3)->cost, 4.0);
   EXPECT_EQ(cheapest_path(roadmap, 0, 2, 5), std::nullopt);
 }
 

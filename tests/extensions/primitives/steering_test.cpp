@@ -115,13 +115,9 @@ TEST(Steering, IsTheOptimumOfALinearSystem) {
 TEST(MotionTree, KeepsTheCheapestStateOfACellAndTellsItsMotion) {
   const auto problem = make_problem("double_integrator");
   const DiscreteFlow flow(*problem, 0.1);
-  const MotionTreeOptions options{.layers = 3,
-                                  .intervals_per_step = 2,
-                                  .controls = Eigen::Vector3d(-3.0, 0.0, 3.0),
-                                  .cell = Eigen::Vector2d(0.3, 0.3),
-                                  .most_states = 1000,
-                                  .configuration = {}};
-  const auto tree = grow_tree(flow, BoundaryState::at_rest(Eigen::VectorXd::Zero(1)), options);
+  const LatticeOptions options{
+      .intervals_per_step = 2, .controls = Eigen::Vector3d(-3.0, 0.0, 3.0), .cell = Eigen::Vector2d(0.3, 0.3)};
+  const auto tree = grow_tree(flow, BoundaryState::at_rest(Eigen::VectorXd::Zero(1)), options, {}, 3);
   ASSERT_EQ(tree.size(), 4U);
   for (std::size_t layer = 1; layer < tree.size(); ++layer) {
     for (std::size_t i = 0; i < tree[layer].parents.size(); ++i) {

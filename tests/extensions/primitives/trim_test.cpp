@@ -65,10 +65,8 @@ TEST(Trim, OfAnOrbitIsACircleWithKeplersRate) {
   const OrbitalTransfer problem;
   const SymmetryGroup group(problem);
   const TrimSolver solver(problem, group);
-  const Trim guess{.q = Eigen::Vector2d(1.3, 0.0),
-                   .rates = Eigen::VectorXd::Constant(1, 0.8),
-                   .u = Eigen::VectorXd::Zero(1),
-                   .state = {}};
+  const Trim guess{
+      .q = Eigen::Vector2d(1.3, 0.0), .rates = Eigen::VectorXd::Constant(1, 0.8), .u = Eigen::VectorXd::Zero(1)};
   const Trim trim = solver.solve(guess, {2});
   EXPECT_NEAR(trim.rates[0], std::pow(1.3, -1.5), 1e-13);
   expect_exact_motion(problem, group, trim);
@@ -80,11 +78,8 @@ TEST(Trim, OfASphericalPendulumIsASteadyCone) {
   const SphericalPendulum problem;
   const SymmetryGroup group(problem);
   const TrimSolver solver(problem, group);
-  const Trim trim = solver.solve({.q = Eigen::Vector2d(0.9, 0.0),
-                                  .rates = Eigen::VectorXd::Constant(1, 3.5),
-                                  .u = Eigen::VectorXd::Zero(2),
-                                  .state = {}},
-                                 {2});
+  const Trim trim = solver.solve(
+      {.q = Eigen::Vector2d(0.9, 0.0), .rates = Eigen::VectorXd::Constant(1, 3.5), .u = Eigen::VectorXd::Zero(2)}, {2});
   EXPECT_NEAR(trim.rates[0], std::sqrt(problem.parameter("gravity") / std::cos(0.9)), 1e-12);
   expect_exact_motion(problem, group, trim);
 }
@@ -93,24 +88,19 @@ TEST(Trim, OfAHovercraftThatTurnsHasAThrustTowardsTheCentre) {
   const Hovercraft problem;
   const SymmetryGroup group(problem, motions_of_the_plane());
   const TrimSolver solver(problem, group);
-  const Trim trim = solver.solve({.q = Eigen::Vector3d::Zero(),
-                                  .rates = Eigen::Vector3d(0.3, -0.5, 1.2),
-                                  .u = Eigen::Vector2d::Zero(),
-                                  .state = {}},
-                                 {3, 6, 7});
+  const Trim trim = solver.solve(
+      {.q = Eigen::Vector3d::Zero(), .rates = Eigen::Vector3d(0.3, -0.5, 1.2), .u = Eigen::Vector2d::Zero()},
+      {3, 6, 7});
   EXPECT_NEAR(trim.rates[0], 0.0, 1e-12);  // the stern cannot push sideways without turning
   EXPECT_NEAR(trim.u[0], 0.5 * 1.2, 1e-12);
   EXPECT_NEAR(trim.u[1], 0.0, 1e-12);
-  EXPECT_LT(solver.residual(trim).norm(), 1e-12);
 }
 
 TEST(Trim, IsRefusedWhereThereIsNone) {
   const OrbitalTransfer problem;
   const SymmetryGroup group(problem);
-  const Trim guess{.q = Eigen::Vector2d(1.3, 0.0),
-                   .rates = Eigen::VectorXd::Constant(1, 0.8),
-                   .u = Eigen::VectorXd::Zero(1),
-                   .state = {}};
+  const Trim guess{
+      .q = Eigen::Vector2d(1.3, 0.0), .rates = Eigen::VectorXd::Constant(1, 0.8), .u = Eigen::VectorXd::Zero(1)};
   // The thrust is tangential: it does not hold a satellite on a circle that it is too slow for.
   tests::expect_error_naming({"orbital_transfer", "relative equilibrium"},
                              [&] { static_cast<void>(TrimSolver(problem, group).solve(guess, {3})); });

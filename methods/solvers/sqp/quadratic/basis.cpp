@@ -27,7 +27,7 @@ bool BasisFactorisation::factorise(const QuadraticProgram& program, const std::v
 }
 
 void BasisFactorisation::replace(Eigen::Index position, const Eigen::VectorXd& solved) {
-  Replacement replacement{.position = position, .pivot = solved[position], .rows = {}, .values = {}};
+  Replacement replacement{.position = position, .pivot = solved[position]};
   for (Eigen::Index i = 0; i < solved.size(); ++i) {
     if (i == position || solved[i] == 0.0) continue;
     replacement.rows.push_back(i);
@@ -120,7 +120,7 @@ bool recompute(const QuadraticProgram& program, BasisChoice& choice) {
 }
 
 BasisChoice from_slacks(const QuadraticProgram& program, const std::vector<Eigen::Index>& candidates) {
-  BasisChoice choice{.basics = program.slacks(), .others = candidates, .table = {}};
+  BasisChoice choice{.basics = program.slacks(), .others = candidates};
   std::erase_if(choice.others, [&](Eigen::Index j) { return is_slack(program, j); });
   static_cast<void>(recompute(program, choice));  // the slack basis is never singular
   if (choice.table.size() > 0) replace_slacks(program, choice);
@@ -137,7 +137,7 @@ BasisChoice from_slacks(const QuadraticProgram& program, const std::vector<Eigen
 
 BasisChoice choose_basis(const QuadraticProgram& program, std::vector<Eigen::Index> basics,
                          std::vector<Eigen::Index> others) {
-  BasisChoice choice{.basics = basics, .others = others, .table = {}};
+  BasisChoice choice{.basics = basics, .others = others};
   if (!recompute(program, choice)) {
     basics.insert(basics.end(), others.begin(), others.end());
     return from_slacks(program, basics);

@@ -33,8 +33,8 @@ class BasisFactorisation {
   struct Replacement {
     Eigen::Index position = 0;
     double pivot = 1.0;
-    std::vector<Eigen::Index> rows;  // without the pivot's
-    std::vector<double> values;
+    std::vector<Eigen::Index> rows = {};  // without the pivot's
+    std::vector<double> values = {};
   };
 
   // Mutable because Eigen's view of the transposed factors is not const; it changes nothing.
@@ -46,7 +46,7 @@ class BasisFactorisation {
 struct BasisChoice {
   std::vector<Eigen::Index> basics;  ///< by position
   std::vector<Eigen::Index> others;
-  Eigen::MatrixXd table;  ///< B⁻¹ (columns `others`): m x others
+  Eigen::MatrixXd table = {};  ///< B⁻¹ (columns `others`): m x others
 };
 
 /// Starts from `basics` and exchanges them for `others` until no entry of the table exceeds a small bound. Then

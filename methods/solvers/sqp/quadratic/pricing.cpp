@@ -32,7 +32,7 @@ RatioTest ratio_test(const std::vector<MovingColumn>& columns, double limit, dou
   for (const MovingColumn& column : columns) {
     if (moves(column)) relaxed = std::min(relaxed, step_to_bound(column, tolerance, tolerance));
   }
-  RatioTest result{.step = limit, .blocking = {}};
+  RatioTest result{.step = limit};
   double best_rate = 0.0;
   for (std::size_t place = 0; place < columns.size(); ++place) {
     const MovingColumn& column = columns[place];

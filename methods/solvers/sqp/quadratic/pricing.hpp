@@ -73,8 +73,8 @@ struct MovingColumn {
 
 /// The distance by which a direction may be followed.
 struct RatioTest {
-  double step = 0.0;                    ///< the largest step
-  std::optional<std::size_t> blocking;  ///< place in the list of the column that stops it; none if the limit does
+  double step = 0.0;                         ///< the largest step
+  std::optional<std::size_t> blocking = {};  ///< place in the list of the column that stops it; none if the limit does
 };
 
 /// The largest step up to `limit` before a column that is within its bounds (up to `tolerance`) leaves them, or one

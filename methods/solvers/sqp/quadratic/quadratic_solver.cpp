@@ -91,11 +91,7 @@ void take_step(QuadraticIterate& iterate, const PricedColumn& entering, const Mi
     iterate.drop_superbasic(std::find(superbasics.begin(), superbasics.end(), leaving) - superbasics.begin());
   }
   report(iterate,
-         {.phase = MinorPhase::feasibility,
-          .entering = entering.column,
-          .leaving = leaving,
-          .into_basis = {},
-          .step = test.step},
+         {.phase = MinorPhase::feasibility, .entering = entering.column, .leaving = leaving, .step = test.step},
          observer);
 }
 
@@ -201,8 +197,7 @@ class PhaseTwo {
     constexpr double whole = 1.0;
     const RatioTest test = ratio_test(iterate_, moving, change, whole);
     iterate_.move(change, test.step);
-    MinorIteration minor{
-        .phase = MinorPhase::optimality, .entering = entering, .leaving = {}, .into_basis = {}, .step = test.step};
+    MinorIteration minor{.phase = MinorPhase::optimality, .entering = entering, .step = test.step};
     if (test.blocking) {
       minor.leaving = moving[*test.blocking];
       iterate_.put_on_bound(*minor.leaving, change[*minor.leaving] > 0.0);
