@@ -25,7 +25,7 @@ struct PassInputBlocks {
   S shape;
   /// (x, u) x x': the Hessian between them.
   [[nodiscard]] constexpr BlockPlace mixed() const { return {0, input_height(shape), shape.node}; }
-  /// (x, u) x (x, u, 1): Hessian and gradient, those of x from inequalities only.
+  /// (x, u) x (x, u, 1): Hessian and gradient; the part of x comes from inequalities only.
   [[nodiscard]] constexpr BlockPlace form() const {
     return {mixed().end(), input_height(shape), shape.node + free_size(shape) + 1};
   }

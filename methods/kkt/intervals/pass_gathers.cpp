@@ -129,7 +129,7 @@ std::vector<int> pass_units(const IntervalEntries& entries) {
 
 std::vector<int> places_of_rows(const EliminationPlan& plan) {
   std::vector<int> places;
-  // The first unit entries are those of s, which enters each equality once.
+  // The first unit entries belong to s, which enters each equality once.
   for (int row = 0; row < plan.shape.rows; ++row) {
     places.push_back(plan.unit_entries[static_cast<std::size_t>(row)] % plan.shape.rows);
   }

@@ -139,8 +139,8 @@ DMOCBENCH_INLINE void add_squares(const S& shape, double* input) {
 /// The rows of a quad after row p.
 inline constexpr Quad after[4] = {{0.0, 1.0, 1.0, 1.0}, {0.0, 0.0, 1.0, 1.0}, {0.0, 0.0, 0.0, 1.0}, {}};
 
-/// E = L U in place, the unit diagonal in L, reciprocals on that of U. Returns the smallest pivot relative to the usual
-/// one; -1 if it is not a number.
+/// E = L U in place, with ones on the diagonal of L and reciprocals on the diagonal of U. Returns the smallest pivot
+/// relative to the usual one; -1 if it is not a number.
 template <class S>
 DMOCBENCH_INLINE double factorise_equalities(const S& shape, const double* pivot_scales, double* E) {
   const int n = shape.node;
