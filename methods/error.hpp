@@ -12,12 +12,13 @@ namespace dmocbench {
 /// A format string of libfmt for values of these types, checked by the compiler, and the place of the call.
 template <class... Values>
 struct Sentence {
+  /// The place is where the sentence is written, which the caller leaves out.
   template <class Text>
   consteval Sentence(const Text& words, std::source_location place = std::source_location::current())
       : text(words), where(place) {}
 
-  fmt::format_string<Values...> text;
-  std::source_location where;
+  fmt::format_string<Values...> text;  ///< with a field for each value
+  std::source_location where;          ///< the place of the call
 };
 
 /// Misuse of the library: a wrong dimension, an unknown name, a value outside its range.

@@ -137,6 +137,7 @@ class Element {
                                             const IntervalUnknowns& unknowns) const = 0;
 
  protected:
+  /// See `name()`, `description()` and `node_state()`.
   Element(std::string name, std::string description, NodeState node_state)
       : name_(std::move(name)), description_(std::move(description)), node_state_(node_state) {}
 
