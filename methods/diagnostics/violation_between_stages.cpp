@@ -671,9 +671,10 @@ std::string ViolationBetweenStages::words(const Problem& problem, const Trajecto
                         time_in_words(problem, worst.time), worst.interval, size);
   };
   if (!keeps_state() && state.is_priced) {
-    add(state, fmt::format(". If bounds held between their points too, the cost would grow by about {:.2g} of its "
-                           "value. If it grows with every finer grid, no trajectory may keep this bound",
-                           state.share / share_per_added_cost));
+    add(state,
+        fmt::format(". If it held between the points of the grid too, the cost would grow by about {:.2g} %. "
+                    "If the cost grows with the number of intervals, there may be no trajectory within the bounds",
+                    100.0 * state.share / share_per_added_cost));
   } else if (!keeps_state()) {
     add(state, state.share > 1.0 ? ", more than its scale" : fmt::format(", {:.2g} of its scale", state.share));
   }
