@@ -12,7 +12,8 @@
 //   x' = x + D,   z' = G (D, u),   D = J (x, u) + z + r,
 //
 // so only the columns of z of the cost-to-go are multiplied, and its new block of z is the Hessian of D itself.
-// NOLINTBEGIN(*-identifier-naming,*-member-init): names of the formulas
+// NOLINTBEGIN(*-identifier-naming,*-member-init,*-avoid-c-arrays,*-non-const-parameter,*-implicit-widening*): names of
+// the formulas, arrays that live in registers, parameters written as vectors, offsets in one matrix
 namespace dmocbench::kkt {
 inline namespace DMOCBENCH_LANES {
 
@@ -592,4 +593,4 @@ DMOCBENCH_INLINE void pass_forward(const S& shape, const double* record, const d
 
 }  // namespace DMOCBENCH_LANES
 }  // namespace dmocbench::kkt
-// NOLINTEND(*-identifier-naming,*-member-init)
+// NOLINTEND(*-identifier-naming,*-member-init,*-avoid-c-arrays,*-non-const-parameter,*-implicit-widening*)

@@ -7,7 +7,8 @@
 #include "methods/kkt/intervals/pass_step.hpp"
 #include "methods/kkt/intervals/segment_sweeps.hpp"
 
-// NOLINTBEGIN(*-reinterpret-cast,*-member-init,*-identifier-naming): memory of the caller, as numbers
+// NOLINTBEGIN(*-reinterpret-cast,*-member-init*,*-identifier-naming,*-avoid-c-arrays,*-implicit-widening*): memory of
+// the caller, as numbers
 namespace dmocbench::kkt {
 inline namespace DMOCBENCH_LANES {
 
@@ -201,4 +202,4 @@ PassKernel choose_pass([[maybe_unused]] const Shape& shape) {
 
 }  // namespace DMOCBENCH_LANES
 }  // namespace dmocbench::kkt
-// NOLINTEND(*-reinterpret-cast,*-member-init,*-identifier-naming)
+// NOLINTEND(*-reinterpret-cast,*-member-init*,*-identifier-naming,*-avoid-c-arrays,*-implicit-widening*)

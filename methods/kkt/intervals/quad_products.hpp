@@ -8,8 +8,9 @@
 #include "methods/kkt/intervals/kernel_blocks.hpp"
 
 // Products of matrices of one interval, whose columns fill vectors of four numbers: every column begins at a multiple
-// of four, and the rows after the last one are zero. NOLINTBEGIN(*-avoid-c-arrays,*-reinterpret-cast): arrays that live
-// in registers
+// of four, and the rows after the last one are zero.
+// NOLINTBEGIN(*-avoid-c-arrays,*-reinterpret-cast,*-member-init,*-non-const-parameter,*-implicit-widening*): arrays
+// that live in registers, numbers written as vectors, offsets in one matrix
 namespace dmocbench::kkt {
 inline namespace DMOCBENCH_LANES {
 
@@ -179,4 +180,4 @@ DMOCBENCH_INLINE void mirror(double* matrix, int rows) {
 
 }  // namespace DMOCBENCH_LANES
 }  // namespace dmocbench::kkt
-// NOLINTEND(*-avoid-c-arrays,*-reinterpret-cast)
+// NOLINTEND(*-avoid-c-arrays,*-reinterpret-cast,*-member-init,*-non-const-parameter,*-implicit-widening*)

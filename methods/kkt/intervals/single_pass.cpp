@@ -52,11 +52,14 @@ bool SinglePass::use(const EliminationPlan& plan, InstructionSet set) {
   }
   const int X = 2 * shape.node;
   const auto intervals = static_cast<std::size_t>(entries_.intervals);
-  const std::size_t value = whole_quads(PassValueBlocks<Shape>{shape}.size());
-  const std::size_t records = intervals * whole_quads(PassRecordBlocks<Shape>{shape}.size());
-  const std::size_t ends = intervals * whole_quads(PassEndBlocks<Shape>{shape}.size());
+  const auto numbers = [](int size) { return static_cast<std::size_t>(whole_quads(size)); };
+  const std::size_t value = numbers(PassValueBlocks<Shape>{shape}.size());
+  const std::size_t records = intervals * numbers(PassRecordBlocks<Shape>{shape}.size());
+  const std::size_t ends = intervals * numbers(PassEndBlocks<Shape>{shape}.size());
+  // NOLINTBEGIN(*-avoid-c-arrays): a vector would write zeros
   numbers_ = std::make_unique_for_overwrite<NumberLine[]>((value + records + ends + lane_count - 1) / lane_count);
   workspace_ = std::make_unique<NumberLine[]>(kernel_.workspace_size(plan) / lane_count);
+  // NOLINTEND(*-avoid-c-arrays)
   pass_ = {};
   pass_.intervals = static_cast<int>(entries_.intervals);
   pass_.value = numbers_[0].numbers.data();
