@@ -37,18 +37,18 @@ bool is_status_of_solve(const std::string& name, const ColumnFacts& column) {
 }
 
 /// The entry of a table in metadata; null if there is no such entry.
-nlohmann::json told_of(const nlohmann::json& metadata, const std::string& table) {
+nlohmann::json entry_of(const nlohmann::json& metadata, const std::string& table) {
   const auto tables = metadata.is_object() ? metadata.find("tables") : metadata.end();
   if (tables == metadata.end() || !tables->is_object() || !tables->contains(table)) return {};
-  const nlohmann::json& told = tables->at(table);
-  const auto has = [&told](const char* name, auto is_of_type) { return told.contains(name) && is_of_type(told[name]); };
+  const nlohmann::json& entry = tables->at(table);
+  const auto has = [&](const char* name, auto is_of_type) { return entry.contains(name) && is_of_type(entry[name]); };
   const auto are_texts = [](const nlohmann::json& values) {
     return values.is_array() && std::ranges::all_of(values, [](const auto& value) { return value.is_string(); });
   };
-  const bool is_whole = told.is_object() && has("columns", are_texts) &&
+  const bool is_whole = entry.is_object() && has("columns", are_texts) &&
                         has("rows", [](const auto& value) { return value.is_number_integer(); }) &&
                         has("crc32", [](const auto& value) { return value.is_string(); });
-  return is_whole ? told : nlohmann::json();
+  return is_whole ? entry : nlohmann::json();
 }
 
 /// The first name that is missing from the others, in quotes; empty if there is no such name.
@@ -137,21 +137,21 @@ nlohmann::ordered_json describe_tables(const std::vector<std::filesystem::path>&
 
 void require_as_written(const nlohmann::json& metadata, const std::string& source, const std::string& table,
                         std::string_view content) {
-  const nlohmann::json told = told_of(metadata, table);
-  if (told.is_null()) throw Error("{} does not list {}: they come from different runs", source, table);
+  const nlohmann::json entry = entry_of(metadata, table);
+  if (entry.is_null()) throw Error("{} does not list {}: they come from different runs", source, table);
   const Table found = Table::from_csv(content);
-  const auto columns = told["columns"].get<std::vector<std::string>>();
+  const auto columns = entry["columns"].get<std::vector<std::string>>();
   if (const std::string more = lacked(found.columns(), columns); !more.empty())
     throw Error("{} has the column {}, which {} does not list", table, more, source);
   if (const std::string missing = lacked(columns, found.columns()); !missing.empty())
     throw Error("{} lacks the column {}, which {} lists", table, missing, source);
-  if (told["rows"] != found.rows().size()) {
+  if (entry["rows"] != found.rows().size()) {
     throw Error("{} states {}, but {} has {}: the files come from different runs, or rows are missing", source,
-                counted(told["rows"].get<long long>(), "row"), table, found.rows().size());
+                counted(entry["rows"].get<long long>(), "row"), table, found.rows().size());
   }
-  if (const std::string checksum = checksum_of(content); told["crc32"] != checksum) {
+  if (const std::string checksum = checksum_of(content); entry["crc32"] != checksum) {
     throw Error("{} was changed after its run: its checksum is {}, but {} states {}", table, checksum, source,
-                told["crc32"].get<std::string>());
+                entry["crc32"].get<std::string>());
   }
 }
 
@@ -159,11 +159,11 @@ void describe_tables_of_run(const std::vector<std::filesystem::path>& files, con
                             nlohmann::ordered_json& metadata) {
   const Json noted = metadata.value("tables", Json::object());
   Json tables = describe_tables(files);
-  for (const auto& [file, told] : tables.items()) {
+  for (const auto& [file, entry] : tables.items()) {
     const Json of_file = noted.contains(file) ? noted.at(file).at("schema") : Json::object();
     const Json explained = of_file.value("properties", Json::object());
     Json properties = Json::object();
-    for (const std::string& column : told.at("columns").get<std::vector<std::string>>()) {
+    for (const std::string& column : entry.at("columns").get<std::vector<std::string>>()) {
       if (explained.contains(column) && explained.at(column).contains("description")) {
         properties[column] = explained.at(column);
         continue;
@@ -172,7 +172,7 @@ void describe_tables_of_run(const std::vector<std::filesystem::path>& files, con
       facts.type.may_be_empty |= !of_file.empty();  // a summary may leave a column of the rows empty
       properties[column] = property_of(column, facts);
     }
-    told["schema"] = schema_of(file, properties, of_file.value("primaryKey", rows.key()));
+    entry["schema"] = schema_of(file, properties, of_file.value("primaryKey", rows.key()));
   }
   metadata["tables"] = std::move(tables);
 }

@@ -18,8 +18,8 @@ using kkt::FactorisationStatus;
 /// The share of the largest entry of the Hessian that is added to its diagonal where eliminations lose the curvature
 /// along a control to rounding, as on a singular arc.
 constexpr double rounding_of_curvature = 1e-9;
-/// The length of a step with that shift at which the answer is settled. Along a curvature of more than this share of
-/// `settled` times the shift, which is 1e-13 of the largest entry, no longer step would become so short.
+/// The length at which a step with that shift settles the answer: where the curvature is at least 1e-4 of the shift,
+/// 1e-13 of the largest entry, the step without a shift is then at most about `settled`.
 constexpr double surely_settled = 1e-4 * settled;
 
 double largest(const Eigen::VectorXd& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0.0; }
@@ -82,8 +82,8 @@ std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& pri
   return step_;
 }
 
-/// Refines a step by intervals, by `shifted` or the matrix itself; false if it does not become the step of the latter.
-bool NewtonCorrections::refine_step(const kkt::KktMatrix& shifted) {
+/// Refines a step by eliminations of `eliminated`; false if it does not become the step of the matrix without a shift.
+bool NewtonCorrections::refine_step(const kkt::KktMatrix& eliminated) {
   constexpr int most_refinements = 5;
   constexpr double accuracy = 1e-6;
   const kkt::KktMatrix matrix = kkt_matrix_of(conditions_);
@@ -94,7 +94,7 @@ bool NewtonCorrections::refine_step(const kkt::KktMatrix& shifted) {
     residual_->compute(matrix, {conditions_.gradient, conditions_.constraints}, step);
     if (residual_->excess(matrix, step, accuracy) <= 1.0) return true;
     const FactorisationStatus status =
-        by_intervals_->solve(shifted, residual_->value(), {correction.primal, correction.multipliers});
+        by_intervals_->solve(eliminated, residual_->value(), {correction.primal, correction.multipliers});
     if (status != FactorisationStatus::solved) return false;
     step_.primal += correction.primal;
     step_.multipliers += correction.multipliers;

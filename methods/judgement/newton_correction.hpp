@@ -60,7 +60,7 @@ class NewtonCorrections {
   NewtonCorrections& operator=(const NewtonCorrections&) = delete;
 
   /// The length of the step from `primal`, see `at` and `length_of_state`; `memory` holds the results of `evaluate_kkt`
-  /// at this point. Allocates nothing after the first time unless the sparse factorisation is used.
+  /// at this point. Allocates nothing after the first time unless elimination by intervals fails without a shift.
   [[nodiscard]] std::optional<double> length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
                                                 const KktMemory& memory);
   /// The step from `primal` (variable_count() entries) with `multipliers` (constraint_count() entries). Of infinite
@@ -82,7 +82,7 @@ class NewtonCorrections {
 
  private:
   void measure_step(const Eigen::VectorXd& primal, const Eigen::VectorXd& gradient);
-  [[nodiscard]] bool refine_step(const kkt::KktMatrix& shifted);
+  [[nodiscard]] bool refine_step(const kkt::KktMatrix& eliminated);
 
   NonlinearProgram& program_;
   std::unique_ptr<kkt::KktSystem> by_intervals_;  // until it fails once

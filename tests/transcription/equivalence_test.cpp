@@ -37,8 +37,8 @@ void expect_equal_rows(const Problem& problem, const Scheme& scheme, const Schem
   EXPECT_NEAR(one.trajectory.cost, two.trajectory.cost, 1e-10 * two.trajectory.cost);
 }
 
-/// Gauss cannot tell A from its conjugate. With Lobatto IIIA and IIIB, A and Ã differ, and only the symplectic pair is
-/// variational.
+/// The conjugate Ã of a Gauss tableau is A itself. With Lobatto IIIA and IIIB they differ, and only the symplectic pair
+/// is variational.
 TEST(Equivalence, ASolutionOfDmocSolvesTheHamiltonianRowsAndBack) {
   for (const auto& problem : problems()) {
     for (const Scheme& scheme : tests::all_schemes(4)) {

@@ -81,7 +81,7 @@ class PassPlaces {
     if (column < n_) put(blocks_.equality()(place, column));
     put(blocks_.inputs()(column < n_ ? column : input(column), place), -1.0);
   }
-  /// s' = -J_{k+1,k} D + J_{k+1,u} u. What this adds to s' is subtracted from the rows of the next interval.
+  /// s' = -J_{k+1,k} D + J_{k+1,u} u. The terms of s' are subtracted from the rows of the next interval.
   void add_carry(int row, int column) {
     const int place = places_of_rows_[static_cast<std::size_t>(row)];
     if (column >= n_) return put(blocks_.carry()(column - n_, place), -1.0);

@@ -7,10 +7,10 @@
 
 namespace dmocbench::kkt {
 
-/// Where a single pass reads the entries of `PassInputBlocks`.
+/// The sums of entries of the program that make up each number of `PassInputBlocks`.
 [[nodiscard]] std::vector<PassGather> pass_gathers(const IntervalEntries& entries, const EliminationPlan& plan);
 
-/// The diagonal entries of fixed unknowns.
+/// The slots of `PassInputBlocks::form` on the diagonal of fixed unknowns of an interval.
 [[nodiscard]] std::vector<int> pass_units(const IntervalEntries& entries);
 
 /// The place of each equality in the order of elimination.
